@@ -12,6 +12,7 @@
 #include "app/advise/recommend_verify.h"
 #include "app/definition/experiment.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/results/quantities.h"
 #include "technique/cost.h"
@@ -309,8 +310,8 @@ class Search {
   // All conditions at many placements, and then others, rendered.
   void confirm(Candidate& candidate, Advice& advice) {
     Tried& tried = candidate.tried;
-    say_(fmt::format("confirming {}, under {} conditions at {} placements", name_of(tried), request_.conditions.size(),
-                     searched_placements * searched_placements));
+    say_(fmt::format("confirming {}, under {} at {} placements", name_of(tried),
+                     counted(request_.conditions.size(), "condition"), searched_placements * searched_placements));
     // The condition that refuted the one before comes first, because it probably refutes this one too.
     std::map<size_t, PointRecord> of_condition;
     for (size_t i = 0; i < request_.conditions.size(); ++i) {

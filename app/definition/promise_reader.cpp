@@ -54,6 +54,9 @@ void PromiseReader::read_bound(const toml::table& table) {
       return number(node, key);
     }
     const double value = share(node, key);
+    if (value < 0)
+      fail(node,
+           fmt::format("{} = {}: {} is a share, which is never below 0", key, written(node, value), bound.metric));
     if (value > 1)
       experiment_.notes.push_back(fmt::format("{}: the bound on {} can never {}: {} = {}", location_text(node.source()),
                                               bound.metric, what, key, above_every_share(value, written(node, value))));

@@ -147,6 +147,10 @@ void enlarge(const Image<Color>& from, int x, int y, Image<Color>& to, int left)
 
 }  // namespace
 
+Image<Color> shown_picture(const Measurement& m) { return shaded(m, m.ladder.shown()); }
+
+Image<Color> causes_picture(const Measurement& m) { return classes(m); }
+
 Image<Color> pixel_picture(const Measurement& m, int x, int y) {
   constexpr int side = crop_px * crop_scale;
   Image<Color> picture(3 * side + 2 * crop_gap, side, Color(255));
@@ -165,7 +169,10 @@ Image<Color> motion_frame(const Measurement& m) {
 Image<Color> lit_picture(const Measurement& m) {
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   const Image<float> frame = shaded_frame(m.receivers, m.technique.frame, camera, m.ladder.truth());
-  return paint(m, [&](size_t i) { return m.ladder.flags[i] & flag_facing ? grey(frame[i]) : facing_away; });
+  return paint(m, [&](size_t i) {
+    if (!(m.ladder.flags[i] & flag_facing)) return facing_away;
+    return m.ladder.flags[i] & flag_ambiguous ? named_color("ambiguous") : grey(frame[i]);
+  });
 }
 
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
@@ -188,9 +195,8 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   if (sized) add("soft-truth", "The truth of the light with its size (R0).", shaded(m, m.ladder.soft_truth()));
   const std::string& judged = m.ladder.rungs.back().name;
   const bool given = !m.ladder.brought.empty();  // the judged picture is not the shadow map's
-  add("map", fmt::format("What the {} showed ({}).", given ? "given picture" : "shadow map", judged),
-      shaded(m, m.ladder.shown()));
-  add("classes", "Why each wrong pixel is wrong.", classes(m));
+  add("map", fmt::format("What the {} showed ({}).", given ? "given picture" : "shadow map", judged), shown_picture(m));
+  add("classes", "Why each wrong pixel is wrong.", causes_picture(m));
   add("difference",
       fmt::format("{} minus truth: too dark is orange, too light is blue.", given ? "Given picture" : "Map"),
       difference(m));

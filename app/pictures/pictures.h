@@ -24,8 +24,12 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
 Image<Color> motion_frame(const Measurement& m);
 
 // Grey clay with the true shadow (R1). What faces away from the light is blue, so that it is told from what faces the
-// light and is in shadow, which is dark grey.
+// light and is in shadow, which is dark grey. A pixel with an ambiguous truth is pale yellow: it is neither lit nor in shadow.
 Image<Color> lit_picture(const Measurement& m);
+
+// The pictures "map" and "classes" of write_pictures().
+Image<Color> shown_picture(const Measurement& m);
+Image<Color> causes_picture(const Measurement& m);
 
 // The surroundings of one pixel, enlarged: the truth, what the map showed, and why it is wrong, beside each other. The pixel
 // is in the middle of each and framed. x, y: in the picture, row 0 on top. What lies beyond the picture's edge is black.

@@ -37,6 +37,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   run.tell();
   run.picture();
   run.judge();
+  run.show_recommended();
   run.show_failures();
   run.write();
   return run.take();

@@ -33,8 +33,9 @@ class SweepRun {
   void tell();     // what a reader of the results must know
   void picture();  // pictures of points that are chosen when all are measured
   void judge();
-  void show_failures();  // the worst pixel of each broken bound and law, for summary.md
-  void write();          // the report
+  void show_recommended();  // the point of the head of the report, at the recommended bias
+  void show_failures();     // the worst pixel of each broken bound and law, for summary.md
+  void write();             // the report
 
   SweepOutcome take() { return std::move(outcome_); }
 

@@ -7,6 +7,7 @@
 #include "app/pictures/pictures.h"
 #include "app/sweep/failing_pixels.h"
 #include "app/sweep/judging.h"
+#include "app/sweep/recommended_picture.h"
 #include "app/sweep/sweep_run.h"
 #include "base/text.h"
 
@@ -96,6 +97,17 @@ PictureRecord SweepRun::animation(int64_t id, const Instant& instant) {
                                     fmt::format("animation: {} of {} frames", frames.size(), instant.frames.size()));
   }
   return keep_motion(frames, id, folder_.path());
+}
+
+void SweepRun::show_recommended() {
+  if (options_.shard || outcome_.interrupted) return;
+  keep_recommended_picture(outcome_.results, *store_, folder_.path(), [&](int64_t id, const Settings& at_bias) {
+    progress_->shown.set_left(progress_->pictures, 1);
+    progress_->shown.say(fmt::format("pictures of point {} at the recommended bias", id));
+    room_.require_room_for(static_cast<size_t>(id));
+    survey_.scenes.require_unchanged(bench_, at_bias);
+    return bench_.measure(at_bias, std::nullopt);
+  });
 }
 
 void SweepRun::show_failures() {

@@ -4,10 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "base/error.h"
+#include "base/shell_words.h"
 #include "base/text.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {
@@ -20,6 +23,37 @@ std::vector<std::string> options_of(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
+}
+
+// Each setting as an option that someone may have typed, with its group and without, and the names of the settings that are
+// meant, with '|' between them.
+std::map<std::string, std::string> settings_as_options() {
+  std::map<std::string, std::string> meant;
+  for (const Setting& row : settings_table()) {
+    const std::string name(row.name);
+    meant["--" + name] = name;
+    std::string& last = meant["--" + name.substr(name.rfind('.') + 1)];
+    last += (last.empty() ? "" : "|") + name;  // "size" is the last part of several
+  }
+  return meant;
+}
+
+// "--set map.resolution=512". left: what was not understood, with the option at `option`.
+std::string as_setting(const std::string& names, const std::vector<std::string>& left,
+                       std::vector<std::string>::const_iterator option) {
+  std::string value = "VALUE";
+  if (const size_t equals = option->find('='); equals != std::string::npos)
+    value = option->substr(equals + 1);
+  else if (option + 1 != left.end() && !looks_like_an_option(*(option + 1)))
+    value = *(option + 1);
+  std::string text;
+  for (size_t begin = 0; begin <= names.size();) {
+    const size_t end = std::min(names.find('|', begin), names.size());
+    text += fmt::format("{}'--set {}={}'", text.empty() ? "" : " or ", names.substr(begin, end - begin),
+                        shell_quoted(value));
+    begin = end + 1;
+  }
+  return text;
 }
 
 }  // namespace
@@ -38,10 +72,19 @@ std::string command_line_error(const CLI::App& app, const CLI::ParseError& error
                      : fmt::format("{} {}", error.what(), help);
   const std::string name = option->substr(0, option->find('='));
   const std::vector<std::string> known = options_of(verb);
-  const std::vector<std::string_view> names(known.begin(), known.end());
-  const std::string near = nearest_name(name, names);
+  std::vector<std::string_view> names(known.begin(), known.end());
+  std::map<std::string, std::string> settings;
+  if (std::find(known.begin(), known.end(), "--set") != known.end()) settings = settings_as_options();
+  for (const auto& [as_option, setting] : settings)
+    names.push_back(as_option);  // of equally near ones an option is meant
+  std::string near = nearest_name(name, names);
+  if (const auto setting = settings.find(near);
+      setting != settings.end() && std::find(known.begin(), known.end(), near) == known.end())
+    near = as_setting(setting->second, left, option);
+  else if (!near.empty())
+    near = "'" + near + "'";
   return fmt::format("{} has no option '{}'{} {}", verb.get_name(), name,
-                     near.empty() ? "" : "; did you mean '" + near + "'?", help);
+                     near.empty() ? "" : "; did you mean " + near + "?", help);
 }
 
 void refuse_empty_values(std::span<const std::string> words) {

@@ -39,7 +39,8 @@ int verb_inspect(const std::string& model, ExperimentArguments arguments) {
   }
   fmt::print("{}", report_text(report));
   fmt::print(
-      "\n{} shows it with its true shadow: dark grey is in shadow, blue faces away from the light.\n"
+      "\n{} shows it with its true shadow: dark grey is in shadow, blue faces away from the light, pale "
+      "yellow is ambiguous.\n"
       "Next: noonmark init {}\n",
       printable(picture), shell_quoted(model));
   return 0;

@@ -13,18 +13,33 @@
 #include "compare/judge/machines.h"
 
 namespace noonmark {
+namespace {
+
+bool has(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::exists(path, none);
+}
+
+// Of a folder that holds shares their own names, because it is where they are and not where the joined results go.
+std::string folders_for_example(const std::string& folder) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().filename().string().starts_with("share-"))
+      return fmt::format("JOINED {}/share-*", shell_quoted(folder));
+  return "JOINED SHARE SHARE ...";
+}
+
+}  // namespace
 
 int verb_merge(const MergeOptions& options) {
-  std::error_code none;
   if (options.shares.empty())
     throw Error(ErrorKind::usage,
-                fmt::format("{}: {}; give the folder of the joined results and the folders that noonmark run --shard "
-                            "wrote (noonmark merge {} OUT/share-*)",
+                fmt::format("{}: {}; give the folder for the joined results, and behind it the folders that noonmark "
+                            "run --shard wrote (noonmark merge {})",
                             options.out,
-                            std::filesystem::exists(options.out + "/results.sqlite", none)
-                                ? "no shares are given"
-                                : "there are no results here (no results.sqlite)",
-                            shell_quoted(options.out)));
+                            has(options.out + "/results.sqlite") ? "no shares are given"
+                                                                 : "there are no results here (no results.sqlite)",
+                            folders_for_example(options.out)));
   const ResultsFolder out(options.out, "");
   Merged merged = merge_stores(options.shares, out, options.overwrite);
   const Results& results = merged.results;

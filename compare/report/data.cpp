@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -13,6 +14,7 @@
 #include "compare/report/broken.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/laws.h"
+#include "compare/report/opening.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/point_data.h"
 #include "compare/report/rules.h"
@@ -91,7 +93,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
     for (const std::string& value : values) numeric = numeric && number_of(value);
     data["swept"].push_back({{"name", name},
                              {"label", setting_label(name)},
-                             {"unit", setting_unit(name)},
+                             {"unit", swept_unit(name, results)},
                              {"numeric", numeric},
                              {"values", values},
                              {"texts", texts}});
@@ -110,6 +112,13 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   data["over"] = results.info.over;
   data["cost"] = results.info.cost;
   data["accuracy"] = results.info.accuracy;
+  data["bias"] = opens_as_set(results) ? "set" : "recommended";
+  // What is not good enough is not recommended: of such choices the bias is the best that there is.
+  const bool any_good = std::any_of(shown.groups.begin(), shown.groups.end(), [](const ComparedGroup& group) {
+    return std::any_of(group.choices.begin(), group.choices.end(),
+                       [](const auto& one) { return one.good.has_value(); });
+  });
+  data["bias_word"] = any_good ? "Recommended" : "Best";
 
   const size_t entries = curve_entries(shown.results);
   const std::map<int64_t, double> biases = recommended_biases(shown.groups);

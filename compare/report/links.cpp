@@ -19,7 +19,9 @@ bool begins_any_case(std::string_view text, std::string_view beginning) {
 }  // namespace
 
 std::string web_link(std::string_view address, std::string_view text) {
-  if (!begins_any_case(address, "http://") && !begins_any_case(address, "https://")) return html(address);
+  // No address has a space or a control character (RFC 3986, section 2): such a text is no address.
+  const bool whole = std::all_of(address.begin(), address.end(), [](unsigned char c) { return c > ' ' && c != 0x7f; });
+  if (!whole || (!begins_any_case(address, "http://") && !begins_any_case(address, "https://"))) return html(address);
   return fmt::format("<a href=\"{}\">{}</a>", html(address), html(text));
 }
 

@@ -9,10 +9,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
 #include "compare/report/deflate.h"
+#include "compare/report/opening.h"
+#include "compare/report/point_data.h"
 #include "compare/report/text.h"
 #include "compare/results/quantities.h"
 
@@ -20,28 +21,6 @@ namespace noonmark::report {
 namespace {
 
 using nlohmann::json;
-
-const ImageRecord* live_image(const PointRecord& point) {
-  for (const ImageRecord& image : point.images)
-    if (image.path.ends_with("-live.bin")) return &image;
-  return nullptr;
-}
-
-// The point that the head of the page speaks of: of the first broken bound, or else the recommended one; or else the
-// first that has a live picture.
-const PointRecord* point_to_show(const Results& results, const Recommendation& recommendation) {
-  for (const BoundResult& bound : results.bounds)
-    if (const PointRecord* point = breaks(bound) ? find_point(results.points, bound.point) : nullptr;
-        point && live_image(*point))
-      return point;
-  const PointRecord* first = nullptr;
-  for (const PointRecord& point : results.points) {
-    if (!live_image(point)) continue;
-    if (!recommendation.choice.points.empty() && recommendation.choice.first().id == point.id) return &point;
-    if (!first) first = &point;
-  }
-  return first;
-}
 
 // The marks on the slider, in window depth: the bias as set, the recommended one (of the choice, or else the best of
 // the point's own curve) and the usable window.
@@ -83,9 +62,9 @@ bool has_live_picture(const Results& results) {
                      [](const PointRecord& point) { return live_image(point) != nullptr; });
 }
 
-std::string live_figure(const Results& results, const std::function<std::string(const std::string&)>& read_file) {
-  const Recommendation recommendation = recommend(results);
-  const PointRecord* const point = point_to_show(results, recommendation);
+std::string live_figure(const Results& results, const ShownPoints& shown,
+                        const std::function<std::string(const std::string&)>& read_file) {
+  const PointRecord* const point = opening(results, shown.groups).point;
   if (!point) return "";
   std::string bytes;
   json head;
@@ -98,7 +77,11 @@ std::string live_figure(const Results& results, const std::function<std::string(
     return without_picture(fmt::format("The live picture is not shown: {}.", html(error.what())));
   }
   head["point"] = point->id;
-  head["marks"] = marks_of(*point, recommendation);
+  head["marks"] = marks_of(*point, recommend(results));
+  const std::vector<PictureRecord> pictures = pictures_for_page(*point, recommended_biases(shown.groups));
+  const bool at_other = std::any_of(pictures.begin(), pictures.end(), [](const PictureRecord& picture) {
+    return picture.name == at_recommended_bias("map");
+  });
   // The picture is at every bias, so the one that was set is not its name.
   const std::string phrase = settings_phrase(*point, without_curve_parameter(*point, results.info.swept));
   return fmt::format(
@@ -108,12 +91,12 @@ std::string live_figure(const Results& results, const std::function<std::string(
       "<input type=\"range\" aria-label=\"Bias, on a logarithmic scale\"></div>"
       "<p class=\"facts\" aria-live=\"polite\"></p><div class=\"legend\"></div>"
       "<figcaption><a href=\"#p{2}\">Point {2}</a>{3}, at every bias: each pixel has the light and the cause that "
-      "OpenGL's picture has with that bias, exactly; only the grey of the shading is rounded. At the bias as set it is "
-      "the point's own picture; at others {0} × {1} pixels, measured for themselves. The marks are those of the own "
-      "picture.</figcaption></figure>\n"
-      "<script type=\"application/json\" id=\"live-data\">{4}</script>\n",
+      "OpenGL's picture has with that bias, exactly; only the grey of the shading is rounded. At the bias as set{4} it "
+      "is the point's own picture, with its numbers; at others {0} × {1} pixels, measured for themselves. The marks "
+      "are those of the own picture.</figcaption></figure>\n"
+      "<script type=\"application/json\" id=\"live-data\">{5}</script>\n",
       head.value("width", 0), head.value("height", 0), point->id, phrase.empty() ? "" : ": " + html(phrase),
-      script_json(head));
+      at_other ? ", and at the recommended one," : "", script_json(head));
 }
 
 }  // namespace noonmark::report

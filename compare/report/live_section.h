@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "compare/report/shown.h"
 #include "compare/results/records.h"
 
 namespace noonmark::report {
@@ -11,8 +12,9 @@ namespace noonmark::report {
 // Whether a point has such a file; the report has the figure only then.
 bool has_live_picture(const Results& results);
 
-// read_file: as in render_report. Of the points with a live picture, the first of the recommended choice is taken, or
-// else the first. If the file cannot be read, a line says why, and how to get one.
-std::string live_figure(const Results& results, const std::function<std::string(const std::string& path)>& read_file);
+// Of the point with which the page opens (compare/report/opening.h). read_file: as in render_report. If the file cannot be
+// read, a line says why, and how to get one.
+std::string live_figure(const Results& results, const ShownPoints& shown,
+                        const std::function<std::string(const std::string& path)>& read_file);
 
 }  // namespace noonmark::report

@@ -59,7 +59,8 @@ std::string conditions_text(const Results& results, const Choice& choice) {
   if (results.info.over.empty()) return "";
   std::string names;
   for (const std::string& name : results.info.over) names += (names.empty() ? "" : ", ") + setting_label(name);
-  return fmt::format(" under all {} conditions ({})", choice.points.size(), html(names));
+  return choice.points.size() == 1 ? fmt::format(" under the one condition ({})", html(names))
+                                   : fmt::format(" under all {} conditions ({})", choice.points.size(), html(names));
 }
 
 // Where points have many placements of the map's grid, the error is that of the worst one; the points' own columns have

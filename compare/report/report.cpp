@@ -60,8 +60,8 @@ template <std::string (*make)(const Results&, const ShownPoints&)>
 std::string by_point(const Results& results, const ShownPoints& shown, const ReadFile&) {
   return make(results, shown);
 }
-std::string pictures(const Results& results, const ShownPoints&, const ReadFile& read_file) {
-  return report::pictures_section(results, read_file);
+std::string pictures(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
+  return report::pictures_section(results, shown, read_file);
 }
 // A report without a live picture and without a diagram opens with the strips of its motion, or with the chart of cost
 // against error.
@@ -122,7 +122,7 @@ std::string navigation(const std::vector<ShownSection>& sections) {
 std::string first_screen(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   const bool live = report::has_live_picture(results), diagram = report::has_diagram(results);
   std::string figures;
-  if (live) figures += "<div id=\"live\">" + report::live_figure(results, read_file) + "</div>\n";
+  if (live) figures += "<div id=\"live\">" + report::live_figure(results, shown, read_file) + "</div>\n";
   if (diagram) figures += "<div>" + report::first_diagram() + "</div>\n";
   if (opens_with_speed(results, shown)) figures = "<div>" + report::speed_chart() + "</div>\n";
   if (opens_with_motion(results)) figures = "<div>" + report::flicker_strips(results) + "</div>\n";

@@ -34,7 +34,7 @@ using Classes = std::map<std::string, std::string>;
 std::string swept_head(const Results& results, const Classes& classes) {
   std::string out = "<th>Point</th>";
   for (const std::string& name : results.info.swept) {
-    const std::string unit = setting_unit(name);
+    const std::string unit = swept_unit(name, results);
     out += fmt::format("<th{} title=\"{}\">{}{}</th>", classes.at(name), html(name), html(setting_label(name)),
                        unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)));
   }
@@ -186,7 +186,7 @@ std::string sweep_section(const Results& results, const ShownPoints& shown) {
           curves ? cell(best_sum / static_cast<double>(curves), "fraction") : "–",
           finite == of ? fmt::format("{}", of) : fmt::format("{} ({} not finite)", of, of - finite));
     }
-    const std::string unit = setting_unit(name);
+    const std::string unit = swept_unit(name, results);
     out += fmt::format("<div class=\"swept\"><h3>{}</h3>\n", html(name));
     out += chart_place(fmt::format("sweep-{}", charts),
                        fmt::format("Error against {}; one line for each combination of the other swept settings.",

@@ -8,6 +8,8 @@
 #include <initializer_list>
 
 #include "compare/report/cause_colors.h"
+#include "compare/report/opening.h"
+#include "compare/report/point_data.h"
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
 #include "compare/results/metrics.h"
@@ -66,7 +68,9 @@ std::string joined(std::initializer_list<std::string> parts) {
 
 }  // namespace
 
-std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file) {
+std::string pictures_section(const Results& results, const ShownPoints& shown,
+                             const std::function<std::string(const std::string&)>& read_file) {
+  const std::map<int64_t, double> biases = recommended_biases(shown.groups);
   std::string sets;
   for (const PointRecord& point : results.points) {
     if (point.pictures.empty()) continue;
@@ -78,7 +82,7 @@ std::string pictures_section(const Results& results, const std::function<std::st
                           point.worst.x, point.worst.y, quantity(point.worst.error, "fraction"),
                           point.worst.cause.empty() ? "" : ", " + html(metric_label(point.worst.cause)));
     sets += "<div class=\"stage\">\n";
-    for (const PictureRecord& record : point.pictures) sets += picture(record, read_file);
+    for (const PictureRecord& record : pictures_for_page(point, biases)) sets += picture(record, read_file);
     sets += "</div></div>\n";
   }
   if (sets.empty()) return "";
@@ -127,7 +131,7 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
   if (parts) out += "<th class=\"text\">Part</th>";
   const std::map<std::string, std::string> classes = text_classes(results);
   for (const std::string& name : results.info.swept) {
-    const std::string unit = setting_unit(name);
+    const std::string unit = swept_unit(name, results);
     out += fmt::format("<th{} title=\"{}\">{}{}</th>", classes.at(name), html(name), html(setting_label(name)),
                        unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)));
   }
@@ -191,9 +195,10 @@ std::string meaning_section(const Results& results) {
   for (const std::string& name : results.info.swept)
     for (const Setting& row : settings_table())
       if (row.name == name)
-        swept += fmt::format("<div><dt><code>{}</code>{}</dt><dd>{} Range: {}.</dd></div>\n", html(name),
-                             row.unit.empty() ? "" : fmt::format(" <small>{}</small>", html(row.unit)), html(row.help),
-                             html(row.range_text()));
+        swept += fmt::format(
+            "<div><dt><code>{}</code>{}</dt><dd>{} Range: {}.</dd></div>\n", html(name),
+            swept_unit(name, results).empty() ? "" : fmt::format(" <small>{}</small>", html(swept_unit(name, results))),
+            html(row.help), html(row.range_text()));
   if (!swept.empty())
     out += "<details class=\"glossary\"><summary>The swept settings</summary><dl class=\"terms\">\n" + swept +
            "</dl></details>\n";

@@ -9,7 +9,8 @@
 namespace noonmark::report {
 
 // read_file: as for render_report().
-std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file);
+std::string pictures_section(const Results& results, const ShownPoints& shown,
+                             const std::function<std::string(const std::string&)>& read_file);
 // What to type into other engines (RunInfo::engines); empty without.
 std::string engines_section(const Results& results);
 std::string points_section(const Results& results, const ShownPoints& shown);

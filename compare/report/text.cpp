@@ -41,9 +41,14 @@ const Setting* row_of(const std::string& name) {
   return nullptr;
 }
 
+// The unit behind a number: "1 texel", "0.5 texels". bias.unit has the word "texel" for itself.
+std::string_view unit_behind(std::string_view number, std::string_view unit) {
+  return unit != "texel" && unit != "texels" ? unit : number == "1" ? "texel" : "texels";
+}
+
 std::string value_phrase(const std::string& value, const std::string& unit) {
   std::string out = value.empty() ? "unknown" : setting_text(value);
-  if (!unit.empty() && number_of(value)) out += fmt::format("{}{}", thin_space, unit);
+  if (!unit.empty() && number_of(value)) out += fmt::format("{}{}", thin_space, unit_behind(out, unit));
   return out;
 }
 
@@ -136,7 +141,8 @@ std::string cell(double value, std::string_view unit, int digits) {
 std::string quantity(double value, std::string_view unit, int digits) {
   const std::string text = cell(value, unit, digits);
   const std::string_view shown = head_unit(unit);
-  return shown.empty() || !std::isfinite(value) ? text : fmt::format("{}{}{}", text, thin_space, shown);
+  return shown.empty() || !std::isfinite(value) ? text
+                                                : fmt::format("{}{}{}", text, thin_space, unit_behind(text, shown));
 }
 
 std::string quantity(const MedianInterval& interval, std::string_view unit) {
@@ -156,6 +162,18 @@ std::string setting_label(const std::string& name) {
 std::string setting_unit(const std::string& name) {
   const Setting* row = row_of(name);
   return row ? std::string(row->unit) : std::string();
+}
+
+std::string swept_unit(const std::string& name, const Results& results) {
+  const std::string unit = setting_unit(name);
+  if (unit != "bias.unit") return unit;
+  std::string same;
+  for (const PointRecord& point : results.points) {
+    const std::string one = setting_of(point, "bias.unit");
+    if (!same.empty() && one != same) return "";
+    same = one;
+  }
+  return same == "texel" ? "texels" : same;
 }
 
 std::string settings_phrase(const PointRecord& point, const std::vector<std::string>& names) {

@@ -38,6 +38,8 @@ std::string_view head_unit(std::string_view unit);
 std::string setting_label(const std::string& name);
 // The unit from the table of settings. "" for an unknown name.
 std::string setting_unit(const std::string& name);
+// The same for a table's head: a bias has the unit that bias.unit sets, and none if the points differ in it.
+std::string swept_unit(const std::string& name, const Results& results);
 // "resolution 512 texels, extent 10 m, filter box"
 std::string settings_phrase(const PointRecord& point, const std::vector<std::string>& names);
 // The names without the setting that the point's curve varies, if it has a curve: where a bias of the curve is said, the

@@ -13,7 +13,7 @@ class SoftCurve : public testing::TestWithParam<const char*> {};
 
 TEST_P(SoftCurve, IsTheErrorOfTheRenderAtEachBias) {
   Workbench bench(gl::DebugMode::fatal);
-  const CurveOptions options{.bias_depth = {0, 0.001, 0.01, 0.02, 0.1}};
+  const CurveOptions options{{}, {0, 0.001, 0.01, 0.02, 0.1}};
   std::optional<BiasCurve> curve;
   for (size_t i = 0; i < options.bias_depth.size(); ++i) {
     Settings settings = with({{"filter.kind", GetParam()}, {"light.angular_diameter_deg", "6"}}, small("cube-room"));

@@ -191,6 +191,17 @@ TEST_F(Pictures, TheLitPictureTellsFacingAwayFromShadow) {
   EXPECT_EQ(picture[5], named("background"));
 }
 
+// An ambiguous truth is neither lit nor in shadow, whichever of the two the ray's verdict says.
+TEST_F(Pictures, TheLitPictureTellsAmbiguousFromShadow) {
+  ladder.flags.pixels = {1, 1 | flag_ambiguous, 1 | flag_ambiguous, 1, flag_ambiguous, 0};
+  ladder[Rung::truth].pixels = {1, 1, 0, 0, 0, 0};
+  const Image<Color> picture = lit_picture(measurement());
+  EXPECT_EQ(picture[1], named("ambiguous"));
+  EXPECT_EQ(picture[2], named("ambiguous"));
+  EXPECT_NE(picture[3], named("ambiguous"));
+  EXPECT_EQ(picture[4], facing_away) << "what faces away is unlit with certainty";
+}
+
 // A rung on top of R5 brings its cause: its colour in the picture of the classes, its numbers and its description in
 // point.json, its name in the captions.
 TEST_F(Pictures, ShowARungOnTopAndItsCause) {

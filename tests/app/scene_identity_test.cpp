@@ -91,7 +91,7 @@ std::vector<Edit> every_edit(const json& document) {
 // All numbers of a measurement except the times, as bytes.
 std::string seen(Workbench& bench, const std::string& path) {
   const Measurement m =
-      bench.measure(with({{"map.resolution", "64"}}, small(path, 48, 32)), CurveOptions{.bias_depth = {0, 0.01}});
+      bench.measure(with({{"map.resolution", "64"}}, small(path, 48, 32)), CurveOptions{{}, {0, 0.01}});
   std::string bytes;
   const auto add = [&](const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); };
   for (const auto& [name, lit] : m.ladder.rungs) add(lit.pixels.data(), lit.pixels.size() * sizeof(float));

@@ -37,6 +37,22 @@ TEST_F(CommandLine, AnUnknownOptionOfEachVerbNamesTheNearest) {
   EXPECT_TRUE(says("render has no use for 'b.toml'")) << output_;
 }
 
+// An unknown option that is a setting's name is meant as --set, also misspelt, with its group or without, if the verb has it.
+TEST_F(CommandLine, AnOptionThatIsASettingNamesSet) {
+  const auto told = [&](const Words& words, const std::string& meant) {
+    EXPECT_EQ(run(words), 2);
+    EXPECT_TRUE(says("did you mean " + meant + "? (noonmark ")) << output_;
+  };
+  told({"run", "x.toml", "--resolution", "512"}, "'--set map.resolution=512'");
+  told({"run", "x.toml", "--resolutoin", "512"}, "'--set map.resolution=512'");
+  told({"render", "--map.resolution=512"}, "'--set map.resolution=512'");
+  told({"run", "x.toml", "--resolution"}, "'--set map.resolution=VALUE'");
+  told({"run", "x.toml", "--size", "3"}, "'--set filter.size=3'");
+  told({"run", "x.toml", "--kind", "box"}, "'--set filter.kind=box' or '--set light.kind=box'");
+  EXPECT_EQ(run({"report", "out", "--resolution", "512"}), 2);
+  EXPECT_FALSE(says("--set")) << "report has no such option: " << output_;
+}
+
 // A shell makes an empty value of a variable that is not set.
 TEST_F(CommandLine, AnEmptyOutIsRefused) {
   write("x.toml", one_point);

@@ -125,6 +125,16 @@ TEST_F(Messages, OneIsSingular) {
   EXPECT_TRUE(says("1 of 1 point;")) << output_;
 }
 
+// The example of a merge names no folder that was taken for the shares.
+TEST_F(Messages, AMergeWithoutSharesSaysWhereTheyStand) {
+  EXPECT_EQ(run({"merge", "nowhere"}), 2);
+  EXPECT_TRUE(says("behind it the folders that noonmark run --shard wrote (noonmark merge JOINED SHARE SHARE ...)"))
+      << output_;
+  fs::create_directories(folder_ / "out/share-1-of-2");
+  EXPECT_EQ(run({"merge", "out"}), 2);
+  EXPECT_TRUE(says("(noonmark merge JOINED out/share-*)")) << output_;
+}
+
 TEST_F(Messages, AReportSaysWhatIsWrongWithTheResults) {
   for (const char* folder : {"absent", "empty"}) {
     fs::create_directories(folder_ / "empty");

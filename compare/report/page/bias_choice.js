@@ -20,7 +20,7 @@ page.setBias = function(mode) {
 };
 if (!any) return;
 var box = kit.make('div', {class: 'bias-choice', role: 'group', 'aria-label': 'Bias of all figures'}, 'Bias');
-box.append(kit.segments([['set', 'As set'], ['recommended', 'Recommended']], page.bias, page.setBias));
+box.append(kit.segments([['set', 'As set'], ['recommended', data.bias_word]], page.bias, page.setBias));
 document.querySelector('nav').append(box);
 apply(page.bias);
 

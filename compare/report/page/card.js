@@ -45,7 +45,8 @@ var card = make('dialog', {id: 'card', 'aria-labelledby': 'card-title'}, [
 ]);
 document.body.append(card);
 
-// The pictures that the page has of a point, and for the point of the live picture those at the recommended bias.
+// The pictures that the page has of a point. Of the point of the live picture those at the recommended bias too: in full size
+// if they were measured, otherwise from the live picture.
 function picturesOf(p) {
   var out = Array.prototype.slice.call(document.querySelectorAll('.pictures[data-point="' + p.id + '"] figure'))
                 .map(function(f) {
@@ -54,7 +55,7 @@ function picturesOf(p) {
                 })
                 .filter(Boolean);
   var live = page.live;
-  if (live && live.data.point === p.id && p.at)
+  if (live && live.data.point === p.id && p.at && !named(out, 'map at the recommended bias'))
     [['truth', 'truth'], ['map', 'map'], ['causes', 'classes']].forEach(function(k) {
       out.push({
         name: k[1] + ' at the recommended bias',
@@ -142,7 +143,7 @@ function stage(p) {
   if (mode() === 'recommended' && p.at)
     box.append(make(
         'p', {class: 'small'},
-        follow ? 'At the recommended bias from the live picture; the other pictures are of the bias as set.' :
+        follow ? 'The pictures at the recommended bias have that in their names; the others are of the bias as set.' :
                  'These pictures are of the bias as set. None was measured at the recommended bias.'));
   var left = named(list, state.left + follow) || named(list, state.left) || list[0],
       right = named(list, state.right + follow) || named(list, state.right) || list[list.length - 1];
@@ -310,7 +311,7 @@ function command(p) {
 function numbers(p) {
   var at = (p.at && p.at.metrics) || {}, both = Object.keys(at).length > 0;
   var head = [make('th', {scope: 'col'}, 'Metric'), make('th', {scope: 'col'}, 'As set')];
-  if (both) head.push(make('th', {scope: 'col'}, 'Recommended'));
+  if (both) head.push(make('th', {scope: 'col'}, data.bias_word));
   var rows =
       data.metrics
           .filter(function(m) {
@@ -361,7 +362,7 @@ function fill() {
     inner.append(make('div', {class: 'controls'}, [
       'Bias ',
       kit.segments(
-          [['set', 'As set'], ['recommended', 'Recommended']], mode(),
+          [['set', 'As set'], ['recommended', data.bias_word]], mode(),
           function(chosen) {
             state.bias = chosen;
             fill();

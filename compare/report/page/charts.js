@@ -5,12 +5,10 @@
 var data = noonmarkData;
 // bias: 'set' or 'recommended' (bias_choice.js). select() marks a point everywhere; open() also opens its card (card.js).
 var page = window.noonmarkPage = {data: data, selected: null, onSelect: [], bias: 'set', onBias: []};
-// The head of the page speaks of a broken bound with the bias as set. The figures then open at that bias too.
 if (data.points.some(function(p) {
       return p.at;
-    }) &&
-    !document.querySelector('.verdict .broken'))
-  page.bias = 'recommended';
+    }))
+  page.bias = data.bias;
 var thin = '\u202f';
 var byId = {}, metricOf = {}, causeLabel = {};
 data.points.forEach(function(p) {
@@ -42,6 +40,12 @@ function make(tag, attributes, inner) {
 function finite(v) {
   return typeof v === 'number' && isFinite(v);
 }
+// Groups of three digits from 10 000 on, as on the axes.
+function grouped(text) {
+  return text.replace(/^-?\d{5,}/, function(whole) {
+    return whole.replace(/\B(?=(\d{3})+$)/g, thin);
+  });
+}
 function digits(v) {
   if (!finite(v)) return 'not finite';
   if (v === 0) return '0';
@@ -51,14 +55,17 @@ function digits(v) {
         String(Math.floor(Math.log10(a))).replace(/./g, function(c) {
           return c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c];
         });
-  if (a >= 1000) return String(a < 1e5 && v === Math.round(v) ? v : +v.toPrecision(4));
+  if (a >= 1000) return grouped(String(a < 1e5 && v === Math.round(v) ? v : +v.toPrecision(4)));
   return String(+v.toPrecision(3));
+}
+function unitBehind(v, unit) {
+  return v === 1 && unit === 'texels' ? 'texel' : unit;
 }
 function shown(v, unit) {
   return !finite(v)       ? 'not finite' :
       unit === 'fraction' ? digits(100 * v) + thin + '%' :
       unit === 'bytes'    ? digits(1e-6 * v) + thin + 'MB' :
-                            digits(v) + (unit && unit !== 'count' ? thin + unit : '');
+                            digits(v) + (unit && unit !== 'count' ? thin + unitBehind(v, unit) : '');
 }
 function value(point, measure) {
   if (measure === 'best_error') return point.curve ? point.curve.best_error : NaN;

@@ -98,26 +98,32 @@ function start(bytes) {
     return kit.digits(d) + ' depth = ' + kit.digits(d * live.m_per_depth) +
         ' m = ' + kit.digits(d * live.texels_per_depth) + ' texels';
   }
-  // The point's own picture, in full size, is of the bias as set. It is shown at that bias, and the live one on top of it at
-  // every other.
-  var choices = [], whole = make('img', {class: 'whole', hidden: ''});
+  // The point's own pictures, in full size, are of the bias as set, and some of the recommended one. They are shown at these
+  // biases, and the live picture at every other.
+  var recommended = ' at the recommended bias', choices = [], whole = make('img', {class: 'whole', hidden: ''});
   canvas.before(whole);
-  function wholeOf(wanted) {
-    return document.querySelector(
-        '.pictures[data-point="' + live.point + '"] figure[data-name="' + (wanted === 'causes' ? 'classes' : wanted) +
-        '"] img');
+  function own(name) {
+    return document.querySelector('.pictures[data-point="' + live.point + '"] figure[data-name="' + name + '"] img');
   }
   function isAt(mark) {  // a mark may have been converted from another unit
     return Math.abs(depth - mark) <= 1e-9 * Math.abs(mark);
   }
+  // Shows it, if there is one at this bias, and returns the numbers of the point there.
   function showWhole() {
-    var found = isAt(live.marks.set) && wholeOf(kind);
+    var p = kit.byId[live.point], name = kind === 'causes' ? 'classes' : kind, found = null, numbers = null;
+    if (isAt(live.marks.set)) {
+      found = own(name);
+      numbers = {metrics: p.metrics, words: ', as set'};
+    } else if (p.at && isAt(p.at.depth) && own('map' + recommended)) {
+      found = own(kind === 'truth' ? name : name + recommended);  // no bias changes the truth
+      numbers = {metrics: p.at.metrics, words: ', recommended'};
+    }
     whole.hidden = !found;
     canvas.hidden = Boolean(found);
-    if (!found) return false;
+    if (!found) return null;
     if (whole.src !== found.src) whole.src = found.src;
     whole.alt = found.alt;
-    return true;
+    return numbers;
   }
   function tell(words, values) {
     facts.textContent = '';
@@ -132,11 +138,8 @@ function start(bytes) {
     choices.forEach(function(c) {
       c.button.setAttribute('aria-pressed', String(isAt(c.depth)));
     });
-    var now = paint();
-    if (showWhole())
-      tell(', as set', kit.byId[live.point].metrics);
-    else
-      tell('', now);
+    var now = paint(), numbers = showWhole();
+    tell(numbers ? numbers.words : '', numbers ? numbers.metrics : now);
   }
   // The live picture. Returns its numbers.
   function paint() {
@@ -215,11 +218,7 @@ function start(bytes) {
     }
     return found;
   }
-  // The page opens with the picture of full size.
-  if (wholeOf(kind) && 'set' in live.marks)
-    set(live.marks.set);
-  else
-    follow();
+  follow();
   page.live = {
     data: live,
     answersAt: answersAt,

@@ -69,12 +69,9 @@ function together(rows, y, before) {
   return marks;
 }
 
-function markAt(size, more) {
-  var enter = {x: {field: 'px'}, y: {scale: 'y', field: 'y'}, size: size};
-  Object.keys(more).forEach(function(k) {
-    enter[k] = more[k];
-  });
-  return enter;
+// What a mark at a choice's place enters with.
+function placed(more) {
+  return Object.assign({x: {field: 'px'}, y: {scale: 'y', field: 'y'}}, more);
 }
 
 function marksOf(w, floor) {
@@ -94,7 +91,8 @@ function marksOf(w, floor) {
       from: {data: source},
       interactive: false,
       encode: {
-        enter: markAt({value: 360}, {fill: {value: 'transparent'}, stroke: {value: colour}, strokeWidth: {value: 2}})
+        enter:
+            placed({size: {value: 360}, fill: {value: 'transparent'}, stroke: {value: colour}, strokeWidth: {value: 2}})
       }
     };
   }
@@ -137,14 +135,12 @@ function marksOf(w, floor) {
       from: {data: 'front'},
       interactive: false,
       encode: {
-        enter: {
-          x: {field: 'px'},
-          y: {scale: 'y', field: 'y'},
+        enter: placed({
           interpolate: {value: 'step-after'},
           stroke: {value: 'var(--ink)'},
           strokeWidth: {value: 1.5},
           strokeOpacity: {value: 0.6}
-        }
+        })
       }
     },
     {
@@ -152,7 +148,8 @@ function marksOf(w, floor) {
       name: 'choice-marks',
       from: {data: 'rows'},
       encode: {
-        enter: markAt({value: 110}, {
+        enter: placed({
+          size: {value: 110},
           shape: {field: 'shape'},
           fill: {signal: 'datum.counts ? datum.fill : \'transparent\''},
           stroke: {signal: 'datum.counts ? \'var(--ink)\' : \'var(--bad)\''},
@@ -167,16 +164,14 @@ function marksOf(w, floor) {
       from: {data: 'rows'},
       interactive: false,
       encode: {
-        enter: {
-          x: {field: 'px'},
-          y: {scale: 'y', field: 'y'},
+        enter: placed({
           align: {value: 'center'},
           baseline: {value: 'middle'},
           fontSize: {value: 8.5},
           fontWeight: {value: 700},
           text: {field: 'number'},
           fill: {value: 'var(--ink)'}
-        }
+        })
       }
     },
     {
@@ -185,9 +180,7 @@ function marksOf(w, floor) {
       from: {data: 'rows'},
       interactive: false,
       encode: {
-        enter: {
-          x: {field: 'px'},
-          y: {scale: 'y', field: 'y'},
+        enter: placed({
           dx: {signal: 'datum.px > ' + (w - 34) + ' ? -9 : 9'},
           align: {signal: 'datum.px > ' + (w - 34) + ' ? \'right\' : \'left\''},
           baseline: {value: 'bottom'},
@@ -195,7 +188,7 @@ function marksOf(w, floor) {
           fontSize: {value: 11},
           text: {signal: 'length(datum.others) ? \'+\' + length(datum.others) : \'\''},
           fill: {value: 'var(--soft)'}
-        }
+        })
       }
     },
     ring('best', 'var(--good)'), ring('chosen', 'var(--accent)'),

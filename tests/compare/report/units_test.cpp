@@ -38,5 +38,28 @@ TEST(ReportUnits, FollowTheMetricsTable) {
   }
 }
 
+TEST(ReportUnits, AreInTheSingularBehindOne) {
+  EXPECT_EQ(report::bias_in_unit(1, "texel"), "1\u202ftexel");
+  EXPECT_EQ(report::bias_in_unit(0.5, "texel"), "0.5\u202ftexels");
+  EXPECT_EQ(report::quantity(1, "texels"), "1\u202ftexel");
+  PointRecord point;
+  point.settings = {{"bias.constant", "4"}, {"bias.unit", "texel"}, {"map.resolution", "1"}};
+  EXPECT_EQ(report::settings_phrase(point, {"bias.constant", "map.resolution"}),
+            "bias constant 4\u202ftexels, resolution 1\u202ftexel");
+}
+
+// A table's head says the unit of a bias, not the name of the setting that holds it.
+TEST(ReportUnits, OfABiasAreThoseOfThePoints) {
+  Results results;
+  results.points.resize(2);
+  for (PointRecord& point : results.points) point.settings = {{"bias.unit", "texel"}};
+  EXPECT_EQ(report::swept_unit("bias.constant", results), "texels");
+  EXPECT_EQ(report::swept_unit("map.extent_m", results), "m");
+  results.points[1].settings["bias.unit"] = "m";
+  EXPECT_EQ(report::swept_unit("bias.constant", results), "") << "they differ";
+  results.info.swept = {"bias.constant"};
+  EXPECT_FALSE(contains(render_report(results, sample_picture), "bias.unit</small>"));
+}
+
 }  // namespace
 }  // namespace noonmark

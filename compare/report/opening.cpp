@@ -1,0 +1,85 @@
+#include "compare/report/opening.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/judge/bounds.h"
+#include "compare/judge/recommendation.h"
+#include "compare/judge/soundness.h"
+#include "compare/report/point_data.h"
+#include "compare/results/quantities.h"
+
+namespace noonmark::report {
+namespace {
+
+constexpr std::string_view bias_separator = " at ";  // no picture's own name has it
+
+const PointRecord* point_to_open(const Results& results) {
+  for (const BoundResult& bound : results.bounds)
+    if (const PointRecord* point = breaks(bound) ? find_point(results.points, bound.point) : nullptr;
+        point && live_image(*point))
+      return point;
+  const Recommendation found = recommend(results);
+  const PointRecord* first = nullptr;
+  for (const PointRecord& point : results.points) {
+    if (!live_image(point)) continue;
+    if (!found.choice.points.empty() && found.choice.first().id == point.id) return &point;
+    if (!first) first = &point;
+  }
+  return first;
+}
+
+}  // namespace
+
+bool opens_as_set(const Results& results) {
+  return static_cast<int64_t>(results.points.size()) < results.planned_points ||
+         std::any_of(results.bounds.begin(), results.bounds.end(), breaks) ||
+         std::any_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return !law.held; }) ||
+         !find_unsound(results.points).empty();
+}
+
+const ImageRecord* live_image(const PointRecord& point) {
+  for (const ImageRecord& image : point.images)
+    if (image.path.ends_with("-live.bin")) return &image;
+  return nullptr;
+}
+
+Opening opening(const Results& results, const std::vector<ComparedGroup>& groups) {
+  Opening first{point_to_open(results), {}};
+  if (!first.point || opens_as_set(results)) return first;
+  const std::map<int64_t, double> biases = recommended_biases(groups);
+  const auto bias = biases.find(first.point->id);
+  if (bias != biases.end() && number_of(setting_of(*first.point, first.point->curve->parameter)) != bias->second)
+    first.bias = bias->second;
+  return first;
+}
+
+std::string name_at_bias(std::string_view picture, double bias) {
+  return fmt::format("{}{}{}", picture, bias_separator, bias);
+}
+
+std::optional<NameAtBias> bias_in_name(const std::string& name) {
+  const size_t at = name.find(bias_separator);
+  if (at == name.npos) return std::nullopt;
+  // NaN, which is never a recommended bias, if the rest is no number: a store can have been edited.
+  return NameAtBias{name.substr(0, at), number_of(name.substr(at + bias_separator.size())).value_or(std::nan(""))};
+}
+
+std::string at_recommended_bias(std::string_view picture) { return fmt::format("{} at the recommended bias", picture); }
+
+std::vector<PictureRecord> pictures_for_page(const PointRecord& point, const std::map<int64_t, double>& biases) {
+  std::vector<PictureRecord> shown;
+  const auto recommended = biases.find(point.id);
+  for (PictureRecord picture : point.pictures) {
+    if (const std::optional<NameAtBias> at = bias_in_name(picture.name)) {
+      if (recommended == biases.end() || at->bias != recommended->second) continue;
+      picture.name = at_recommended_bias(at->picture);
+    }
+    shown.push_back(std::move(picture));
+  }
+  return shown;
+}
+
+}  // namespace noonmark::report
