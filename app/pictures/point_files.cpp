@@ -97,7 +97,7 @@ nlohmann::json curve_json(const BiasCurve& curve) {
     else
       json[name] = value;
   });
-  for (const CurveSeries& series : curve_series()) json[series.name] = curve.*series.values;
+  for (const CurveSeries& series : curve_series()) json[series.name] = series.of(curve);
   return json;
 }
 

@@ -21,8 +21,9 @@ const Table<PhaseDiagram>& diagrams_table() {
       {column("part", &D::part), column("refused", &D::refused), column("made_from", &D::made_from),
        column("scene", &D::scene), column("light", &D::light), column("technique", &D::technique),
        column("render", &D::render), column("width_px", &D::width_px), column("height_px", &D::height_px),
-       column("placements", &D::placements), column("receivers", &D::receivers), column("acne_bound", &D::acne_bound),
-       column("peter_panning_bound", &D::peter_panning_bound), column("range_m", &D::range_m),
+       column("placements", &D::placements), column("receivers", &D::receivers),
+       column("acne_bound", static_cast<double D::*>(&D::acne_bound)),
+       column("peter_panning_bound", static_cast<double D::*>(&D::peter_panning_bound)), column("range_m", &D::range_m),
        column("metres_per_bias", &D::metres_per_bias), column("law_at_bound", &D::law_at_bound),
        column("law_steepest", &D::law_steepest)});
   return table;

@@ -9,7 +9,7 @@
 namespace noonmark {
 namespace {
 
-std::string refusal(const std::string& limit, const std::string& metric = "acne") {
+std::string refused_bound(const std::string& limit, const std::string& metric = "acne") {
   try {
     parse_experiment("[[bound]]\nmetric = \"" + metric + "\"\n" + limit + "\n", "x.toml");
     return "";
@@ -20,11 +20,12 @@ std::string refusal(const std::string& limit, const std::string& metric = "acne"
 }
 
 TEST(LimitOfAShare, IsNeverBelowZero) {
-  EXPECT_EQ(refusal("max = \"-5%\""), "x.toml:3:7: max = -5%: acne is a share, which is never below 0");
-  EXPECT_EQ(refusal("max = -0.05"), "x.toml:3:7: max = -0.05: acne is a share, which is never below 0");
-  EXPECT_EQ(refusal("min = \"-1 %\""), "x.toml:3:7: min = -1 %: acne is a share, which is never below 0");
-  for (const char* allowed : {"max = 0", "max = \"0%\"", "max = \"5%\"", "min = -0.0"}) EXPECT_EQ(refusal(allowed), "");
-  EXPECT_EQ(refusal("min = -1", "edge_displacement_texels"), "") << "no share";
+  EXPECT_EQ(refused_bound("max = \"-5%\""), "x.toml:3:7: max = -5%: acne is a share, which is never below 0");
+  EXPECT_EQ(refused_bound("max = -0.05"), "x.toml:3:7: max = -0.05: acne is a share, which is never below 0");
+  EXPECT_EQ(refused_bound("min = \"-1 %\""), "x.toml:3:7: min = -1 %: acne is a share, which is never below 0");
+  for (const char* allowed : {"max = 0", "max = \"0%\"", "max = \"5%\"", "min = -0.0"})
+    EXPECT_EQ(refused_bound(allowed), "");
+  EXPECT_EQ(refused_bound("min = -1", "edge_displacement_texels"), "") << "no share";
 }
 
 }  // namespace

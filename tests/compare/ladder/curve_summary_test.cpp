@@ -71,7 +71,7 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   // `reference - bias > stored` lights a tie, so acne ends at the bias and Peter Panning starts at it. The float
   // subtraction rounds to even, so both happen a little below the exact difference.
   const auto window = [&](double acne, double panning) {
-    c = summarise(counts, test_scale(), {acne, panning, {}});
+    c = summarise(counts, test_scale(), {{acne, panning}, {}});
     return std::pair(c.window_min_depth.value_or(-1), c.window_max_depth.value_or(-1));
   };
   constexpr double rounding = 0x1p-24;  // half of the last place of a float near the depths, 1/2
@@ -241,8 +241,8 @@ TEST(Summarise, GivesTheWindowsAtOtherBounds) {
     ASSERT_EQ(curve.steps, stored);
     for (double acne : {0.0, 0.0003, 0.002, 0.01, 0.0499, 0.05})
       for (double panning : {0.0, 0.001, 0.02, 0.05}) {
-        const BiasCurve anew = summarise(counts, test_scale(), {acne, panning, {}});
-        judge_window(curve, acne, panning);
+        const BiasCurve anew = summarise(counts, test_scale(), {{acne, panning}, {}});
+        judge_window(curve, {acne, panning});
         ASSERT_EQ(curve.window_min_depth, anew.window_min_depth) << seed << " " << acne << " " << panning;
         ASSERT_EQ(curve.window_max_depth, anew.window_max_depth) << seed << " " << acne << " " << panning;
         const double from = counts.acne_free_from(acne), to = counts.peter_panning_free_to(panning);
@@ -254,7 +254,7 @@ TEST(Summarise, GivesTheWindowsAtOtherBounds) {
       }
   }
   EXPECT_GT(windows, 50) << "there are hardly any windows, so the test shows little";
-  EXPECT_FALSE(WindowSteps().can_judge(0, 0));
+  EXPECT_FALSE(WindowSteps().can_judge({0, 0}));
 }
 
 TEST(Summarise, BytesOfAnotherListAreRefused) {
