@@ -8,7 +8,8 @@ set(doc ${usr}/share/doc/noonmark)
 set(here ${CPACK_NOONMARK_SOURCE}/cmake/package)
 file(GLOB_RECURSE images ${usr}/lib/noonmark_images.so)
 if(NOT EXISTS ${usr}/bin/noonmark OR NOT images)
-  message(FATAL_ERROR "cpack: the component 'program' installed no bin/noonmark or no noonmark_images.so; look at the COMPONENT of the rules in app/CMakeLists.txt")
+  message(FATAL_ERROR "cpack: the component 'program' installed no bin/noonmark or no noonmark_images.so; look at the "
+                      "COMPONENT of the rules in app/CMakeLists.txt")
 endif()
 # Without these cpack makes a package that depends on nothing, and says so in one line among others.
 foreach(tool dpkg-shlibdeps file gzip)
@@ -23,7 +24,7 @@ foreach(file ${usr}/bin/noonmark ${images})
   execute_process(COMMAND ${CPACK_NOONMARK_STRIP} --strip-unneeded --remove-section=.comment ${file} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 
-# The date of the changelog is the commit's, so that one commit makes equal packages.
+# The date of the changelog is the commit's.
 if("$ENV{SOURCE_DATE_EPOCH}" STREQUAL "")
   execute_process(COMMAND git -c safe.directory=${CPACK_NOONMARK_SOURCE} -C ${CPACK_NOONMARK_SOURCE} log -1 --format=%ct
                   OUTPUT_VARIABLE committed OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
@@ -52,8 +53,10 @@ endforeach()
 
 # Whatever the builder's umask is: folders and programs 755, all else 644, and a library is no program.
 file(GLOB_RECURSE paths LIST_DIRECTORIES ON ${usr}/*)
+set(programs ${usr}/bin)
 foreach(path ${usr} ${paths})
-  if(IS_DIRECTORY ${path} OR path MATCHES "/bin/")
+  cmake_path(IS_PREFIX programs ${path} is_program)
+  if(IS_DIRECTORY ${path} OR is_program)
     file(CHMOD ${path} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
   else()
     file(CHMOD ${path} PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
