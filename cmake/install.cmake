@@ -1,4 +1,5 @@
-# What `cmake --install` puts where: bin/noonmark, its picture library, man page and completion (app/CMakeLists.txt); the
+# What `cmake --install` puts where: bin/noonmark, its picture library, man page and completion (app/CMakeLists.txt), and
+# the experiments as examples: together the component `program`, of which cpack makes a package (cmake/package.cmake); the
 # libraries with their public headers; and the package with which another project finds them (cmake/noonmarkConfig.cmake.in):
 #   find_package(noonmark REQUIRED COMPONENTS compare)
 #   target_link_libraries(theirs PRIVATE noonmark::compare)
@@ -24,6 +25,7 @@ endfunction()
 
 set_target_properties(noonmark_options PROPERTIES EXPORT_NAME options)
 install(TARGETS noonmark_options EXPORT noonmarkTargets)
+install(DIRECTORY experiments/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT program)
 install(EXPORT noonmarkTargets NAMESPACE noonmark:: DESTINATION ${NOONMARK_PACKAGE_DIR})
 configure_package_config_file(cmake/noonmarkConfig.cmake.in ${PROJECT_BINARY_DIR}/noonmarkConfig.cmake
                               INSTALL_DESTINATION ${NOONMARK_PACKAGE_DIR} NO_SET_AND_CHECK_MACRO)

@@ -3,7 +3,9 @@
 Arguments: the program, the source folder, an empty folder to work in. A step with `uses` is not run. The steps that install
 and build are only read: the program is there. Exit code 77: something that the test needs is missing.
 """
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -39,10 +41,26 @@ for step in job["steps"]:
     if "run" in step:
         syntax = subprocess.run([shell, "-n"], input=step["run"], text=True, capture_output=True)
         expect(syntax.returncode == 0, f"{step['name']}: {syntax.stderr}")
-not_here = {"Install git", "Build Noonmark"}
+not_here = {"Install git", "Build the package", "Install Noonmark"}
 expect(not_here <= {step.get("name") for step in job["steps"]}, "the steps that are not run have these names")
 kept = [step for step in job["steps"] if step.get("uses", "").startswith("actions/upload-artifact")]
 expect(len(kept) == 1 and kept[0]["if"] == "always()", "the artifact is kept of a failed job too")
+
+# The package: the name under which cpack writes it, the sections that scripts/setup knows, and one key for each commit.
+steps = {step.get("name"): step for step in job["steps"]}
+keep, make, install = steps["Keep the package"], steps["Build the package"], steps["Install Noonmark"]
+expect(keep["with"]["path"] == "noonmark_*.deb" and "./noonmark_*.deb" in install["run"], "what is kept is installed")
+expect("${{ steps.noonmark.outputs.commit }}" in keep["with"]["key"] and steps["Get Noonmark"]["id"] == "noonmark",
+       "another commit of Noonmark is another package")
+expect(make["if"] == f"steps.{keep['id']}.outputs.cache-hit != 'true'", "a package that is kept is not built again")
+listed = re.findall(r"^# ([a-z ]+?)(?::.*)?$", (source / "scripts/packages.txt").read_text(), re.M)
+asked = re.search("scripts/setup (.*)", make["run"])[1].split()
+expect(asked and set(asked) <= set(listed), f"{asked} are sections of scripts/packages.txt, which has {listed}")
+presets = json.loads((source / "CMakePresets.json").read_text())["configurePresets"]
+expect(any(f"--preset {preset['name']} " in make["run"] for preset in presets), "the preset exists")
+others = yaml.safe_load((source / "examples/ci/matrix.yml").read_text())["jobs"]["package"]["steps"]
+for name in ("Keep the package", "Build the package"):
+    expect(steps[name] in others, f"matrix.yml has the same step '{name}'")
 
 
 def run_job(experiment):

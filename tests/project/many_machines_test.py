@@ -145,7 +145,8 @@ def matrix():
         skip("python3-yaml is not installed")
     workflow = yaml.safe_load((source / "examples/ci/matrix.yml").read_text())
     jobs = workflow["jobs"]
-    expect(set(jobs) == {"share", "merge"} and jobs["merge"]["needs"] == "share", "two jobs, one after the other")
+    expect({name: job.get("needs") for name, job in jobs.items()} == {"package": None, "share": "package", "merge": ["package", "share"]},
+           "three jobs, one after the other")
     shares = jobs["share"]["strategy"]["matrix"]["share"]
     run_here = dict(environment, OUT="joined", EXPERIMENT="demo.toml", GITHUB_STEP_SUMMARY=str(work / "step-summary.md"))
 
