@@ -286,8 +286,8 @@ TEST(Documents, EveryLinkLeadsSomewhere) {
   EXPECT_GT(anchors, 30);
 }
 
-// mkdocs reads a list only after an empty line, GitHub without one too.
-TEST(Documents, EveryListBeginsAfterAnEmptyLine) {
+// GitHub reads more than mkdocs does: a list begins after an empty line, and what is in an item is 4 spaces further in.
+TEST(Documents, EveryListIsReadByMkdocs) {
   const std::regex item("(- |[0-9]+\\. ).*"), before("(- |[0-9]+\\. |#| ).*|");
   for (const fs::path& file : documents()) {
     bool fenced = false;
@@ -295,6 +295,8 @@ TEST(Documents, EveryListBeginsAfterAnEmptyLine) {
     std::istringstream lines(text_of(file));
     for (std::string line; std::getline(lines, line); last = line) {
       if (line.starts_with("```")) fenced = !fenced;
+      EXPECT_FALSE(!fenced && std::regex_match(line, std::regex(" {1,3}(- |[|]).*")))
+          << fs::relative(file, root).string() << ": " << line;
       if (fenced || !std::regex_match(line, item)) continue;
       EXPECT_TRUE(std::regex_match(last, before)) << fs::relative(file, root).string() << ": " << line;
     }
