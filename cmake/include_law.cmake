@@ -10,7 +10,7 @@ set(modules base scenes technique gl raytrace compare measure app tests)
 set(rooms_compare results store ladder judge report)
 set(rooms_app definition pictures advise sweep verbs)
 
-# What each may include beside its own headers: a folder, or one room of a folder. docs/architecture.md says what each
+# What each may include beside its own headers: a folder, or one room of a folder. docs/explanation/architecture.md says what each
 # is for.
 set(may_include_base)
 set(may_include_scenes base)

@@ -41,7 +41,7 @@ struct BiasPart {
   std::string_view unit;  // the unit of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
   double most = 0;        // the amount is in 0 ... most
   std::string_view help;
-  std::string_view law;              // what the laws say of it, for the table in README.md
+  std::string_view law;              // what the laws say of it, for the table in docs/reference/techniques.md
   std::string_view floor_help = {};  // empty: the part has no floor; otherwise help of the setting bias.<name>_floor
   std::string_view cap_help = {};    // empty: the part has no cap; otherwise help of the setting bias.<name>_cap
   std::string_view no_curve = {};    // why one lookup pass cannot give the error at every amount; empty: it can

@@ -46,7 +46,7 @@ struct FilterRead {
 struct Filter {
   std::string_view name;  // a choice of filter.kind
   std::string_view help;
-  std::string_view law;             // what the laws say of it, for the table in README.md
+  std::string_view law;             // what the laws say of it, for the table in docs/reference/techniques.md
   FilterMap map = FilterMap::flat;  // the shapes of map that it can read
   std::string_view shader;          // gl/shaders/filter/<shader>.glsl
   TapPattern (*taps)(const FilterSettings&) = nullptr;

@@ -7,7 +7,7 @@
 //   apply_override(experiment, "map.resolution=2048");            // --set
 //   for (const Settings& settings : points(experiment)) measure(settings);
 //
-// docs/experiment.md is the reference of the file's keys; tests/app/experiment_docs_test.cpp reads its examples.
+// docs/reference/experiment.md is the reference of the file's keys; tests/app/experiment_docs_test.cpp reads its examples.
 #pragma once
 #include <cstdint>
 #include <map>

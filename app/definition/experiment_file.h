@@ -1,4 +1,4 @@
-// Reads an experiment file (docs/experiment.md).
+// Reads an experiment file (docs/reference/experiment.md).
 //
 //   Experiment experiment = load_experiment("experiments/cube-room.toml");
 #pragma once

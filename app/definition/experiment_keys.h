@@ -1,6 +1,6 @@
 // The keys of an experiment file that are not settings, described once. The reader takes from here which keys a table has
 // and which words a key takes, the JSON schema (app/definition/experiment_schema.h) is made from it, and a test compares it with
-// docs/experiment.md.
+// docs/reference/experiment.md.
 //
 //   for (const ExperimentKey& key : experiment_keys("bound")) ...
 #pragma once

@@ -242,7 +242,7 @@ std::string experiment_schema() {
   Json schema = {
       {"$schema", "http://json-schema.org/draft-07/schema#"},
       {"title", "A Noonmark experiment"},
-      {"description", "What to measure, and what to expect of the results. docs/experiment.md explains it."}};
+      {"description", "What to measure, and what to expect of the results. docs/reference/experiment.md explains it."}};
   schema.update(experiment_table(false));
   // In a file with parts these stand inside a part.
   schema["if"] = {{"required", {"part"}}};

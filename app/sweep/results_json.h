@@ -1,4 +1,4 @@
-// What `run` and `check` print with --json: the results of each experiment, for programs. docs/experiment.md describes the
+// What `run` and `check` print with --json: the results of each experiment, for programs. docs/reference/command-line.md describes the
 // keys.
 //
 //   nlohmann::ordered_json one = results_json(outcome, {.folder = "out/x", .exit_code = 0});

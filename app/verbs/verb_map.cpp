@@ -21,7 +21,7 @@
 namespace noonmark {
 namespace {
 
-// What the page and the CSV say of each texel size, and where they are. docs/experiment.md describes the keys.
+// What the page and the CSV say of each texel size, and where they are. docs/reference/command-line.md describes the keys.
 std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
   using Json = nlohmann::ordered_json;
   const auto number = [](double value) {

@@ -19,7 +19,7 @@ foreach(tool dpkg-shlibdeps file gzip)
   endif()
 endforeach()
 
-# What no program reads. The build id stays, by which a sweep knows its program (app/identity.h).
+# What no program reads. The build id stays, by which a sweep knows its program (app/sweep/identity.h).
 foreach(file ${usr}/bin/noonmark ${images})
   execute_process(COMMAND ${CPACK_NOONMARK_STRIP} --strip-unneeded --remove-section=.comment ${file} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

@@ -17,7 +17,7 @@
 
 namespace noonmark {
 
-// What an experiment's [atlas] section says (docs/experiment.md). It changes no measurement.
+// What an experiment's [atlas] section says (docs/reference/experiment.md). It changes no measurement.
 struct AtlasEntry {
   std::string failure;                  // its name: "grazing light"
   std::string cause;                    // the metric that carries it: "acne"
@@ -60,7 +60,7 @@ std::string_view name_of(AtlasVerdict verdict);
 // proportional to the texel).
 inline constexpr double atlas_window_factor = 2;
 // The largest share of wrong weight by acne, by Peter Panning and by coverage. It is the default of the usable window
-// (docs/experiment.md, curve.acne_bound).
+// (docs/reference/experiment.md, curve.acne_bound).
 inline constexpr double atlas_share = 0.001;
 
 struct AtlasPoint {

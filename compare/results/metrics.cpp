@@ -65,7 +65,10 @@ constexpr Metric measured_once[] = {
      true},
     {"edge_displacement_texels", "texels",
      "Largest distance from an aliased tap to the true shadow edge, across the light's rays, in texels there.", true},
-    {"edge_displacement_mean_texels", "texels", "Mean over the receivers of that distance, each with its farthest tap.",
+    {"edge_displacement_mean_texels", "texels",
+     "Mean over the receivers of the distance from the farthest aliased tap to the true shadow edge, across the "
+     "light's "
+     "rays, in texels there.",
      true},
     {"edge_displacement_pixels", "pixels",
      "Largest distance in the picture from an aliased pixel to a pixel where its verdict is true. With a normal offset "
@@ -74,8 +77,9 @@ constexpr Metric measured_once[] = {
     {"receivers", "count", "Number of pixels that see a surface.", false},
     {"facing", "count", "Number of receivers that face the light.", false},
     {"counted", "count",
-     "Number of facing receivers that are not ambiguous. Every fraction is a fraction of these, unless its text names "
-     "others.",
+     "Number of facing receivers that are not ambiguous. Every fraction is a fraction of the counted receivers, unless "
+     "its "
+     "text names others.",
      false},
     {"clipped", "count",
      "Number of pixels that see nothing because the camera's near or far plane cuts the surface off.", false},
@@ -114,10 +118,15 @@ constexpr Metric measured_once[] = {
      "neighbouring face may require more.",
      true},
     {"acne_free_bias_law_m", "m",
-     "The same in metres of depth, for the receiver that requires most metres (directional: k w |gradient|_1).", true},
+     "The bias that law 1 requires, in metres of depth, for the receiver that requires most metres (directional: k w "
+     "|gradient|_1); whatever the alignment of the texel grid.",
+     true},
     {"acne_free_bias_scene_law_depth", "depth",
-     "The same law over every face of the scene that is turned to the light. No receiver requires more.", true},
-    {"acne_free_bias_scene_law_m", "m", "The same over every face, in metres of depth.", true},
+     "The bias that law 1 requires of every face of the scene that is turned to the light, seen or not. No receiver "
+     "requires more.",
+     true},
+    {"acne_free_bias_scene_law_m", "m",
+     "The bias that law 1 requires of every face of the scene that is turned to the light, in metres of depth.", true},
     {"counted_area_m2", "m2",
      "Area of the light's plane that the counted receivers cover. Under a spot or point light: the sum of their areas "
      "across their light rays.",
@@ -160,8 +169,9 @@ constexpr Metric measured_once[] = {
      "instructions of the lookups of all facing receivers.",
      true},
     {"traffic_bytes", "bytes",
-     "The same in bytes: those of the map, each written once, and of the texels that the lookups read, without a "
-     "cache.",
+     "Cost of the technique in bytes, the same on every machine: those of the map, each written once, and of the "
+     "texels "
+     "that the lookups read, without a cache.",
      true},
     {"map_bytes", "bytes", "Memory of the shadow map. A depth of 24 bits takes 4 bytes.", true},
     {"map_texels", "count", "Number of texels of the shadow map, of a cube on all six faces.", true},
@@ -171,8 +181,9 @@ constexpr Metric measured_once[] = {
      true},
     {"lookup_fetches", "count", "Number of texture instructions that the lookup of one receiver needs.", true},
     {"lookup_texels", "count",
-     "Number of texels that these read: one each, or four where a comparison sampler blends. Neighbours may read the "
-     "same ones.",
+     "Number of texels that the texture instructions of one receiver's lookup read: one each, or four where a "
+     "comparison "
+     "sampler blends. Neighbours may read the same ones.",
      true},
     {"lookup_operations", "count",
      "Number of operations (sum, product, division, root, minimum, maximum, comparison) that the lookup of one "
@@ -193,7 +204,9 @@ constexpr Metric from_frame_to_frame[] = {
      "Mean |change of R5| from this frame to the next, over the world points that both frames see and whose truth R1 "
      "is the same in both.",
      true, false, true},
-    {"flicker_changed", "fraction", "Share of these points whose R5 changes at all.", true, false, true},
+    {"flicker_changed", "fraction",
+     "Share of the world points over which flicker is taken whose R5 changes at all from this frame to the next.", true,
+     false, true},
     {"flicker_grid", "fraction", "The part of flicker that comes when the texels move, grow or turn in the world.",
      true, false, true},
     {"flicker_depth", "fraction",
@@ -217,12 +230,14 @@ constexpr Metric from_frame_to_frame[] = {
      "camera's near or far plane cuts off. They are left out of flicker.",
      false, false, true},
     {"flicker_hidden", "count",
-     "Number of such points in the next frame's picture that a surface hides there, or of which its camera sees the "
-     "back, or of which rounding decides that.",
+     "Number of world points that face the light in this frame and lie in the next frame's picture, and that a surface "
+     "hides there, or of which its camera sees the back, or of which rounding decides that. They are left out of "
+     "flicker.",
      false, false, true},
     {"flicker_unlit", "count",
-     "Number of such points that the next frame sees, and that face away from its light or whose truth there is "
-     "ambiguous.",
+     "Number of world points that face the light in this frame and that the next frame sees, and that face away from "
+     "its "
+     "light or whose truth there is ambiguous. They are left out of flicker.",
      false, false, true},
 };
 
@@ -230,16 +245,22 @@ constexpr Metric over_placements[] = {
     {"error_worst_shown", "fraction",
      "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.", true, true},
     {"worst_shift_u_texels", "texels",
-     "Of a flat map: the shift of that placement along the rows of texels, from the map of the settings. Add it to "
-     "map.shift_u_texels to render it.",
+     "Of a flat map: the shift, along the rows of texels, of the placement with the largest error, from the map of the "
+     "settings. Add it to map.shift_u_texels to render that placement.",
      false, true},
-    {"worst_shift_v_texels", "texels", "The same along the columns.", false, true},
+    {"worst_shift_v_texels", "texels",
+     "Of a flat map: the shift, along the columns of texels, of the placement with the largest error, from the map of "
+     "the "
+     "settings. Add it to map.shift_v_texels to render that placement.",
+     false, true},
     {"worst_turn_x_deg", "deg",
-     "Of a point light's cube: the first component of map.turn_deg of that placement. Set the three of them to render "
-     "it.",
+     "Of a point light's cube: the x component of map.turn_deg of the placement with the largest error. Set all three "
+     "components to render that placement.",
      false, true},
-    {"worst_turn_y_deg", "deg", "The second component.", false, true},
-    {"worst_turn_z_deg", "deg", "The third component.", false, true},
+    {"worst_turn_y_deg", "deg",
+     "Of a point light's cube: the y component of map.turn_deg of the placement with the largest error.", false, true},
+    {"worst_turn_z_deg", "deg",
+     "Of a point light's cube: the z component of map.turn_deg of the placement with the largest error.", false, true},
     {"placement_disagreements", "count",
      "Number of taps at which the truth of all placements differs from the ladder's own, at the placements that are "
      "rendered too. Above 0 it is a defect.",
@@ -274,8 +295,8 @@ const MetricTable& table() {
                              "_ms: the second smallest sample. The interval holds the true median with 96%; two times "
                              "differ only if their intervals do not overlap."),
                         false});
-      t.rows.push_back(
-          {text(stem + "_high_ms"), "ms", text("The upper end of that interval: the second largest sample."), false});
+      t.rows.push_back({text(stem + "_high_ms"), "ms",
+                        text("The upper end of the interval of " + stem + "_ms: the second largest sample."), false});
     }
     for (std::string_view name : placed)
       for (const auto& [ending, what] :

@@ -49,7 +49,6 @@ TEST_F(Libraries, StartsWithThoseAloneThatEveryMeasurementNeeds) {
   EXPECT_LT(std::count(output_.begin(), output_.end(), '\n'), 30) << output_;
 }
 
-// If one of these libraries is missing, the system's loader prints its own message. So README lists them.
 // An experiment may lie in a folder that another person fills. The planted files are no libraries, so the program would
 // not start with one of them.
 TEST_F(Libraries, NoneIsLoadedFromTheCurrentFolder) {
@@ -69,22 +68,24 @@ TEST_F(Libraries, NoneIsLoadedFromTheCurrentFolder) {
   EXPECT_EQ(run(small_picture), 0) << output_;
 }
 
-TEST_F(Libraries, ReadmeNamesEveryOneThatTheProgramIsLinkedWith) {
+// If one of these libraries is missing, the system's loader prints its own message. So docs/reference/exit-codes.md lists
+// them.
+TEST_F(Libraries, ReferenceNamesEveryOneThatTheProgramIsLinkedWith) {
   if (sanitized) GTEST_SKIP() << "the sanitizers' libraries are linked as well";
   FILE* const listing = popen("readelf -d '" NOONMARK_PROGRAM "' 2>/dev/null", "r");
   ASSERT_NE(listing, nullptr);
   std::string dynamic;
   for (int c = 0; (c = std::fgetc(listing)) != EOF;) dynamic += static_cast<char>(c);
   if (pclose(listing) != 0) GTEST_SKIP() << "no readelf here";
-  const std::string readme = read_file(NOONMARK_SOURCE_DIR "/README.md");
-  const size_t begin = readme.find("What the program is linked with"), end = readme.find("ends with 127", begin);
+  const std::string page = read_file(NOONMARK_SOURCE_DIR "/docs/reference/exit-codes.md");
+  const size_t begin = page.find("What the program is linked with"), end = page.find("ends with 127", begin);
   ASSERT_NE(end, std::string::npos);
   const auto in_small_letters = [](std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
   };
-  const std::string sentence = in_small_letters(readme.substr(begin, end - begin));
-  // Libraries whose name in README differs from the file name.
+  const std::string sentence = in_small_letters(page.substr(begin, end - begin));
+  // Libraries whose name on the page differs from the file name.
   const std::map<std::string, std::string> words = {{"tbb", "onetbb"},  {"tomlplusplus", "toml++"}, {"stdc++", "c++"},
                                                     {"m", "c and c++"}, {"c", "c and c++"},         {"gcc_s", "c++"}};
   const std::regex needed("\\[lib([^\\]]+?)[0-9]*\\.so");

@@ -19,23 +19,25 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path root = NOONMARK_SOURCE_DIR;
-const std::vector<std::string> folders = {"app",      "cmake",  "compare", "docs",      "experiments", "gl",
-                                          "raytrace", "scenes", "scripts", "technique", "tests"};
+const std::vector<std::string> folders = {"app",      "base",        "cmake",     "compare", "docs",
+                                          "examples", "experiments", "gl",        "measure", "raytrace",
+                                          "scenes",   "scripts",     "technique", "tests"};
 
 std::string text_of(const fs::path& file) { return read_file(file.string(), uint64_t{1} << 24); }
 
 // Documents for human readers. CHANGELOG.md is not among them, because it names files that no longer exist.
 std::vector<fs::path> documents() {
   std::vector<fs::path> files = {root / "README.md", root / "CONTRIBUTING.md"};
-  for (const auto& entry : fs::directory_iterator(root / "docs"))
-    if (entry.path().extension() == ".md") files.push_back(entry.path());
+  for (const char* folder : {"docs", "examples"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".md") files.push_back(entry.path());
   return files;
 }
 
 // Every file with text that people write, except patches and the test that plants files.
 std::vector<fs::path> all_texts() {
-  const std::set<std::string> endings = {".h",   ".cpp",  ".glsl", ".vert", ".frag", ".geom", ".cmake",
-                                         ".txt", ".toml", ".js",   ".css",  ".md",   ""};
+  const std::set<std::string> endings = {".h",    ".cpp", ".glsl", ".vert", ".frag", ".geom", ".cmake", ".txt",
+                                         ".toml", ".js",  ".css",  ".md",   ".in",   ".yml",  ""};
   std::vector<fs::path> files = {root / "README.md", root / "CONTRIBUTING.md", root / "CMakeLists.txt"};
   for (const std::string& folder : folders)
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
@@ -92,6 +94,7 @@ TEST(Documents, EveryFileThatIsNamedIsThere) {
       if (!begins_with_a_folder(word)) continue;
       const std::string ending = fs::path(word).extension().string();
       if (ending.size() < 2 || !std::isalpha(static_cast<unsigned char>(ending[1]))) continue;
+      if (ending == ".gltf") continue;  // a model of a corpus outside the repository, which has a folder base/ too
       ++named;
       EXPECT_TRUE(is_there(word) || fs::exists(file.parent_path() / word))
           << fs::relative(file, root).string() << " names " << word;
@@ -203,8 +206,14 @@ TEST(Documents, NoCountThatChangesIsWrittenByHand) {
   }
 }
 
+// A heading without its links and marks: "[R0](#r0) and `x`" is "R0 and x".
+std::string plain(const std::string& heading) {
+  const std::string linked = std::regex_replace(heading, std::regex("\\[([^\\]]*)\\]\\([^)]*\\)"), "$1");
+  return std::regex_replace(linked, std::regex("[`*]"), "");
+}
+
 // The anchor that GitHub makes of a heading.
-std::string anchor_of(std::string_view heading) {
+std::string anchor_of_github(std::string_view heading) {
   std::string anchor;
   for (char c : heading) {
     const auto byte = static_cast<unsigned char>(c);
@@ -214,33 +223,114 @@ std::string anchor_of(std::string_view heading) {
   return anchor;
 }
 
+// The anchor that mkdocs makes of it: ASCII only, and several spaces or hyphens are one hyphen.
+std::string anchor_of_mkdocs(std::string_view heading) {
+  std::string anchor;
+  for (char c : heading) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 && (std::isalnum(byte) || c == '_')) anchor += static_cast<char>(std::tolower(byte));
+    if ((c == ' ' || c == '-') && !anchor.empty() && anchor.back() != '-') anchor += '-';
+  }
+  while (anchor.ends_with('-')) anchor.pop_back();
+  return anchor;
+}
+
+// The anchors of a document that are the same on GitHub and in the site that scripts/docs builds.
 std::set<std::string> anchors_of(const std::string& markdown) {
-  std::set<std::string> anchors;
+  std::set<std::string> anchors, twice;
+  bool fenced = false;
   std::istringstream lines(markdown);
-  for (std::string line; std::getline(lines, line);)
-    if (const size_t text = line.find_first_not_of('#'); text != 0 && text != std::string::npos && line[text] == ' ')
-      anchors.insert(anchor_of(line.substr(text + 1)));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) fenced = !fenced;
+    const size_t text = line.find_first_not_of('#');
+    if (fenced || text == 0 || text == std::string::npos || line[text] != ' ') continue;
+    const std::string heading = plain(line.substr(text + 1));
+    const std::string anchor = anchor_of_github(heading);
+    if (anchor == anchor_of_mkdocs(heading) && !anchors.insert(anchor).second) twice.insert(anchor);
+  }
+  for (const std::string& anchor : twice) anchors.erase(anchor);  // the second heading gets another one
   return anchors;
 }
 
+// The targets of the links and pictures of a document: "[text](target)".
+std::vector<std::string> links_of(const std::string& markdown) {
+  std::vector<std::string> links;
+  bool fenced = false;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find_first_not_of(' ') != std::string::npos && line.substr(line.find_first_not_of(' ')).starts_with("```"))
+      fenced = !fenced;
+    if (fenced) continue;
+    for (size_t at = line.find("]("); at != std::string::npos; at = line.find("](", at + 1))
+      links.push_back(line.substr(at + 2, line.find(')', at) - at - 2));
+  }
+  return links;
+}
+
 TEST(Documents, EveryLinkLeadsSomewhere) {
-  int links = 0;
-  for (const fs::path& file : documents()) {
-    const std::string text = text_of(file);
-    for (size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
-      const std::string link = text.substr(at + 2, text.find(')', at) - at - 2);
+  int links = 0, anchors = 0;
+  for (const fs::path& file : documents())
+    for (const std::string& link : links_of(text_of(file))) {
+      const std::string where = fs::relative(file, root).string() + " links to " + link;
       if (link.starts_with("http")) continue;
       ++links;
       const size_t hash = link.find('#');
       const fs::path target = hash == 0 ? file : file.parent_path() / link.substr(0, hash);
-      ASSERT_TRUE(fs::exists(target)) << fs::relative(file, root).string() << " links to " << link;
-      if (hash != std::string::npos) {
-        EXPECT_TRUE(anchors_of(text_of(target)).contains(link.substr(hash + 1)))
-            << fs::relative(file, root).string() << " links to " << link;
-      }
+      EXPECT_TRUE(fs::is_regular_file(target)) << where << ": no such file (a folder has no page)";
+      if (hash == std::string::npos || !fs::is_regular_file(target)) continue;
+      ++anchors;
+      EXPECT_TRUE(anchors_of(text_of(target)).contains(link.substr(hash + 1)))
+          << where << ": no heading has this anchor, on GitHub and in the site";
+    }
+  EXPECT_GT(links, 100);
+  EXPECT_GT(anchors, 30);
+}
+
+// GitHub reads more than mkdocs does: a list begins after an empty line, and what is in an item is 4 spaces further in.
+TEST(Documents, EveryListIsReadByMkdocs) {
+  const std::regex item("(- |[0-9]+\\. ).*"), before("(- |[0-9]+\\. |#| ).*|");
+  for (const fs::path& file : documents()) {
+    bool fenced = false;
+    std::string last;
+    std::istringstream lines(text_of(file));
+    for (std::string line; std::getline(lines, line); last = line) {
+      if (line.starts_with("```")) fenced = !fenced;
+      EXPECT_FALSE(!fenced && std::regex_match(line, std::regex(" {1,3}(- |[|]).*")))
+          << fs::relative(file, root).string() << ": " << line;
+      if (fenced || !std::regex_match(line, item)) continue;
+      EXPECT_TRUE(std::regex_match(last, before)) << fs::relative(file, root).string() << ": " << line;
     }
   }
-  EXPECT_GT(links, 20);
+}
+
+// The pages that mkdocs.yml names: the words of its lines that end in .md.
+std::set<std::string> pages_of_the_site() {
+  std::set<std::string> pages;
+  for (const std::string& word : path_like_words(text_of(root / "mkdocs.yml")))
+    if (word.ends_with(".md")) pages.insert(word);
+  return pages;
+}
+
+TEST(Documents, EveryPageStandsInTheSiteAndInReadme) {
+  const std::set<std::string> pages = pages_of_the_site();
+  for (const std::string& page : pages) EXPECT_TRUE(fs::exists(root / page)) << "mkdocs.yml names " << page;
+  std::set<std::string> linked;
+  for (const std::string& link : links_of(text_of(root / "README.md"))) linked.insert(link);
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string page = fs::relative(entry.path(), root).string();
+    EXPECT_TRUE(pages.contains(page)) << "mkdocs.yml lacks " << page;
+    EXPECT_TRUE(linked.contains(page)) << "README.md does not link to " << page;
+  }
+}
+
+// Longer documents are not read to their end.
+TEST(Documents, ReadmeAndContributingAreShort) {
+  const auto lines_of = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const std::string readme = text_of(root / "README.md"), contributing = text_of(root / "CONTRIBUTING.md");
+  EXPECT_LE(lines_of(readme), 250);
+  EXPECT_LE(readme.size(), size_t{14} << 10);
+  EXPECT_LE(lines_of(contributing), 150);
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Compares the man page with the program: it must contain every verb, every option of each verb in that verb's section, and
-# every exit code that the help and the README name. The help is parsed in another way than in app/shell/man_page.sh.
-#   man_page_test.sh PROGRAM PAGE README
+# every exit code that the help and docs/reference/exit-codes.md name. The help is parsed in another way than in
+# app/shell/man_page.sh. docs/reference/command-line.md must list the verbs.
+#   man_page_test.sh PROGRAM PAGE REFERENCE
 set -euo pipefail
-program=$1 page=$2 readme=$3
+program=$1 page=$2 reference=$3
 export LC_ALL=C
 bad=0
 complain() { printf '%s\n' "$*"; bad=1; }
@@ -35,12 +36,16 @@ for verb in $verbs; do
 done
 ((options >= 15)) || complain "only $options options were compared"
 
+# shellcheck disable=SC2016  # the back quotes of Markdown
+listed=$(sed -n '/^| verb |/,/^$/s/^| `\([a-z]*\)[ `].*/\1/p' "$reference/command-line.md" | sort)
+[[ $listed == "$(sort <<<"$verbs")" ]] || complain "command-line.md lists the verbs '${listed//$'\n'/ }', the help '${verbs//$'\n'/ }'"
+
 codes() { sort | tr '\n' ' '; }
 in_page=$(sed -n '/^\.SH EXIT STATUS/,/^\.SH FILES/s/^\.B \([0-9]\)$/\1/p' <<<"$plain" | codes)
 in_help=$("$program" --help | sed -n '/^Exit codes:/,$p' | tr '\n' ' ' | grep -oE '[:;] +[0-9] ' | tr -dc '0-9\n' | codes)
-in_readme=$(sed -n '/^| exit code |/,/^$/s/^| \([0-9]\) |.*/\1/p' "$readme" | codes)
-[[ $in_page == "$in_help" && $in_page == "$in_readme" && $in_page == '0 1 2 3 4 5 6 ' ]] ||
-  complain "exit codes: '$in_page' in the page, '$in_help' in the help, '$in_readme' in the README"
+in_reference=$(sed -n '/^| exit code |/,/^$/s/^| \([0-9]\) |.*/\1/p' "$reference/exit-codes.md" | codes)
+[[ $in_page == "$in_help" && $in_page == "$in_reference" && $in_page == '0 1 2 3 4 5 6 ' ]] ||
+  complain "exit codes: '$in_page' in the page, '$in_help' in the help, '$in_reference' in exit-codes.md"
 grep -qF "Noonmark $("$program" --version | cut -d' ' -f1)" "$page" || complain "the page is of another version"
 ((bad)) || printf '%s verbs and %s options stand in the man page\n' "$(wc -w <<<"$verbs")" "$options"
 exit "$bad"

@@ -43,8 +43,8 @@ for file in experiments:
 
 # The examples of the documents: the program takes those of ```toml, and refuses those of ```toml refused.
 refused_by_schema = 0
-for document in ("docs/experiment.md", "README.md"):
-    for block in (source / document).read_text().split("\n```toml")[1:]:
+for document in [*sorted((source / "docs").rglob("*.md")), *sorted((source / "examples").rglob("*.md"))]:
+    for block in document.read_text().split("\n```toml")[1:]:
         head, _, rest = block.partition("\n")
         text = rest.split("\n```")[0]
         try:

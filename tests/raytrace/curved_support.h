@@ -250,7 +250,7 @@ inline void on_many_grids(const Scene& scene, uint32_t seed, int count, const st
 // triangles' outlines, found without rays. For lit receivers without a filter there is no exception. A tap further off,
 // or of a dark receiver, may ask for P's surface at a place that the surface does not reach. If P lies at its own fold
 // (a terminator), the surface is continued at the fold's depth, and V changes where this depth crosses what the light
-// sees there. README.md lists this among the known limits ("dark receivers at a concave terminator"). It is rare.
+// sees there. docs/reference/limits.md lists this ("dark receivers at a concave terminator"). It is rare.
 struct Explained {
   uint64_t taps = 0, at_jumps = 0, at_own_folds = 0, unexplained = 0;
 };

@@ -238,7 +238,7 @@ bool edge_between(const LightBins& brute, uint32_t own, glm::dvec2 from, glm::dv
 
 // Law 4. Lit receivers have no exception. dark_exceptions: the share of differing taps that may have no edge, at dark
 // receivers. This happens where solids intersect or concave meshes are not welded: there P's sheet ends inside a solid,
-// and its continuation is a guess (README.md, known limits).
+// and its continuation is a guess (docs/reference/limits.md).
 void expect_edges_where_taps_differ(const Scene& scene, int resolution, int count, double dark_exceptions = 0) {
   const Looked looked = look_up(scene, resolution, 1, count);
   const LightBins brute(scene, looked.frame);

@@ -30,7 +30,7 @@ struct EngineAdvice {
 // at which the camera looks, held between near and far. A sentence in `cannot` says so.
 std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene);
 
-// A bias field of an engine, for the table in docs/engines.md.
+// A bias field of an engine, for the table in docs/reference/engines.md.
 struct EngineField {
   std::string engine, version, light;  // light: its kinds, such as "spot, point"
   std::string field, unit, place, source;
