@@ -300,7 +300,7 @@ std::vector<Setting> make_table() {
           .refused(turn_beyond_a_circle),
       integer(
           "map.placements", "", 1, Placements::most,
-          "S: measures at S x S placements of the texel grid, and gives mean, worst and 95th percentile over them. "
+          "S: measures at S x S placements of the texel grid, and gives mean, largest and least over them. "
           "Placement 0 is the map as the other settings place it. A flat map is shifted by 1/S texel from one to the "
           "next, and one set of rays answers for all. A point light's cube is turned, a sample of all rotations, and "
           "each turn takes its own rays.",
