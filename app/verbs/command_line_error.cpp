@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "app/verbs/verbs.h"
 #include "base/error.h"
-#include "base/text.h"
+#include "base/suggestion.h"
 
 namespace noonmark {
 namespace {
@@ -39,9 +40,23 @@ std::string command_line_error(const CLI::App& app, const CLI::ParseError& error
   const std::string name = option->substr(0, option->find('='));
   const std::vector<std::string> known = options_of(verb);
   const std::vector<std::string_view> names(known.begin(), known.end());
-  const std::string near = nearest_name(name, names);
-  return fmt::format("{} has no option '{}'{} {}", verb.get_name(), name,
-                     near.empty() ? "" : "; did you mean '" + near + "'?", help);
+  return fmt::format("{} has no option '{}'{} {}", verb.get_name(), name, did_you_mean(name, names), help);
+}
+
+void require_verb(const std::string& name) {
+  std::vector<std::string_view> verbs;
+  for (const Verb& verb : verb_table()) verbs.emplace_back(verb.name);
+  if (std::find(verbs.begin(), verbs.end(), name) == verbs.end())
+    throw Error(ErrorKind::usage,
+                fmt::format("there is no verb '{}'{} (noonmark --help lists them)", name, did_you_mean(name, verbs)));
+}
+
+void refuse_unknown(const std::string& first) {
+  if (!first.starts_with('-')) return require_verb(first);
+  constexpr std::string_view options[] = {"--help", "--version"};
+  if (first == "-h" || std::find(std::begin(options), std::end(options), first) != std::end(options)) return;
+  throw Error(ErrorKind::usage, fmt::format("there is no option '{}' before the verb{} (noonmark --help lists them)",
+                                            first, did_you_mean(first, options)));
 }
 
 void refuse_empty_values(std::span<const std::string> words) {

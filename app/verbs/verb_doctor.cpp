@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include "app/pictures/image_file.h"
+#include "app/verbs/verbs.h"
+#include "base/build_facts.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "base/threads.h"
+#include "gl/renderer.h"
+#include "measure/workbench.h"
+#include "raytrace/tracer.h"
+
+namespace noonmark {
+namespace {
+
+int examine_machine() {
+  const BuildFacts& facts = build_facts();
+  fmt::print("noonmark  {} (commit {}, {}, {})\n", facts.version, facts.commit, facts.compiler, facts.build_type);
+  bool can_measure = true, can_write_pictures = true;
+  try {
+    const ThreadLimit limit(0);
+    require_room_to_start(true);
+  } catch (const Error& error) {
+    fmt::print("Machine   NOT USABLE: {}\n", printable(error.what()));
+    can_measure = false;
+  }
+  const bool room = can_measure;
+  try {
+    const gl::Renderer renderer(gl::DebugMode::off);
+    const gl::DeviceInfo& device = renderer.info();
+    fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
+    fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform,
+               device.software ? "software" : "hardware", device.max_map_resolution);
+    fmt::print("          times by {}\n", gl::text_of(device.times));
+  } catch (const Error& error) {
+    fmt::print("OpenGL    NOT USABLE: {}\n", printable(error.what()));
+    can_measure = false;
+  }
+  try {
+    const raytrace::TracerInfo tracer = raytrace::tracer_info();
+    fmt::print("Embree    {}, ISA {} (pinned)\n", tracer.version, tracer.isa);
+  } catch (const Error& error) {
+    fmt::print("Embree    NOT USABLE: {}\n", printable(error.what()));
+    can_measure = false;
+  }
+  try {
+    if (room) {  // without room, loading the library ends the program
+      require_image_files();
+      fmt::print("Pictures  OpenImageIO\n");
+    }
+  } catch (const Error& error) {
+    fmt::print("Pictures  NOT USABLE: {}\n", printable(error.what()));
+    can_write_pictures = false;
+  }
+  std::string libraries;
+  for (const LibraryVersion& library : facts.libraries)
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : "; ", library.name, library.version);
+  fmt::print("Libraries {}\n", libraries);
+  fmt::print("{}\n", !can_measure          ? "Nothing can be measured here until this is fixed."
+                     : !can_write_pictures ? "Only experiments with pictures = \"none\" run here until this is fixed."
+                                           : "Everything that a measurement needs is here.");
+  return can_measure && can_write_pictures ? 0 : static_cast<int>(ErrorKind::device);
+}
+
+RunVerb add_doctor(CLI::App&) {
+  return [](const std::string&) { return examine_machine(); };
+}
+
+}  // namespace
+
+Verb verb_doctor() {
+  return {"doctor", "Print which OpenGL, ray tracer and libraries are used, or what is missing", add_doctor};
+}
+
+}  // namespace noonmark
