@@ -5,7 +5,7 @@
 // settings, drivers). Our own mistakes are asserts or std::logic_error. Only main ends the program with it, and then
 // its kind is the exit code. Other functions catch it to add what they know or to change its kind, and throw again
 // (at_point in app/definition/experiment.h, open_store in app/sweep/sweep.cpp), or to report it and continue (verb_doctor in
-// app/verbs/verb_lists.cpp).
+// app/verbs/verb_doctor.cpp).
 #pragma once
 #include <stdexcept>
 #include <string>

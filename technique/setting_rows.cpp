@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
 #include "base/error.h"
+#include "base/suggestion.h"
 
 namespace noonmark::setting_rows {
 
 [[noreturn]] void refuse(const Setting& row, std::string_view text) {
-  throw Error(ErrorKind::usage,
-              fmt::format("{} = '{}' is not allowed; it takes {}", row.name, text, row.range_with_unit()));
+  constexpr std::string_view flags[] = {"true", "false"};
+  const std::span<const std::string_view> choices = row.type == ValueType::flag ? flags : std::span(row.choices);
+  throw Error(ErrorKind::usage, fmt::format("{} = '{}' is not allowed; it takes {}{}", row.name, text,
+                                            row.range_with_unit(), did_you_mean(text, choices)));
 }
 
 std::string number_text(double value) { return fmt::format("{}", value == 0 ? 0.0 : value); }

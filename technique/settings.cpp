@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/text.h"
+#include "base/suggestion.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
 #include "technique/placements.h"
@@ -435,9 +435,8 @@ const Setting& find_setting(std::string_view name) {
     if (row.name == name) return row;
     names.push_back(row.name);
   }
-  const std::string near = nearest_name(name, names);
   throw Error(ErrorKind::usage, fmt::format("there is no setting '{}'{} (noonmark settings lists them)", name,
-                                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+                                            did_you_mean(name, names)));
 }
 
 std::map<std::string, std::string> settings_map(const Settings& settings) {

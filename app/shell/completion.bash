@@ -1,11 +1,26 @@
-# Completion of noonmark's command line for bash. The program itself lists its verbs, options, settings and scenes, so
-# this file needs no update when they change. It is installed where bash-completion finds it; otherwise source this
-# file.
+# Completion of noonmark's command line for bash. Everything that is offered comes from the program: verbs, their options and
+# the kinds of their values from its help (app/verbs/option_values.h has the words for the kinds), settings, scenes and parts
+# from its lists. It is installed where bash-completion finds it; otherwise source this file.
 
-# The verbs, or a verb's options, as the help lists them: "  run   Measure ...", "  -h,--help   Print ...".
-_noonmark_verbs() { "$1" --help 2>/dev/null | awk '/^[A-Z]/ { on = /^Subcommands:/ } on && /^  [a-z]/ { print $1 }'; }
-_noonmark_options() { "$@" --help 2>/dev/null | awk '/^  -/ { sub(/^-.,/, "", $1); print $1 }'; }
+# These read a help on standard input. The verbs: "  run   Measure ...".
+_noonmark_verbs() { awk '/^[A-Z]/ { on = /^Subcommands:/ } on && /^  [a-z]/ { print $1 }'; }
+# The options: "  -h,--help   Print ...".
+_noonmark_options() { awk '/^  -/ { sub(/^-.,/, "", $1); print $1 }'; }
+# The kinds of the values of an option, or of the arguments without one: "  --out FOLDER   Folder ..." has FOLDER.
+_noonmark_kinds() {
+  awk -v option="$1" '
+    /^[A-Z]/ { listed = option == "" ? /^Positionals:/ : /^Options:/ }
+    listed && /^  [^ ]/ {
+      text = substr($0, 3)
+      sub(/  .*/, "", text)
+      split(text, words, " ")
+      if (option != "" && words[1] != option) next
+      gsub(/[|]/, "\n", words[2])
+      print words[2]
+    }'
+}
 
+# These start the program.
 _noonmark_scenes() { "$1" scenes 2>/dev/null | awk '!NF { exit } { print $1 }'; }
 
 # The settings, each with "=" and, if it is a choice, its choices: "map.wrap= repeat clamp_to_edge ...". The program
@@ -22,10 +37,28 @@ _noonmark_settings() {
     }'
 }
 
-# The files whose names end in one of these patterns, and the folders that may contain such files.
+# The parts of the experiments among these words, as bash must read them.
+_noonmark_parts() {
+  local file name
+  for file in "${@:2}"; do
+    [[ $file == *.[tT][oO][mM][lL] && -f $file ]] || continue
+    "$1" run "$file" --print-config 2>/dev/null |
+      awk '/^\[/ { part = /^\[\[part\]\]/ } part && /^name = "[^\\]*"$/ { print substr($0, 9, length($0) - 9) }' |
+      while IFS= read -r name; do printf '%q\n' "$name"; done
+  done
+}
+
+# The files whose names end in one of these, in capitals too, and the folders that may contain such files.
 _noonmark_files() {
-  local ending
-  for ending in "${@:2}"; do compgen -f -X "!*.$ending" -- "$1"; done
+  local ending letter pattern i
+  for ending in "${@:2}"; do
+    pattern=''
+    for ((i = 0; i < ${#ending}; ++i)); do
+      letter=${ending:i:1}
+      pattern+="[$letter${letter^}]"
+    done
+    compgen -f -X "!*.$pattern" -- "$1"
+  done
   compgen -d -- "$1"
 }
 
@@ -51,45 +84,48 @@ _noonmark() {
     word=${word#*=}
   fi
 
-  local -a choices=() files=()
-  if [[ -z $verb && $word == -* ]]; then
-    mapfile -t choices < <(_noonmark_options "$program")
-  elif [[ -z $verb ]]; then
-    mapfile -t choices < <(_noonmark_verbs "$program")
-  elif [[ $previous == --set && $word == scene.name=* ]]; then
-    word=${word#*=}
-    mapfile -t choices < <(_noonmark_scenes "$program")
-    mapfile -t files < <(_noonmark_files "$word" '[gG][lL][tT][fF]' '[gG][lL][bB]')
-  elif [[ $previous == --set && $word == *=* ]]; then
-    read -ra choices < <(_noonmark_settings "$program" | awk -v name="${word%%=*}=" 'index($0, name) == 1 { sub(/^[^=]*=/, ""); print }')
-    word=${word#*=}
-  elif [[ $previous == --set ]]; then
-    mapfile -t choices < <(_noonmark_settings "$program" | awk '{ sub(/=.*/, "="); print }')
-    compopt -o nospace 2>/dev/null
-  elif [[ $previous == --out && $verb == init ]]; then
-    mapfile -t files < <(_noonmark_files "$word" '[tT][oO][mM][lL]')
-  elif [[ $previous == --out ]]; then
-    mapfile -t files < <(compgen -d -- "$word")
-  elif [[ $previous == --picture ]]; then
-    mapfile -t files < <(_noonmark_files "$word" '[eE][xX][rR]' '[pP][nN][gG]')
-  elif [[ $previous == --baseline ]]; then
-    mapfile -t files < <(_noonmark_files "$word" '[jJ][sS][oO][nN]')
-  elif [[ $previous == --part || $previous == --baseline-times || $previous == --point || $previous == --threads || $previous == --acne ||
-    $previous == --peter-panning || $previous == --from || $previous == --to || $previous == --rows ||
-    $previous == --placements || $previous == --shard ]]; then
-    :  # a name or a number that cannot be listed
-  elif [[ $word == -* ]]; then
-    mapfile -t choices < <(_noonmark_options "$program" "$verb")
-  elif [[ $verb == run || $verb == check || $verb == render ]]; then
-    mapfile -t files < <(_noonmark_files "$word" '[tT][oO][mM][lL]')
-  elif [[ $verb == map ]]; then
-    mapfile -t choices < <(_noonmark_scenes "$program")
-    mapfile -t files < <(_noonmark_files "$word" '[gG][lL][tT][fF]' '[gG][lL][bB]')
-  elif [[ $verb == init || $verb == inspect ]]; then
-    mapfile -t files < <(_noonmark_files "$word" '[gG][lL][tT][fF]' '[gG][lL][bB]')
-  elif [[ $verb == report || $verb == merge ]]; then
-    mapfile -t files < <(compgen -d -- "$word")
+  local -a choices=() files=() kinds=() endings=()
+  local help kind
+  if [[ -z $verb ]]; then
+    help=$("$program" --help 2>/dev/null)
+    if [[ $word == -* ]]; then
+      mapfile -t choices < <(_noonmark_options <<<"$help")
+    else
+      mapfile -t choices < <(_noonmark_verbs <<<"$help")
+    fi
+  else
+    help=$("$program" "$verb" --help 2>/dev/null)
+    [[ $previous != --* ]] || mapfile -t kinds < <(_noonmark_kinds "$previous" <<<"$help")
+    if [[ -n ${kinds[*]} ]]; then
+      :  # a value of an option; a flag has none
+    elif [[ $word == -* ]]; then
+      mapfile -t choices < <(_noonmark_options <<<"$help")
+    else
+      mapfile -t kinds < <(_noonmark_kinds '' <<<"$help")
+    fi
   fi
+  if [[ ${kinds[0]-} == NAME=VALUE ]]; then
+    if [[ $word == scene.name=* ]]; then
+      kinds=(SCENE FILE.gltf FILE.glb)
+      word=${word#*=}
+    elif [[ $word == *=* ]]; then
+      read -ra choices < <(_noonmark_settings "$program" | awk -v name="${word%%=*}=" 'index($0, name) == 1 { sub(/^[^=]*=/, ""); print }')
+      word=${word#*=}
+    else
+      mapfile -t choices < <(_noonmark_settings "$program" | awk '{ sub(/=.*/, "="); print }')
+      compopt -o nospace 2>/dev/null
+    fi
+  fi
+  for kind in "${kinds[@]}"; do
+    case $kind in
+      FILE.*) endings+=("${kind#FILE.}") ;;
+      FOLDER) mapfile -t files < <(compgen -d -- "$word") ;;
+      SCENE) mapfile -t choices < <(_noonmark_scenes "$program") ;;
+      PART) mapfile -t choices < <(_noonmark_parts "$program" "${words[@]}") ;;
+      VERB) mapfile -t choices < <("$program" --help 2>/dev/null | _noonmark_verbs) ;;
+    esac
+  done
+  ((${#endings[@]} == 0)) || mapfile -t files < <(_noonmark_files "$word" "${endings[@]}")
   # If = separates words, bash replaces only the text after it. Otherwise the replies need the text before it too.
   if [[ $COMP_WORDBREAKS != *=* && ${words[-1]} == *=* ]]; then
     local before=${words[-1]%"$word"}

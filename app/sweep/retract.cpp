@@ -19,17 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view options_with_a_value[] = {
-    "--set",   "--part", "--threads", "--out", "--point", "--picture",       "--baseline",  "--baseline-times",
-    "--shard", "--acne", "--from",    "--to",  "--rows",  "--peter-panning", "--placements"};
-
 // Sorts the words as far as possible: the words that are neither options nor values of options, and every --out.
 struct Words {
   std::vector<std::string> plain, outs;
   bool dry_run = false;
 };
 
-Words sorted_out(std::span<const std::string> words) {
+Words sorted_out(std::span<const std::string> words, const Vocabulary& vocabulary) {
   Words sorted;
   bool only_plain = false;  // after "--"
   for (size_t i = 0; i < words.size(); ++i) {
@@ -42,8 +38,7 @@ Words sorted_out(std::span<const std::string> words) {
       sorted.dry_run = true;
     else if (word.starts_with("--out="))
       sorted.outs.push_back(word.substr(6));
-    else if (std::find(std::begin(options_with_a_value), std::end(options_with_a_value), word) !=
-             std::end(options_with_a_value)) {
+    else if (vocabulary.options_with_a_value.contains(word)) {
       if (++i < words.size() && word == "--out") sorted.outs.push_back(words[i]);
     }
   }
@@ -52,8 +47,9 @@ Words sorted_out(std::span<const std::string> words) {
 
 }  // namespace
 
-MeantFolders meant_folders(std::span<const std::string> words, const std::vector<std::string_view>& verbs) {
-  Words sorted = sorted_out(words);
+MeantFolders meant_folders(std::span<const std::string> words, const Vocabulary& vocabulary) {
+  const std::vector<std::string_view>& verbs = vocabulary.verbs;
+  Words sorted = sorted_out(words, vocabulary);
   MeantFolders meant;
   if (sorted.plain.empty() || sorted.dry_run) return meant;
   const auto is_verb = [&](const std::string& word) {

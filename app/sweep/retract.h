@@ -2,6 +2,8 @@
 // command line is wrong, if threads do not start, or if two experiments have the same results' folder. Of `render`, `map`
 // and `inspect` it removes the files of an earlier run (app/sweep/verb_outputs.h).
 #pragma once
+#include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,10 +14,15 @@
 
 namespace noonmark {
 
+// The words of a command line that have a meaning.
+struct Vocabulary {
+  std::vector<std::string_view> verbs;
+  std::set<std::string, std::less<>> options_with_a_value;  // "--out", of all verbs
+};
+
 // The results' folders that the words of a command line (without the program) name, even if the words are wrong in
-// other ways: the value of --out, and the default folders of the experiments. verbs: all verbs. Empty unless the verb
-// is `check`, `run`, `render`, `map` or `inspect`, or a misspelling of one, and the command would have measured
-// something.
+// other ways: the value of --out, and the default folders of the experiments. Empty unless the verb is
+// `check`, `run`, `render`, `map` or `inspect`, or a misspelling of one, and the command would have measured something.
 struct MeantFolder {
   std::string path;
   std::vector<std::string> experiments;  // those that may be meant; the first is named. Empty: none is known
@@ -25,7 +32,7 @@ struct MeantFolders {
   std::vector<MeantFolder> folders;
   std::vector<VerbOutputs> outputs;  // of the other verbs
 };
-MeantFolders meant_folders(std::span<const std::string> words, const std::vector<std::string_view>& verbs);
+MeantFolders meant_folders(std::span<const std::string> words, const Vocabulary& vocabulary);
 
 // Removes those outputs, and junit.xml and summary.md from those folders that have one. If the verb is `check`, it
 // writes new ones with the reason why nothing was judged. It does not touch a folder into which another run is writing,

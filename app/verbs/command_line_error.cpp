@@ -7,8 +7,10 @@
 #include <map>
 #include <vector>
 
+#include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/shell_words.h"
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "technique/settings.h"
 
@@ -72,19 +74,36 @@ std::string command_line_error(const CLI::App& app, const CLI::ParseError& error
                      : fmt::format("{} {}", error.what(), help);
   const std::string name = option->substr(0, option->find('='));
   const std::vector<std::string> known = options_of(verb);
-  std::vector<std::string_view> names(known.begin(), known.end());
+  const std::vector<std::string_view> options(known.begin(), known.end());
+  std::vector<std::string_view> names = options;
   std::map<std::string, std::string> settings;
   if (std::find(known.begin(), known.end(), "--set") != known.end()) settings = settings_as_options();
   for (const auto& [as_option, setting] : settings)
     names.push_back(as_option);  // of equally near ones an option is meant
-  std::string near = nearest_name(name, names);
-  if (const auto setting = settings.find(near);
-      setting != settings.end() && std::find(known.begin(), known.end(), near) == known.end())
-    near = as_setting(setting->second, left, option);
-  else if (!near.empty())
-    near = "'" + near + "'";
-  return fmt::format("{} has no option '{}'{} {}", verb.get_name(), name,
-                     near.empty() ? "" : "; did you mean " + near + "?", help);
+  const auto setting = settings.find(nearest_name(name, names));
+  const bool is_setting = setting != settings.end() && std::none_of(options.begin(), options.end(), [&](auto one) {
+                            return one == setting->first || one.starts_with(name);
+                          });
+  return fmt::format(
+      "{} has no option '{}'{} {}", verb.get_name(), name,
+      is_setting ? "; did you mean " + as_setting(setting->second, left, option) + "?" : did_you_mean(name, options),
+      help);
+}
+
+void require_verb(const std::string& name) {
+  std::vector<std::string_view> verbs;
+  for (const Verb& verb : verb_table()) verbs.emplace_back(verb.name);
+  if (std::find(verbs.begin(), verbs.end(), name) == verbs.end())
+    throw Error(ErrorKind::usage,
+                fmt::format("there is no verb '{}'{} (noonmark --help lists them)", name, did_you_mean(name, verbs)));
+}
+
+void refuse_unknown(const std::string& first) {
+  if (!first.starts_with('-')) return require_verb(first);
+  constexpr std::string_view options[] = {"--help", "--version"};
+  if (first == "-h" || std::find(std::begin(options), std::end(options), first) != std::end(options)) return;
+  throw Error(ErrorKind::usage, fmt::format("there is no option '{}' before the verb{} (noonmark --help lists them)",
+                                            first, did_you_mean(first, options)));
 }
 
 void refuse_empty_values(std::span<const std::string> words) {

@@ -16,6 +16,13 @@ namespace noonmark {
 // app: that has parsed the command line and thrown the error.
 std::string command_line_error(const CLI::App& app, const CLI::ParseError& error);
 
+// Throws Error(usage) with the nearest verbs unless the name is a verb's.
+void require_verb(const std::string& name);
+
+// The same of the first word of a command line, which may be an option of the program too. CLI11 would first report a missing
+// verb.
+void refuse_unknown(const std::string& first);
+
 // Throws Error(usage) for a word such as "--out=". CLI11 would take the next word for the value.
 void refuse_empty_values(std::span<const std::string> words);
 

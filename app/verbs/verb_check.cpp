@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/definition/default_folder.h"
 #include "app/definition/experiment_list.h"
 #include "app/definition/experiment_text.h"
 #include "app/pictures/point_pictures.h"
-#include "app/sweep/atlas_page.h"
 #include "app/sweep/baseline_file.h"
 #include "app/sweep/judging.h"
 #include "app/sweep/plan.h"
@@ -16,13 +15,15 @@
 #include "app/sweep/retract.h"
 #include "app/sweep/shares.h"
 #include "app/sweep/sweep.h"
+#include "app/verbs/checked_folder.h"
 #include "app/verbs/experiment_arguments.h"
+#include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
-#include "base/build_facts.h"
 #include "base/error.h"
 #include "base/failure.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "compare/report/index_page.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
@@ -31,6 +32,12 @@ namespace noonmark {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct CheckOptions {
+  std::vector<std::string> paths;  // experiment files, or folders, whose *.toml files are all checked
+  BaselineOptions baseline;
+  ExperimentArguments arguments;
+};
 
 // The bounds and laws, each with what was found, and the verdict in the last line.
 std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& outcome,
@@ -47,8 +54,9 @@ struct Checked {
   nlohmann::ordered_json json;
 };
 
-Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const CheckOptions& options,
-                  const EarlyFolder& folder, IndexEntry& entry, AtlasPage& atlas) {
+Checked check_one(const ListedExperiment& listed, const CheckOptions& options, const EarlyFolder& folder,
+                  IndexEntry& entry, CheckedFolder& page) {
+  const ExperimentArguments& arguments = options.arguments;
   const std::string &path = listed.file, &out = listed.out;
   std::error_code none;
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
@@ -76,7 +84,7 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
   write_file_atomically(out + "/summary.md", to_summary(outcome.results, comparison, outcome.worst_pixels));
   const Results& results = outcome.results;
   const bool held = all_held(results) && (!compared || compared->held());
-  entry.report = "report.html";
+  entry.report = page.report_of(listed);
   entry.numbers = worst_numbers(results);
   const std::string broken = broken_in_words(results);
   entry.words = outcome.interrupted ? "stopped before its end"
@@ -89,7 +97,7 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
       // The report says why the picture cannot be read.
     }
   }
-  if (!outcome.interrupted) atlas.add(experiment, out, results, held);
+  if (!outcome.interrupted) page.atlas().add(experiment, out, results, held);
   checked.exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : held ? 0 : 1;
   if (arguments.json)
     checked.json = results_json(outcome, {path, out, checked.exit_code, true, comparison});
@@ -159,7 +167,8 @@ class Answers {
 };
 
 // Of all experiments. There is no page about all of them, because the shares would write one file.
-int measure_shares(const ExperimentList& list, const ExperimentArguments& arguments, const CheckOptions& options) {
+int measure_shares(const ExperimentList& list, const CheckOptions& options) {
+  const ExperimentArguments& arguments = options.arguments;
   if (!options.baseline.file.empty())
     throw Error(ErrorKind::usage,
                 "--baseline needs all points, and --shard measures a share of them; merge the shares, then check the "
@@ -178,13 +187,6 @@ int measure_shares(const ExperimentList& list, const ExperimentArguments& argume
   return answers.worst();
 }
 
-// The folder that holds the results' folders of all experiments. Without --out, that of the one folder that is checked.
-std::string index_folder(const std::vector<std::string>& paths, const ExperimentArguments& arguments) {
-  if (!arguments.out.empty()) return arguments.out;
-  std::error_code none;
-  return default_folder_of_folder(paths.size() == 1 && fs::is_directory(paths[0], none) ? paths[0] : ".");
-}
-
 // Printed at the end, because there may be many lines above.
 void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
                         const std::vector<std::string>& folders) {
@@ -196,89 +198,126 @@ void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
   for (const std::string& file : experiments) fmt::print("  {}\n", printable(file));
 }
 
-}  // namespace
-
-int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments,
-               const CheckOptions& options) {
-  const ExperimentList list = list_experiments(paths, arguments.out);
-  if (options.baseline.file.empty() && (options.baseline.update || options.baseline.times))
+// With --baseline and the options that need it. Throws Error(usage).
+void require_baseline_of_one(const CheckOptions& options, const ExperimentList& list) {
+  const BaselineOptions& baseline = options.baseline;
+  if (baseline.file.empty() && (baseline.update || baseline.times))
     throw Error(ErrorKind::usage, fmt::format("{} needs the baseline's file: --baseline FILE",
-                                              options.baseline.update ? "--update-baseline" : "--baseline-times"));
-  if (!options.baseline.file.empty() && list.experiments.size() + list.unreadable.size() != 1)
+                                              baseline.update ? "--update-baseline" : "--baseline-times"));
+  if (!baseline.file.empty() && list.experiments.size() + list.unreadable.size() != 1)
     throw Error(ErrorKind::usage,
                 "--baseline: a baseline belongs to one experiment; check the others by a command each");
-  require_folders_of_their_own(list);
-  if (options.dry_run) {
-    for (const UnreadableFolder& one : list.unreadable) throw one.error;
-    for (const ListedExperiment& listed : list.experiments) {
-      fmt::print("{}:\n", printable(listed.file));
-      print_plan(experiment_from(listed.file, arguments), arguments.shard);
-    }
-    return 0;
+}
+
+// --dry-run and --print-config: nothing is measured.
+int print_plans(const ExperimentList& list, const ExperimentArguments& arguments) {
+  for (const UnreadableFolder& one : list.unreadable) throw one.error;
+  for (const ListedExperiment& listed : list.experiments) {
+    fmt::print("{}:\n", printable(listed.file));
+    print_plan(experiment_from(listed.file, arguments), arguments.shard);
   }
-  if (arguments.print_config) {
-    for (const UnreadableFolder& one : list.unreadable) throw one.error;
-    if (list.experiments.size() != 1)
-      throw Error(ErrorKind::usage, "--print-config: the text is one file, so give one experiment");
-    fmt::print("{}", experiment_text(experiment_from(list.experiments.front().file, arguments)));
-    return 0;
+  return 0;
+}
+
+int print_one_config(const ExperimentList& list, const ExperimentArguments& arguments) {
+  for (const UnreadableFolder& one : list.unreadable) throw one.error;
+  if (list.experiments.size() != 1)
+    throw Error(ErrorKind::usage, "--print-config: the text is one file, so give one experiment");
+  fmt::print("{}", experiment_text(experiment_from(list.experiments.front().file, arguments)));
+  return 0;
+}
+
+// Checks one experiment of the list. Returns false if it could not be checked; `answers` and the page then have the reason.
+bool try_one(const ListedExperiment& listed, const CheckOptions& options, CheckedFolder& page, Answers& answers) {
+  EarlyFolder folder;
+  folder.open(listed.out, listed.file);
+  IndexEntry& entry = page.add(listed.file);
+  bool checked = true;
+  try {
+    answers.add(check_one(listed, options, folder, entry, page));
+  } catch (...) {
+    const Failure failure = current_failure();
+    entry.words = failure.message;
+    answers.add(listed.file, failure);
+    if (folder.ours()) write_unjudged(listed.out, listed.file, failure, options.arguments.command);
+    checked = false;
   }
-  if (arguments.shard) return measure_shares(list, arguments, options);
-  // A folder of experiments gets one page about all of them. That of an earlier check is removed first.
-  const bool indexed =
-      list.experiments.size() > 1 || std::any_of(list.experiments.begin(), list.experiments.end(),
-                                                 [](const ListedExperiment& one) { return one.in_folder; });
-  const std::string index_at = index_folder(paths, arguments), index = index_at + "/index.html";
-  std::vector<IndexEntry> entries;
-  std::error_code none;
-  if (indexed) fs::remove(index, none);
-  std::vector<std::string> unreadable, failed;
-  AtlasPage atlas(index_at);
-  if (indexed) atlas.retract();
+  return checked;
+}
+
+int check_all(const ExperimentList& list, const CheckOptions& options) {
+  const ExperimentArguments& arguments = options.arguments;
+  CheckedFolder page(list, arguments.out.empty() ? folder_above(options.paths) : arguments.out);
   Answers answers(arguments);
+  std::vector<std::string> unreadable, failed;
   for (const UnreadableFolder& one : list.unreadable) {
     answers.add(one);
     unreadable.push_back(one.folder);
   }
   for (const ListedExperiment& listed : list.experiments) {
-    EarlyFolder folder;
-    folder.open(listed.out, listed.file);
-    IndexEntry& entry = entries.emplace_back();
-    entry.experiment = listed.file;
-    try {
-      answers.add(check_one(listed, arguments, options, folder, entry, atlas));
-    } catch (...) {
-      const Failure failure = current_failure();
-      entry.words = failure.message;
-      failed.push_back(listed.file);
-      answers.add(listed.file, failure);
-      if (folder.ours()) write_unjudged(listed.out, listed.file, failure, arguments.command);
-    }
-    if (!entry.report.empty()) entry.report = fs::relative(listed.out, index_at, none).string() + "/" + entry.report;
+    if (!try_one(listed, options, page, answers)) failed.push_back(listed.file);
     if (answers.stopped()) break;
   }
-  std::string atlas_words;
-  if (indexed) {
-    for (const UnreadableFolder& one : list.unreadable) {
-      IndexEntry& entry = entries.emplace_back();
-      entry.experiment = one.folder;
-      entry.words = one.error.what();
-    }
-    try {
-      make_folder(index_at);
-      write_file_atomically(index, index_page(entries, std::string(build_facts().version)));
-      if (!answers.stopped()) atlas_words = atlas.write();
-    } catch (...) {
-      answers.add(current_failure());
-    }
+  try {
+    page.write(list.unreadable, !answers.stopped());
+  } catch (...) {
+    answers.add(current_failure());
   }
   answers.print_json();
-  if (!arguments.json && list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
-    tell_the_unchecked(failed, list.experiments.size(), unreadable);
-  if (indexed && !arguments.json && fs::exists(index, none))
-    fmt::print("{}; the index is {}\n", index_words(entries), printable(index));
-  if (!arguments.json) fmt::print("{}", atlas_words);
+  if (!arguments.json) {
+    if (list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
+      tell_the_unchecked(failed, list.experiments.size(), unreadable);
+    page.print();
+  }
   return answers.worst();
+}
+
+int check(const CheckOptions& options) {
+  const ExperimentArguments& arguments = options.arguments;
+  const ExperimentList list = list_experiments(options.paths, arguments.out);
+  require_baseline_of_one(options, list);
+  require_folders_of_their_own(list);
+  if (arguments.dry_run) return print_plans(list, arguments);
+  if (arguments.print_config) return print_one_config(list, arguments);
+  return arguments.shard ? measure_shares(list, options) : check_all(list, options);
+}
+
+RunVerb add_check(CLI::App& verb) {
+  const auto options = std::make_shared<CheckOptions>();
+  ExperimentArguments& arguments = options->arguments;
+  BaselineOptions& baseline = options->baseline;
+  verb.add_option("experiments", options->paths, "TOML files, or folders of them")
+      ->required()
+      ->check(not_empty())
+      ->type_name(value_kind::experiment);
+  add_sets(verb, arguments);
+  add_parts(verb, arguments);
+  add_threads(verb, arguments);
+  add_results_folder(verb, arguments, "Folder for the results; several experiments get a subfolder each");
+  add_sweep_options(verb, arguments,
+                    "Only print each experiment's points, the memory that each takes, and an estimate of the time");
+  verb.add_option("--baseline", baseline.file,
+                  "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
+      ->check(not_empty())
+      ->type_name(value_kind::baseline);
+  verb.add_flag("--update-baseline", baseline.update,
+                "Write the values of this run to the baseline, instead of comparing with it");
+  verb.add_option("--baseline-times", baseline.times,
+                  "Keep and compare times too: a time may differ by this share of the time before (0.2 or 20%)")
+      ->transform(as_share())
+      ->type_name(value_kind::share);
+  return [options](const std::string& command) {
+    options->arguments.command = command;
+    read_sweep_arguments(options->arguments);
+    const ThreadLimit limit(options->arguments.threads);
+    return check(*options);
+  };
+}
+
+}  // namespace
+
+Verb verb_check() {
+  return {"check", "Run experiments and judge their bounds and laws: the exit code is the verdict", add_check};
 }
 
 }  // namespace noonmark

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 
 #include "app/definition/default_folder.h"
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_file.h"
 #include "app/definition/first_experiment.h"
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -14,17 +17,28 @@
 #include "technique/light_frame.h"
 
 namespace noonmark {
+namespace {
 
 namespace fs = std::filesystem;
 
-int verb_init(const std::string& model, const ExperimentArguments& arguments) {
+struct InitOptions {
+  std::string model;
+  std::string out;         // the experiment's file; empty: default_file()
+  bool overwrite = false;  // a file that is there may be replaced
+};
+
+// In the working folder.
+std::string default_file(const std::string& model) { return fs::path(model).stem().string() + ".toml"; }
+
+int write_first_experiment(const InitOptions& options) {
+  const std::string& model = options.model;
   if (!names_file(model))
     throw Error(ErrorKind::usage, fmt::format("{} is not a model: give the path of a .gltf or .glb file", model));
-  const std::string file = arguments.out.empty() ? fs::path(model).stem().string() + ".toml" : arguments.out;
+  const std::string file = options.out.empty() ? default_file(model) : options.out;
   std::error_code none;
   if (fs::is_directory(file, none))
     throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the path of a file with --out", file));
-  if (!arguments.overwrite && fs::exists(fs::symlink_status(file, none)))
+  if (!options.overwrite && fs::exists(fs::symlink_status(file, none)))
     throw Error(ErrorKind::usage, fmt::format("{} is there already; choose another --out, or pass --overwrite", file));
   const Model loaded = load_model(model);
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
@@ -46,5 +60,20 @@ int verb_init(const std::string& model, const ExperimentArguments& arguments) {
       shell_quoted(default_folder(file, "recommend-") + "/recommended.toml"));
   return 0;
 }
+
+RunVerb add_init(CLI::App& verb) {
+  const auto options = std::make_shared<InitOptions>();
+  add_model(verb, options->model);
+  verb.add_option("--out", options->out, "The experiment's file")
+      ->check(not_empty())
+      ->type_name(value_kind::experiment)
+      ->default_str(fmt::format("{} for models/tree.glb", default_file("models/tree.glb")));
+  verb.add_flag("--overwrite", options->overwrite, "Replace the file if it is there already");
+  return [options](const std::string&) { return write_first_experiment(*options); };
+}
+
+}  // namespace
+
+Verb verb_init() { return {"init", "Write a first experiment for a model of your own, ready to run", add_init}; }
 
 }  // namespace noonmark

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "app/pictures/pictures.h"
 #include "app/sweep/results_folder.h"
 #include "app/sweep/verb_outputs.h"
@@ -8,11 +10,14 @@
 #include "app/verbs/verbs.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "measure/workbench.h"
 
 namespace noonmark {
+namespace {
 
-int verb_inspect(const std::string& model, ExperimentArguments arguments) {
+// Says what a glTF model holds and writes a picture of it.
+int inspect_file(const std::string& model, ExperimentArguments arguments) {
   const VerbOutputs outputs = outputs_of("inspect", model, arguments.out);
   retract(outputs);
   // A picture that is quick to make. A finer map changes nothing in it, because its shadow is the truth.
@@ -44,6 +49,32 @@ int verb_inspect(const std::string& model, ExperimentArguments arguments) {
       "Next: noonmark init {}\n",
       printable(picture), shell_quoted(model));
   return 0;
+}
+
+struct InspectOptions {
+  std::string model;
+  ExperimentArguments arguments;
+};
+
+RunVerb add_inspect(CLI::App& verb) {
+  const auto options = std::make_shared<InspectOptions>();
+  add_model(verb, options->model);
+  add_json(verb, options->arguments, "Print the same as JSON");
+  add_sets(verb, options->arguments);
+  add_out(verb, options->arguments, "Folder for the picture",
+          folders_of({"helmet.glb", "checks/helmet.glb"},
+                     [](const std::string& model) { return outputs_of("inspect", model, "").folder; }));
+  return [options](const std::string&) {
+    const ThreadLimit limit(options->arguments.threads);
+    return inspect_file(options->model, options->arguments);
+  };
+}
+
+}  // namespace
+
+Verb verb_inspect() {
+  return {"inspect", "Say what a model holds, how large it is and what is not modelled, and draw it with its shadow",
+          add_inspect};
 }
 
 }  // namespace noonmark

@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/sweep/results_folder.h"
 #include "app/sweep/verb_outputs.h"
 #include "app/verbs/experiment_arguments.h"
+#include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "base/build_facts.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "compare/report/phase.h"
 #include "measure/phase_diagram.h"
 #include "measure/workbench.h"
 #include "scenes/library.h"
+#include "technique/placements.h"
 
 namespace noonmark {
 namespace {
@@ -52,9 +56,7 @@ std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace
-
-int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments) {
+int draw_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments) {
   const VerbOutputs outputs = outputs_of("map", scene, arguments.out);
   retract(outputs);
   if (options.coarsest >= options.finest)
@@ -98,6 +100,61 @@ int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   if (!diagram.notes.empty()) fmt::print("note: {}\n", printable(diagram.notes));
   fmt::print("\n{0}/phase.html and {0}/phase.csv are written\n", printable(out));
   return 0;
+}
+
+struct MapOptions {
+  std::string scene;
+  PhaseOptions phase;
+  ExperimentArguments arguments;
+};
+
+// Of the diagram: the bounds of a usable pair, the texel sizes and the placements.
+void add_phase_options(CLI::App& verb, PhaseOptions& phase) {
+  verb.add_option("--acne", phase.acne_bound,
+                  "The most acne of a usable pair, as a share of the counted receivers: 0.001 or 0.1%")
+      ->transform(as_share())
+      ->type_name(value_kind::share)
+      ->default_str(percent_text(phase.acne_bound));
+  verb.add_option("--peter-panning", phase.peter_panning_bound, "The most Peter Panning of a usable pair")
+      ->transform(as_share())
+      ->type_name(value_kind::share)
+      ->default_str(percent_text(phase.peter_panning_bound));
+  verb.add_option("--from", phase.coarsest, "The coarsest texels: resolution at the present extent")
+      ->check(whole_number(4, 16384))
+      ->capture_default_str();
+  verb.add_option("--to", phase.finest, "The finest texels")->check(whole_number(4, 16384))->capture_default_str();
+  verb.add_option("--rows", phase.rows, "Number of texel sizes")->check(whole_number(2, 200))->capture_default_str();
+  verb.add_option("--placements", phase.placements, "S: each texel size is measured at S x S placements of its grid")
+      ->check(whole_number(1, Placements::most))
+      ->capture_default_str();
+}
+
+RunVerb add_map(CLI::App& verb) {
+  const auto options = std::make_shared<MapOptions>();
+  ExperimentArguments& arguments = options->arguments;
+  verb.add_option("scene", options->scene, "A built-in scene, or the path of a .gltf or .glb file")
+      ->required()
+      ->check(not_empty())
+      ->type_name(value_kind::scene);
+  add_sets(verb, arguments);
+  add_phase_options(verb, options->phase);
+  add_threads(verb, arguments);
+  add_json(verb, arguments, "Print the usable biases of each texel size as JSON");
+  add_out(verb, arguments, "Folder for the files",
+          folders_of({"plate", "checks/helmet.glb"},
+                     [](const std::string& scene) { return outputs_of("map", scene, "").folder; }));
+  return [options](const std::string& command) {
+    options->arguments.command = command;
+    const ThreadLimit limit(options->arguments.threads);
+    return draw_map(options->scene, options->phase, options->arguments);
+  };
+}
+
+}  // namespace
+
+Verb verb_map() {
+  return {"map", "Draw a scene's phase diagram: which texel sizes and biases are usable, and what is wrong elsewhere",
+          add_map};
 }
 
 }  // namespace noonmark

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "app/sweep/judging.h"
 #include "app/sweep/merge.h"
 #include "app/sweep/results_json.h"
+#include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/shell_words.h"
@@ -14,7 +18,6 @@
 
 namespace noonmark {
 namespace {
-
 bool has(const std::string& path) {
   std::error_code none;
   return std::filesystem::exists(path, none);
@@ -29,9 +32,15 @@ std::string folders_for_example(const std::string& folder) {
   return "JOINED SHARE SHARE ...";
 }
 
-}  // namespace
+struct MergeOptions {
+  std::vector<std::string> shares;  // folders
+  std::string out;
+  bool overwrite = false;  // also a folder whose store is no joined one
+  bool json = false;
+};
 
-int verb_merge(const MergeOptions& options) {
+// Joins the stores of shares and judges the whole. Returns 1 if a bound or a law is broken, 6 if points are missing.
+int merge_shares(const MergeOptions& options, const std::string& command) {
   if (options.shares.empty())
     throw Error(ErrorKind::usage,
                 fmt::format("{}: {}; give the folder for the joined results, and behind it the folders that noonmark "
@@ -55,7 +64,7 @@ int verb_merge(const MergeOptions& options) {
     outcome.interrupted = !merged.missing.empty();
     outcome.kept = static_cast<int64_t>(results.points.size());
     outcome.scenes.resize(static_cast<size_t>(results.planned_points));
-    fmt::print("{}", results_text(options.command, exit_code,
+    fmt::print("{}", results_text(command, exit_code,
                                   {results_json(outcome, {.experiment = merged.experiment.path,
                                                           .folder = options.out,
                                                           .exit_code = exit_code,
@@ -69,6 +78,27 @@ int verb_merge(const MergeOptions& options) {
   }
   require_sound(results);
   return exit_code;
+}
+
+RunVerb add_merge(CLI::App& verb) {
+  const auto options = std::make_shared<MergeOptions>();
+  verb.add_option("out", options->out, "Folder for the joined results")
+      ->required()
+      ->check(not_empty())
+      ->type_name(value_kind::folder);
+  verb.add_option("shares", options->shares, "The shares' folders (OUT/share-*)")
+      ->check(not_empty())
+      ->type_name(value_kind::folder);
+  verb.add_flag("--overwrite", options->overwrite, "Replace results that were measured in the folder, not joined");
+  verb.add_flag("--json", options->json, "Print the results as JSON: verdict, bounds, laws, answer and every point");
+  return [options](const std::string& command) { return merge_shares(*options, command); };
+}
+
+}  // namespace
+
+Verb verb_merge() {
+  return {"merge", "Join the results of an experiment's shares (--shard) and judge the whole, as check does",
+          add_merge};
 }
 
 }  // namespace noonmark

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 
 #include "app/advise/recommend_around.h"
@@ -12,17 +14,21 @@
 #include "app/pictures/pictures.h"
 #include "app/sweep/results_folder.h"
 #include "app/verbs/experiment_arguments.h"
+#include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
+
+constexpr const char* recommend_prefix = "recommend-";  // of the default folder
 
 // The points of the conditions alone: each choice of the sweep has its first value.
 std::vector<Settings> conditions_of(Experiment experiment) {
@@ -88,16 +94,17 @@ void remove_earlier_advice(const std::string& folder) {
   }
 }
 
-}  // namespace
+struct RecommendOptions {
+  std::string what;                           // an experiment's *.toml, a built-in scene, or a model's file
+  std::optional<double> acne, peter_panning;  // bounds; empty: the experiment's
+  std::optional<double> error, budget;        // AdviceRequest
+  int views = 5;                              // of a scene; 1: its own only
+  bool around = false;                        // also what each setting does around the answer
+  ExperimentArguments arguments;
+};
 
-int verb_recommend(const std::string& what, const RecommendOptions& options, ExperimentArguments arguments) {
-  if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
-  const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
-  const Experiment& experiment = only_part(whole);
-  const std::string out = arguments.out.empty() ? default_folder(what, "recommend-") : arguments.out;
-  require_room_to_start(true);
-  Workbench bench(gl::DebugMode::log);
-  require_image_files();
+// What is searched: the conditions, the settings to try, and the bounds.
+AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& options, Workbench& bench) {
   AdviceRequest request;
   request.conditions = conditions_of(experiment);
   const Settings first = request.conditions.front();
@@ -117,6 +124,43 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   request.accuracy = experiment.accuracy;
   request.error = options.error;
   request.budget = options.budget;
+  return request;
+}
+
+// What to type for each engine, what to know of the scenes, and the files that are written.
+void print_advice(const AdviceRequest& request, const std::vector<EngineAdvice>& engines, Workbench& bench,
+                  const std::string& out, bool around) {
+  fmt::print("\nWhat to type (what each engine cannot express is in {}/engines.txt):\n", printable(out));
+  for (const EngineAdvice& engine : engines) {
+    fmt::print("  {} ({})\n", engine.engine, engine.version);
+    for (const std::string& line : engine.lines) fmt::print("    {}\n", line);
+  }
+  if (const std::string note = notes_line(bench.scene(request.conditions.front().scene)); !note.empty())
+    fmt::print("note: {}\n", printable(note));
+  std::set<std::string> fitted;  // conditions may be lights that stand elsewhere
+  for (const Settings& condition : request.conditions)
+    fitted.insert(map_fit_note(bench.scene(condition.scene), condition));
+  for (const std::string& note : fitted)
+    if (!note.empty()) fmt::print("note: {}\n", printable(note));
+  fmt::print(
+      "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.json, {0}/engines.txt "
+      "and {0}/recommended-*.png are written\n",
+      printable(out));
+  if (around)
+    fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
+}
+
+int recommend(const RecommendOptions& options) {
+  const std::string& what = options.what;
+  ExperimentArguments arguments = options.arguments;
+  if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
+  const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
+  const Experiment& experiment = only_part(whole);
+  const std::string out = arguments.out.empty() ? default_folder(what, recommend_prefix) : arguments.out;
+  require_room_to_start(true);
+  Workbench bench(gl::DebugMode::log);
+  require_image_files();
+  const AdviceRequest request = request_of(experiment, options, bench);
 
   make_output_folder(out);
   clear_abandoned_files(out);
@@ -145,28 +189,68 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   if (advice.around) write_file_atomically(out + "/recommended.html", to_tornado_page(*advice.around));
   const Measurement shown = bench.measure(advice.answer->settings, std::nullopt);
   write_pictures(shown, out, ".", "recommended");
-  if (!arguments.json) {
-    fmt::print("\nWhat to type (what each engine cannot express is in {}/engines.txt):\n", printable(out));
-    for (const EngineAdvice& engine : engines) {
-      fmt::print("  {} ({})\n", engine.engine, engine.version);
-      for (const std::string& line : engine.lines) fmt::print("    {}\n", line);
-    }
-    if (const std::string note = notes_line(bench.scene(first.scene)); !note.empty())
-      fmt::print("note: {}\n", printable(note));
-    std::set<std::string> fitted;  // conditions may be lights that stand elsewhere
-    for (const Settings& condition : request.conditions)
-      fitted.insert(map_fit_note(bench.scene(condition.scene), condition));
-    for (const std::string& note : fitted)
-      if (!note.empty()) fmt::print("note: {}\n", printable(note));
-    fmt::print(
-        "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.json, {0}/engines.txt "
-        "and "
-        "{0}/recommended-*.png are written\n",
-        printable(out));
-    if (advice.around)
-      fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
-  }
+  if (!arguments.json) print_advice(request, engines, bench, out, advice.around.has_value());
   return 0;
+}
+
+// Of the search: the bounds, what the answer is to be, and the views.
+void add_search_options(CLI::App& verb, RecommendOptions& options) {
+  const CurveOptions bounds;  // of a scene, and of an experiment whose [curve] gives none
+  const auto add_most = [&](std::optional<double>& most, const char* name, const char* help, const std::string& unset) {
+    verb.add_option(name, most, help)->transform(as_share())->type_name(value_kind::share)->default_str(unset);
+  };
+  add_most(options.acne, "--acne", "The most acne, as a share of the counted receivers: 0.001 or 0.1%",
+           percent_text(bounds.acne_bound) + ", or acne_bound of the experiment's [curve]");
+  add_most(options.peter_panning, "--peter-panning", "The most Peter Panning",
+           percent_text(bounds.peter_panning_bound) + ", or peter_panning_bound of the experiment's [curve]");
+  add_most(options.error, "--error", "The most error. The cheapest settings are sought",
+           "what pays: the least product of cost and error");
+  verb.add_option("--budget", options.budget,
+                  "The most texels written and texture instructions a frame (the metric texel_work). The most accurate "
+                  "settings are sought")
+      ->check(above_zero())
+      ->type_name("NUMBER");
+  verb.add_option("--views", options.views,
+                  "Number of views without an [over]: the view that is given, and up to 4 turned ones")
+      ->check(whole_number(1, 5))
+      ->capture_default_str();
+}
+
+RunVerb add_recommend(CLI::App& verb) {
+  const auto options = std::make_shared<RecommendOptions>();
+  ExperimentArguments& arguments = options->arguments;
+  verb.add_option(
+          "what", options->what,
+          "A built-in scene, the path of a .gltf or .glb file, or an experiment whose [over] gives the conditions")
+      ->required()
+      ->check(not_empty())
+      ->type_name(std::string(value_kind::scene) + "|" + value_kind::experiment);
+  add_sets(verb, arguments);
+  add_search_options(verb, *options);
+  verb.add_option("--part", arguments.parts, "The part of the experiment to answer for, if it has parts")
+      ->expected(1)
+      ->type_name(value_kind::part);
+  verb.add_flag("--around", options->around,
+                "Also measure what each setting does around the answer: the error at its half and its double, and the "
+                "range in which the bounds hold");
+  add_json(verb, arguments, "Print everything that was found as JSON");
+  add_threads(verb, arguments);
+  add_out(verb, arguments, "Folder for the files",
+          folders_of({"plate", "checks/helmet.toml"},
+                     [](const std::string& what) { return default_folder(what, recommend_prefix); }));
+  return [options](const std::string& command) {
+    options->arguments.command = command;
+    const ThreadLimit limit(options->arguments.threads);
+    return recommend(*options);
+  };
+}
+
+}  // namespace
+
+Verb verb_recommend() {
+  return {"recommend",
+          "Search the cheapest settings that hold the bounds in every view and at every placement of the grid",
+          add_recommend};
 }
 
 }  // namespace noonmark

@@ -1,15 +1,19 @@
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "app/pictures/given_picture.h"
 #include "app/pictures/pictures.h"
 #include "app/pictures/point_files.h"
 #include "app/sweep/results_folder.h"
 #include "app/sweep/verb_outputs.h"
 #include "app/verbs/experiment_arguments.h"
+#include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "compare/judge/interval.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
@@ -137,9 +141,15 @@ void print_ladder(const Measurement& m, const char* clock) {
   fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
 }
 
-}  // namespace
+struct RenderOptions {
+  std::string experiment;  // empty: the default settings
+  long point = -1;         // of the experiment's sweep; -1: the sweep must have one point only
+  std::string picture;     // a file that is judged in place of R5, or empty
+  ExperimentArguments arguments;
+};
 
-int verb_render(const std::string& path, long point, const std::string& picture, const ExperimentArguments& arguments) {
+int render_point(const RenderOptions& options) {
+  const auto& [path, point, picture, arguments] = options;
   const VerbOutputs outputs = outputs_of("render", path, arguments.out);
   retract(outputs);
   const Experiment experiment = experiment_from(path, arguments);
@@ -179,6 +189,35 @@ int verb_render(const std::string& path, long point, const std::string& picture,
     fmt::print("  note: render judges no bounds and no laws; noonmark check does\n");
   fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", printable(out));
   return 0;
+}
+
+RunVerb add_render(CLI::App& verb) {
+  const auto options = std::make_shared<RenderOptions>();
+  ExperimentArguments& arguments = options->arguments;
+  add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
+  verb.add_option("--point", options->point, "Number of the point in the experiment's sweep, from 0")
+      ->check(whole_number(0));
+  verb.add_option("--picture", options->picture,
+                  "Judge this picture in place of the shadow map's: an EXR or PNG file of the view's size, the top row "
+                  "first; one grey channel, linear, from 0 (shadowed) to 1 (lit); one sample at each pixel's centre, "
+                  "without antialiasing, jitter and tone mapping")
+      ->check(not_empty())
+      ->type_name(value_kind::picture);
+  add_sets(verb, arguments);
+  add_parts(verb, arguments);
+  add_threads(verb, arguments);
+  add_out(verb, arguments, "Folder for the files", outputs_of("render", "", "").folder);
+  return [options](const std::string& command) {
+    options->arguments.command = command;
+    const ThreadLimit limit(options->arguments.threads);
+    return render_point(*options);
+  };
+}
+
+}  // namespace
+
+Verb verb_render() {
+  return {"render", "Measure one point and write its pictures, its ladder and all numbers behind it", add_render};
 }
 
 }  // namespace noonmark

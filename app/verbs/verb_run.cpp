@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/definition/default_folder.h"
@@ -13,13 +14,15 @@
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "base/threads.h"
 
 namespace noonmark {
+namespace {
 
-int verb_run(const std::string& path, const ExperimentArguments& arguments, bool dry_run) {
+int run_experiment(const std::string& path, const ExperimentArguments& arguments) {
   const std::string out = (arguments.out.empty() ? default_folder(path) : arguments.out) +
                           (arguments.shard ? "/" + arguments.shard->folder() : "");
-  const bool measures = !dry_run && !arguments.print_config;
+  const bool measures = !arguments.dry_run && !arguments.print_config;
   // A folder that does not exist has no verdict. It is made only for an experiment that can be run.
   std::error_code none;
   const bool there = std::filesystem::is_directory(out, none);
@@ -30,7 +33,7 @@ int verb_run(const std::string& path, const ExperimentArguments& arguments, bool
     fmt::print("{}", experiment_text(experiment));
     return 0;
   }
-  if (dry_run) {
+  if (arguments.dry_run) {
     print_plan(experiment, arguments.shard);
     return 0;
   }
@@ -59,5 +62,32 @@ int verb_run(const std::string& path, const ExperimentArguments& arguments, bool
                printable(out));
   return exit_code;
 }
+
+struct RunOptions {
+  std::string experiment;
+  ExperimentArguments arguments;
+};
+
+RunVerb add_run(CLI::App& verb) {
+  const auto options = std::make_shared<RunOptions>();
+  add_experiment(verb, options->experiment, "The experiment's TOML file")->required();
+  add_sets(verb, options->arguments);
+  add_parts(verb, options->arguments);
+  add_threads(verb, options->arguments);
+  add_results_folder(verb, options->arguments, "Folder for the results");
+  add_sweep_options(verb, options->arguments,
+                    "Only print the points, the memory that each takes, and an estimate of the time");
+  return [options](const std::string& command) {
+    ExperimentArguments& arguments = options->arguments;
+    arguments.command = command;
+    read_sweep_arguments(arguments);
+    const ThreadLimit limit(arguments.threads);
+    return run_experiment(options->experiment, arguments);
+  };
+}
+
+}  // namespace
+
+Verb verb_run() { return {"run", "Measure every point of an experiment and write its report", add_run}; }
 
 }  // namespace noonmark

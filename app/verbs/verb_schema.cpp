@@ -4,10 +4,20 @@
 #include "app/verbs/verbs.h"
 
 namespace noonmark {
+namespace {
 
-int verb_schema() {
-  fmt::print("{}", experiment_schema());
-  return 0;
+RunVerb add_schema(CLI::App&) {
+  return [](const std::string&) {
+    fmt::print("{}", experiment_schema());
+    return 0;
+  };
+}
+
+}  // namespace
+
+Verb verb_schema() {
+  return {"schema", "Print the JSON schema of the experiment file, with which editors complete and check it",
+          add_schema};
 }
 
 }  // namespace noonmark

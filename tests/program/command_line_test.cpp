@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <map>
 #include <sstream>
 
 #include "tests/program/fixture.h"
@@ -11,22 +12,38 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-class CommandLine : public Program {};
+class CommandLine : public Program {
+ protected:
+  // Those that the help lists.
+  Words verbs() {
+    EXPECT_EQ(run({"--help"}), 0);
+    std::istringstream lines(output_.substr(output_.find("\nSubcommands:\n") + 1));
+    Words found;
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line) && line.starts_with("  ")) found.push_back(line.substr(2, line.find(' ', 2) - 2));
+    EXPECT_GE(found.size(), 13u) << output_;
+    return found;
+  }
+  bool takes_arguments(const std::string& verb) {
+    EXPECT_EQ(run({verb, "--help"}), 0);
+    return says("\nPositionals:\n");
+  }
+};
 
 TEST_F(CommandLine, AnUnknownOptionOfEachVerbNamesTheNearest) {
-  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
-      {"run", "--overwite", "--overwrite"},   {"check", "--basline", "--baseline"},
-      {"render", "--pont", "--point"},        {"map", "--plcements", "--placements"},
-      {"recommend", "--budgt", "--budget"},   {"init", "--overwite", "--overwrite"},
-      {"inspect", "--jsn", "--json"},         {"report", "--hlp", "--help"},
-      {"merge", "--overwite", "--overwrite"}, {"scenes", "--hlp", "--help"},
-      {"settings", "--hlp", "--help"},        {"schema", "--hlp", "--help"},
-      {"doctor", "--hlp", "--help"}};
-  for (const auto& [verb, wrong, right] : cases) {
+  const std::map<std::string, std::pair<std::string, std::string>> cases = {
+      {"run", {"--overwite", "--overwrite"}}, {"check", {"--basline", "--baseline"}},
+      {"render", {"--pont", "--point"}},      {"map", {"--plcements", "--placements"}},
+      {"recommend", {"--budgt", "--budget"}}, {"init", {"--overwite", "--overwrite"}},
+      {"inspect", {"--jsn", "--json"}},       {"merge", {"--overwite", "--overwrite"}}};
+  for (const std::string& verb : verbs()) {
     SCOPED_TRACE(verb);
-    const bool has_subject = verb != "scenes" && verb != "settings" && verb != "schema" && verb != "doctor";
+    const auto found = cases.find(verb);
+    const auto [wrong, right] =
+        found == cases.end() ? std::pair<std::string, std::string>("--hlp", "--help") : found->second;
     for (const std::string& word : {wrong, wrong + "=7"}) {
-      EXPECT_EQ(run(has_subject ? Words{verb, "x", word} : Words{verb, word}), 2);
+      EXPECT_EQ(run(takes_arguments(verb) ? Words{verb, "x", word} : Words{verb, word}), 2);
       EXPECT_EQ(output_, "noonmark: " + verb + " has no option '" + wrong + "'; did you mean '" + right +
                              "'? (noonmark " + verb + " --help lists what there is)\n");
     }
@@ -51,6 +68,50 @@ TEST_F(CommandLine, AnOptionThatIsASettingNamesSet) {
   told({"run", "x.toml", "--kind", "box"}, "'--set filter.kind=box' or '--set light.kind=box'");
   EXPECT_EQ(run({"report", "out", "--resolution", "512"}), 2);
   EXPECT_FALSE(says("--set")) << "report has no such option: " << output_;
+}
+
+TEST_F(CommandLine, ABeginningNamesAllThatBeginSo) {
+  EXPECT_EQ(run({"re", "x.toml"}), 2);
+  EXPECT_TRUE(says("there is no verb 're'; did you mean 'render', 'recommend' or 'report'?")) << output_;
+  EXPECT_EQ(run({"run", "x.toml", "--p"}), 2);
+  EXPECT_TRUE(says("run has no option '--p'; did you mean '--part' or '--print-config'?")) << output_;
+  EXPECT_EQ(run({"rnu", "x.toml"}), 2);
+  EXPECT_TRUE(says("there is no verb 'rnu'; did you mean 'run'?")) << output_;
+  EXPECT_EQ(run({"--vresion"}), 2);
+  EXPECT_TRUE(says("there is no option '--vresion' before the verb; did you mean '--version'?")) << output_;
+}
+
+TEST_F(CommandLine, AWrongChoiceNamesTheNearest) {
+  for (const auto& [wrong, right] : std::vector<std::pair<std::string, std::string>>{{"map.wrap=repeet", "repeat"},
+                                                                                     {"map.wrap=CLAMP_TO_EDGE", ""},
+                                                                                     {"map.snap=tru", "true"},
+                                                                                     {"light.kind=spott", "spot"},
+                                                                                     {"view.fov_deg=wide", ""}}) {
+    SCOPED_TRACE(wrong);
+    EXPECT_EQ(run({"render", "--set", wrong}), 2);
+    EXPECT_TRUE(says("is not allowed; it takes ")) << output_;
+    EXPECT_EQ(says("; did you mean '" + right + "'?"), !right.empty()) << output_;
+  }
+}
+
+TEST_F(CommandLine, HelpAndVersionAreVerbsToo) {
+  for (const std::string& verb : verbs()) {
+    SCOPED_TRACE(verb);
+    EXPECT_EQ(run({verb, "--help"}), 0);
+    const std::string help = output_;
+    EXPECT_EQ(run({"help", verb}), 0);
+    EXPECT_EQ(output_, help);
+  }
+  EXPECT_EQ(run({"--help"}), 0);
+  const std::string help = output_;
+  EXPECT_EQ(run({"help"}), 0);
+  EXPECT_EQ(output_, help);
+  EXPECT_EQ(run({"--version"}), 0);
+  const std::string version = output_;
+  EXPECT_EQ(run({"version"}), 0);
+  EXPECT_EQ(output_, version);
+  EXPECT_EQ(run({"help", "chek"}), 2);
+  EXPECT_TRUE(says("there is no verb 'chek'; did you mean 'check'?")) << output_;
 }
 
 // A shell makes an empty value of a variable that is not set.

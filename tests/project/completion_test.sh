@@ -7,7 +7,8 @@ program=$1 completion=$2 work=$3
 rm -rf "$work"
 mkdir -p "$work/sweeps" "$work/models"
 cd "$work"
-touch one.toml TWO.TOML notes.txt tree.glb models/street.gltf models/readme.md sweeps/three.toml
+touch one.toml TWO.TOML notes.txt tree.glb shadow.exr SHADOW.PNG base.json models/street.gltf models/readme.md sweeps/three.toml
+printf '[[part]]\nname = "sun"\n[[part]]\nname = "spot light"\n' >sweeps/parts.toml
 ln -s "$program" noonmark
 # shellcheck source=/dev/null
 source "$completion"
@@ -43,7 +44,7 @@ has() {
   bad=1
 }
 
-expect 'check doctor init inspect map merge recommend render report run scenes schema settings' ''
+expect 'check doctor help init inspect map merge recommend render report run scenes schema settings version' ''
 expect 'recommend render report run' r
 expect '--help --version' -
 expect '--dry-run --help --json --out --overwrite --part --print-config --quiet --set --shard --threads' run --
@@ -52,10 +53,63 @@ expect '--help' doctor -
 expect '' scenes ''
 expect '' run --threads ''
 
+# TAB for every verb of the help and every option of its help: the options, then what is offered for each value. The help is
+# read in another way than by the completion.
+help_of() { ./noonmark "$1" --help; }
+# sample KIND: what must be offered for a value of this kind; nothing for a number.
+sample() {
+  case $1 in
+    FILE.toml) echo one.toml ;;
+    FILE.gltf) echo models ;;
+    FILE.glb) echo tree.glb ;;
+    FILE.exr) echo shadow.exr ;;
+    FILE.png) echo SHADOW.PNG ;;
+    FILE.json) echo base.json ;;
+    FOLDER) echo sweeps ;;
+    SCENE) echo plate ;;
+    NAME=VALUE) echo map.resolution= ;;
+    PART) echo sun ;;
+    VERB) echo check ;;
+    INT | NUMBER | SHARE | I/N) ;;
+    *)
+      echo "the completion does not know the kind $1" >&2
+      return 1
+      ;;
+  esac
+}
+# offers KINDS WORD...: each of the kinds, separated by "|", must have its sample among the completions.
+offers() {
+  local kinds=$1 kind wanted
+  shift
+  for kind in ${kinds//|/ }; do
+    if ! wanted=$(sample "$kind"); then
+      bad=1
+    elif [[ -n $wanted ]]; then
+      has "$wanted" "$@"
+    else
+      expect '' "$@"
+    fi
+  done
+}
+verbs=$(./noonmark --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z]*\) .*/\1/p')
+for verb in $verbs; do
+  expect "$(help_of "$verb" | grep -oE '^  (-.,)?--[a-z-]+' | grep -oE -- '--.*' | sort | tr '\n' ' ' | sed 's/ $//')" "$verb" --
+  arguments=$(help_of "$verb" | sed -n '/^Positionals:/,/^$/s/^  [a-z]* \([^ ]*\).*/\1/p' | sort -u)
+  [[ -n $arguments ]] || expect '' "$verb" ''
+  for kinds in $arguments; do offers "$kinds" "$verb" ''; done
+  while read -r option kinds; do
+    offers "$kinds" "$verb" sweeps/parts.toml "$option" ''
+  done < <(help_of "$verb" | sed -nE 's/^  (--[a-z-]+) ([^ ]+)( .*|$)/\1 \2/p')
+done
+expect '--help --version' -
+expect 'map merge' help m
+expect "spot\\ light sun" check sweeps/parts.toml --part ''
+expect '' check one.toml --part ''
+
 # Experiments, and folders that may contain some.
 expect 'TWO.TOML models one.toml sweeps' run ''
 expect 'one.toml' check sweeps o
-expect 'sweeps/three.toml' render --point 3 sweeps/
+expect 'sweeps/parts.toml sweeps/three.toml' render --point 3 sweeps/
 expect 'models sweeps' report ''
 expect 'models sweeps' run one.toml --out ''
 

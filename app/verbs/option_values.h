@@ -1,0 +1,41 @@
+// What the values of options and arguments are: the word that the help shows for each kind, and the checks.
+//
+//   verb.add_option("--picture", options->picture, "Judge this picture ...")->check(not_empty())->type_name(value_kind::picture);
+//   verb.add_option("--rows", options->rows, "Number of texel sizes")->check(whole_number(2, 200))->capture_default_str();
+//
+// The help adds "(default: ...)" to the text of an option that has CLI11's default string. The string is made from the
+// member, so that a default stands once.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <string>
+
+namespace noonmark {
+
+// Completion (app/shell/completion.bash) reads these words in the help and offers values by them; of FILE.toml the files
+// with this ending, and nothing for a number. A value of several kinds has their words, separated by "|".
+namespace value_kind {
+inline constexpr const char* experiment = "FILE.toml";
+inline constexpr const char* scene = "SCENE|FILE.gltf|FILE.glb";  // a built-in scene, or a model
+inline constexpr const char* model = "FILE.gltf|FILE.glb";
+inline constexpr const char* picture = "FILE.exr|FILE.png";
+inline constexpr const char* baseline = "FILE.json";
+inline constexpr const char* folder = "FOLDER";
+inline constexpr const char* setting = "NAME=VALUE";  // a setting and its value
+inline constexpr const char* part = "PART";           // a part of the experiment on the command line
+inline constexpr const char* verb = "VERB";
+inline constexpr const char* share = "SHARE";  // a number from 0 to 1, or a percentage
+}  // namespace value_kind
+
+// For CLI::Option::check. They return the mistake in the text, or an empty string.
+CLI::Validator not_empty();
+CLI::Validator whole_number(long least, long most = std::numeric_limits<long>::max());
+CLI::Validator above_zero();
+
+// For CLI::Option::transform: a share as "0.005" or "0.5%" becomes its number (app/definition/share_text.h).
+CLI::Validator as_share();
+
+// A default share as a user writes it: "0.1%".
+std::string percent_text(double share);
+
+}  // namespace noonmark

@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/verbs/verbs.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+int list_settings() {
+  const Settings defaults;
+  size_t width = 0;  // of the column of names
+  for (const Setting& row : settings_table()) width = std::max(width, row.name.size());
+  fmt::print("Settings: --set name=value, or in an experiment file ([map] resolution = 2048).\n\n");
+  for (const Setting& row : settings_table())
+    fmt::print("{:<{}} {:<16} {}\n{:<{}} {}\n", row.name, width, row.get(defaults), row.help, "", width + 17,
+               row.range_with_unit());
+  fmt::print("\nMetrics: for [[bound]] and [plot].\n\n");
+  for (const Metric& metric : metrics_table()) fmt::print("{:<32} {:<10} {}\n", metric.name, metric.unit, metric.help);
+  fmt::print("\nQuantities of the bias curve, for [[bound]]:\n\n");
+  for (const CurveQuantity& quantity : curve_quantities())
+    fmt::print("{:<32} {:<10} {}\n", quantity.name, quantity.unit, quantity.help);
+  return 0;
+}
+
+RunVerb add_settings(CLI::App&) {
+  return [](const std::string&) { return list_settings(); };
+}
+
+}  // namespace
+
+Verb verb_settings() {
+  return {"settings", "List every setting, metric and quantity: unit, range, default, meaning", add_settings};
+}
+
+}  // namespace noonmark

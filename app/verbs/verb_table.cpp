@@ -1,0 +1,16 @@
+#include "app/verbs/verbs.h"
+
+namespace noonmark {
+
+// Each stands at the end of the file with its name: app/verbs/verb_run.cpp and so on.
+Verb verb_run(), verb_check(), verb_render(), verb_map(), verb_recommend(), verb_init(), verb_inspect(), verb_report(),
+    verb_merge(), verb_scenes(), verb_settings(), verb_schema(), verb_doctor(), verb_help(), verb_version();
+
+std::span<const Verb> verb_table() {
+  static const Verb table[] = {verb_run(),      verb_check(),   verb_render(), verb_map(),   verb_recommend(),
+                               verb_init(),     verb_inspect(), verb_report(), verb_merge(), verb_scenes(),
+                               verb_settings(), verb_schema(),  verb_doctor(), verb_help(),  verb_version()};
+  return table;
+}
+
+}  // namespace noonmark
