@@ -13,8 +13,6 @@
 #include "raytrace/traced_scene.h"
 
 namespace noonmark::raytrace {
-namespace {
-
 // The silhouettes among the taps of a receiver. A receiver that is lit and has none is lit at all of these places, for
 // sure (OwnSurface::lit_at() without a crossing), so no ray is needed at a tap's exact place. For the others they are
 // listed once, not searched for at each tap. Only where one table of offsets serves all receivers of parallel rays; then
@@ -77,8 +75,6 @@ class AmongTaps {
   glm::dvec2 first_texel_{0};  // the centre of texel (0, 0)
   double texel_m_ = 0;
 };
-
-}  // namespace
 
 struct LookupTracer::Impl {
   TracedScene& traced;

@@ -1,7 +1,7 @@
 // app/verbs/: the command line: a file for each verb, which adds its options, calls the other rooms and prints. May
 // include everything; nothing includes it.
 //
-// A verb is one file, app/verbs/verb_x.cpp, and one row in app/verbs/verb_table.cpp. The parser, the help, the man page
+// A verb is one file, app/verbs/verb_*.cpp, and one row in app/verbs/verb_table.cpp. The parser, the help, the man page
 // and the completion are made from the rows.
 #pragma once
 #include <functional>

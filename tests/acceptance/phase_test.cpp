@@ -42,8 +42,7 @@ TEST(PhaseDiagram, AcneOfAPlaneIsTheTailOfItsSlopeOverTheTexel) {
   for (const auto& [theta, phi] : {std::pair(60.0, 0.0), std::pair(60.0, 45.0), std::pair(75.0, 20.0)}) {
     SCOPED_TRACE(std::to_string(theta) + " turned by " + std::to_string(phi));
     const Settings settings = plane(theta, phi);
-    const PhaseDiagram d =
-        phase_of(settings, {.rows = 3, .coarsest = 64, .finest = 256, .placements = 8, .biases_per_octave = 4});
+    const PhaseDiagram d = phase_of(settings, {{}, 3, 64, 256, 8, 4});
     ASSERT_GT(d.receivers, 10000);
     // The slope in metres of depth for a metre along each axis of the texels.
     const double slope = std::tan(theta * std::numbers::pi / 180), turned = phi * std::numbers::pi / 180;
@@ -70,7 +69,7 @@ TEST(PhaseDiagram, AcneOfAPlaneIsTheTailOfItsSlopeOverTheTexel) {
 TEST(PhaseDiagram, AcneOfCubeRoomEndsWhereLaw1Says) {
   const PhaseDiagram d = phase_of(
       with({{"map.format", "32f"}, {"view.target_m", "-1,0,2"}, {"view.fov_deg", "7"}}, small("cube-room", 240, 135)),
-      {.rows = 5, .coarsest = 256, .finest = 4096, .placements = 8, .biases_per_octave = 2});
+      {{}, 5, 256, 4096, 8, 2});
   ASSERT_EQ(d.rows.size(), 5u);
   for (const PhaseRow& row : d.rows) {
     EXPECT_LE(row.last_acne_m, d.law_steepest * row.texel_m * 1.0001) << row.resolution;
@@ -83,7 +82,7 @@ TEST(PhaseDiagram, TexelsOfOneSizeGiveOneRow) {
   const auto row_of = [&](double extent_m, int resolution) {
     const PhaseDiagram d = phase_of(
         with({{"map.extent_m", std::to_string(extent_m)}, {"map.format", "32f"}}, small("cube-room", 240, 135)),
-        {.rows = 2, .coarsest = resolution, .finest = 2 * resolution, .placements = 4, .biases_per_octave = 4});
+        {{}, 2, resolution, 2 * resolution, 4, 4});
     return d;
   };
   const PhaseDiagram narrow = row_of(80, 512), wide = row_of(160, 1024);  // all that the camera sees is in both
@@ -105,8 +104,8 @@ TEST(PhaseDiagram, TexelsOfOneSizeGiveOneRow) {
 TEST(PhaseDiagram, SaysWhatItCannotShow) {
   EXPECT_THROW(phase_of(small("point-room"), {}), Error);
   EXPECT_THROW(phase_of(with({{"bias.slope", "0.01"}}, small("cube-room")), {}), Error);
-  EXPECT_NO_THROW(phase_of(with({{"bias.slope", "0.01"}, {"bias.unit", "m"}}, small("cube-room", 40, 24)),
-                           {.rows = 2, .coarsest = 32, .finest = 64, .placements = 2}));
+  EXPECT_NO_THROW(
+      phase_of(with({{"bias.slope", "0.01"}, {"bias.unit", "m"}}, small("cube-room", 40, 24)), {{}, 2, 32, 64, 2}));
 }
 
 }  // namespace
