@@ -13,13 +13,14 @@
 #include "compare/judge/laws.h"
 #include "compare/report/escape.h"
 #include "measure/workbench.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::acceptance {
 namespace {
 
 std::vector<std::string> atlas_files() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(NOONMARK_SOURCE_DIR "/experiments/atlas"))
+  for (const auto& entry : std::filesystem::directory_iterator(noonmark::test::source_dir() + "/experiments/atlas"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;
@@ -80,7 +81,7 @@ TEST(Atlas, EachRowBreaksWithoutItsCure) {
 // The matrix of docs/reference/atlas.md is that of a run of scripts/atlas; a row that is new or renamed needs another run
 // and scripts/reference-tables.
 TEST(Atlas, ReferenceHasEachRow) {
-  std::ifstream file(NOONMARK_SOURCE_DIR "/docs/reference/atlas.md");
+  std::ifstream file(noonmark::test::source_dir() + "/docs/reference/atlas.md");
   std::set<std::string> shown, rows;
   bool inside = false;
   for (std::string line; std::getline(file, line);) {

@@ -21,6 +21,7 @@
 #include "technique/setting_rules.h"
 #include "tests/raytrace/bare_rays.h"
 #include "tests/support/benchmark.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
@@ -173,8 +174,8 @@ void measure(const std::string& path, int rounds) {
 }  // namespace noonmark
 
 int main(int argc, char** argv) {
-  const auto asked = noonmark::test::benchmark_arguments({argv + 1, argv + argc}, noonmark::help, 3,
-                                                         {NOONMARK_SOURCE_DIR "/experiments/cube-room.toml"});
+  const auto asked = noonmark::test::benchmark_arguments(
+      {argv + 1, argv + argc}, noonmark::help, 3, {noonmark::test::source_dir() + "/experiments/cube-room.toml"});
   if (!asked) return 0;
   for (const std::string& experiment : asked->what) noonmark::measure(experiment, asked->rounds);
 }

@@ -10,6 +10,7 @@
 #include "app/definition/experiment_file.h"
 #include "measure/stages.h"
 #include "tests/support/benchmark.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
@@ -62,8 +63,8 @@ void measure(const std::string& path, int rounds) {
 }  // namespace noonmark
 
 int main(int argc, char** argv) {
-  const auto asked = noonmark::test::benchmark_arguments({argv + 1, argv + argc}, noonmark::help, 9,
-                                                         {NOONMARK_SOURCE_DIR "/experiments/cube-room.toml"});
+  const auto asked = noonmark::test::benchmark_arguments(
+      {argv + 1, argv + argc}, noonmark::help, 9, {noonmark::test::source_dir() + "/experiments/cube-room.toml"});
   if (!asked) return 0;
   for (const std::string& experiment : asked->what) noonmark::measure(experiment, asked->rounds);
 }

@@ -16,6 +16,7 @@
 #include "technique/filters.h"
 #include "technique/setting_rules.h"
 #include "technique/tap_pattern.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
@@ -352,12 +353,14 @@ RC_GTEST_PROP(Engines, NothingIsDropped, ()) {
 
 // docs/reference/engines.md holds one row of its table for each field, and no other.
 TEST(Engines, TheDocumentListsEachField) {
-  const std::string document = read_file(NOONMARK_SOURCE_DIR "/docs/reference/engines.md", uint64_t{1} << 20);
+  const std::string document =
+      read_file(noonmark::test::source_dir() + "/docs/reference/engines.md", uint64_t{1} << 20);
   std::string table = "| engine, version | light | field | unit | acts on | source |\n|---|---|---|---|---|---|\n";
   for (const EngineField& row : engine_fields())
     table += "| " + row.engine + " " + row.version + " | " + row.light + " | `" + row.field + "` | " + row.unit +
              " | " + row.place + " | " + row.source + " |\n";
-  EXPECT_NE(document.find(table + "\n"), std::string::npos) << "docs/reference/engines.md must hold this table:\n" << table;
+  EXPECT_NE(document.find(table + "\n"), std::string::npos) << "docs/reference/engines.md must hold this table:\n"
+                                                            << table;
 }
 
 }  // namespace

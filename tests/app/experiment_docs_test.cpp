@@ -13,12 +13,13 @@
 #include "app/definition/experiment_file.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
 
 std::string document(const std::string& name) {
-  return read_file(std::string(NOONMARK_SOURCE_DIR) + "/" + name, uint64_t{1} << 24);
+  return read_file(noonmark::test::source_dir() + "/" + name, uint64_t{1} << 24);
 }
 
 struct Block {
@@ -57,9 +58,10 @@ std::string refusal(const std::string& toml) {
 
 TEST(ExperimentDocuments, EveryExampleIsRead) {
   int examples = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(NOONMARK_SOURCE_DIR "/docs")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(noonmark::test::source_dir() + "/docs")) {
     if (entry.path().extension() != ".md") continue;
-    const std::string name = "docs/" + std::filesystem::relative(entry.path(), NOONMARK_SOURCE_DIR "/docs").string();
+    const std::string name =
+        "docs/" + std::filesystem::relative(entry.path(), noonmark::test::source_dir() + "/docs").string();
     for (const Block& block : blocks_of(document(name))) {
       if (block.language != "toml") continue;
       ++examples;

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "tests/support/sample_results.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
@@ -440,7 +441,7 @@ TEST(Experiment, HostileFilesAreErrors) {
 
 TEST(Experiment, EveryFileInTheRepositoryIsGood) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(NOONMARK_SOURCE_DIR) + "/experiments"))
+  for (const auto& entry : std::filesystem::directory_iterator(noonmark::test::source_dir() + "/experiments"))
     if (entry.path().extension() == ".toml") {
       EXPECT_GT(points(load_experiment(entry.path().string())).size(), 0u);
       ++files;

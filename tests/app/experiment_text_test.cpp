@@ -12,6 +12,7 @@
 #include "app/definition/definition.h"
 #include "app/definition/experiment_file.h"
 #include "base/error.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
@@ -44,7 +45,7 @@ void expect_same(const Experiment& a, const Experiment& b) {
 }
 
 TEST(ExperimentText, EveryExperimentComesBack) {
-  const std::filesystem::path root = std::filesystem::path(NOONMARK_SOURCE_DIR) / "experiments";
+  const std::filesystem::path root = std::filesystem::path(noonmark::test::source_dir()) / "experiments";
   int read = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     if (entry.path().extension() != ".toml") continue;
@@ -75,7 +76,7 @@ TEST(ExperimentText, TextAndPathsComeBack) {
 }
 
 TEST(ExperimentText, OverridesAndPartsAreInIt) {
-  Experiment experiment = load_experiment(std::string(NOONMARK_SOURCE_DIR) + "/experiments/techniques.toml");
+  Experiment experiment = load_experiment(noonmark::test::source_dir() + "/experiments/techniques.toml");
   const std::string part = experiment.parts.at(1).part;
   choose_parts(experiment, {part});
   apply_override(experiment, "view.width_px=77");

@@ -15,6 +15,7 @@
 #include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/sample_results.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::fuzz {
 namespace {
@@ -144,7 +145,7 @@ name = "b\u00e9\t"
 )toml",
       "a.b = 1\n[a]\nc = 1979-05-27T07:32:00Z\nd = \"\"\"\nx\\\n  y\"\"\"\ne = '''z'''\nf = [nan, +inf, 0b1, 0o7,]\n"};
   // The program's own experiments. Only the laws are large.
-  const std::filesystem::path own = std::filesystem::path(NOONMARK_SOURCE_DIR) / "experiments";
+  const std::filesystem::path own = std::filesystem::path(noonmark::test::source_dir()) / "experiments";
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(own))
     if (entry.path().extension() == ".toml" && entry.file_size() < 6000) files.insert(entry.path());

@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::fuzz {
 namespace {
@@ -40,7 +41,7 @@ TEST_P(Fuzz, SeedsAndWhatOnceBroke) {
   ASSERT_FALSE(seeds.empty());
   for (size_t i = 0; i < seeds.size(); ++i) run(seeds[i], "seed " + std::to_string(i));
   const std::filesystem::path folder =
-      std::filesystem::path(NOONMARK_SOURCE_DIR) / "tests/fuzz/regressions" / GetParam().target->name;
+      std::filesystem::path(noonmark::test::source_dir()) / "tests/fuzz/regressions" / GetParam().target->name;
   std::set<std::filesystem::path> files;
   if (std::filesystem::exists(folder))  // a target without a known failure has no folder
     for (const auto& entry : std::filesystem::directory_iterator(folder)) files.insert(entry.path());

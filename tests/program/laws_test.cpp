@@ -7,6 +7,7 @@
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_file.h"
 #include "tests/program/fixture.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 class ProgramLaws : public Program {};
 
 const std::string& laws_file() {
-  static const std::string path = std::string(NOONMARK_SOURCE_DIR) + "/experiments/laws.toml";
+  static const std::string path = noonmark::test::source_dir() + "/experiments/laws.toml";
   return path;
 }
 // Each part of the laws is a test of its own, because together they take minutes and CTest runs several tests at a

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "tests/program/fixture.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -77,7 +78,7 @@ TEST_F(Libraries, ReferenceNamesEveryOneThatTheProgramIsLinkedWith) {
   std::string dynamic;
   for (int c = 0; (c = std::fgetc(listing)) != EOF;) dynamic += static_cast<char>(c);
   if (pclose(listing) != 0) GTEST_SKIP() << "no readelf here";
-  const std::string page = read_file(NOONMARK_SOURCE_DIR "/docs/reference/exit-codes.md");
+  const std::string page = read_file(noonmark::test::source_dir() + "/docs/reference/exit-codes.md");
   const size_t begin = page.find("What the program is linked with"), end = page.find("ends with 127", begin);
   ASSERT_NE(end, std::string::npos);
   const auto in_small_letters = [](std::string text) {

@@ -12,6 +12,7 @@
 #include "scenes/builtin.h"
 #include "tests/program/fixture.h"
 #include "tests/support/measured.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -105,7 +106,7 @@ TEST_F(Program, ChecksTheExperimentOfTheDemo) {
   // Every point, with a ninth of the pixels. This is enough, because the bounds are shares of the receivers (57,600
   // pixels). The phase diagram has all its texel sizes and biases, of a small picture: no bound reads it, and its numbers
   // are tested in tests/acceptance/phase_test.cpp.
-  std::string shipped = read_file(std::string(NOONMARK_SOURCE_DIR) + "/experiments/cube-room.toml");
+  std::string shipped = read_file(noonmark::test::source_dir() + "/experiments/cube-room.toml");
   const std::string phase = "\n[phase]\nwidth_px = 320\n";
   ASSERT_NE(shipped.find(phase), std::string::npos);
   shipped.replace(shipped.find(phase), phase.size(), "\n[phase]\nwidth_px = 96\nplacements = 2\n");

@@ -5,19 +5,20 @@
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_file.h"
 #include "tests/program/fixture.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::acceptance {
 namespace {
 
 std::vector<std::string> chapters() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(std::string(NOONMARK_SOURCE_DIR) + "/experiments/tutorials"))
+  for (const auto& entry : fs::directory_iterator(noonmark::test::source_dir() + "/experiments/tutorials"))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 std::string path_of(const std::string& chapter) {
-  return std::string(NOONMARK_SOURCE_DIR) + "/experiments/tutorials/" + chapter + ".toml";
+  return noonmark::test::source_dir() + "/experiments/tutorials/" + chapter + ".toml";
 }
 
 class Tutorial : public Program, public testing::WithParamInterface<std::string> {};

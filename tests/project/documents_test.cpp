@@ -12,13 +12,14 @@
 
 #include "base/file.h"
 #include "technique/settings.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = NOONMARK_SOURCE_DIR;
+const fs::path root = noonmark::test::source_dir();
 const std::vector<std::string> folders = {"app",      "base",        "cmake",     "compare", "docs",
                                           "examples", "experiments", "gl",        "measure", "raytrace",
                                           "scenes",   "scripts",     "technique", "tests"};

@@ -17,6 +17,7 @@
 #include "technique/filters.h"
 #include "technique/light_kind.h"
 #include "technique/settings.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
@@ -102,7 +103,7 @@ TableLines filters_table_lines() {
 // A page of docs/reference, and the lines between the two comments that enclose a table in it.
 class Page {
  public:
-  explicit Page(const std::string& name) : path_(NOONMARK_SOURCE_DIR "/docs/reference/" + name + ".md") {
+  explicit Page(const std::string& name) : path_(noonmark::test::source_dir() + "/docs/reference/" + name + ".md") {
     std::ifstream file(path_);
     for (std::string line; std::getline(file, line);) lines_.push_back(line);
     if (lines_.empty()) throw std::runtime_error(path_ + " is empty or not there");

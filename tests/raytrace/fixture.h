@@ -18,6 +18,7 @@
 #include "scenes/receivers.h"
 #include "scenes/shapes.h"
 #include "technique/light_frame.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::test {
 
@@ -270,7 +271,7 @@ inline Scene moved(Scene scene, glm::dvec3 by) {
 }
 
 inline std::string shared_model(const std::string& name) {
-  return std::string(NOONMARK_SOURCE_DIR) + "/../shared/scenes/" + name + "/" + name + ".gltf";
+  return noonmark::test::source_dir() + "/../shared/scenes/" + name + "/" + name + ".gltf";
 }
 
 // A light straight above, 10 m up: u and v are x and -z (or its turn), depth is 10 - y.

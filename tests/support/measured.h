@@ -8,6 +8,7 @@
 
 #include "measure/workbench.h"
 #include "scenes/library.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::acceptance {
 
@@ -36,7 +37,7 @@ inline Settings small(const std::string& scene, int width = 400, int height = 24
 inline constexpr double rounding_of_steps = 1e-6;
 
 inline std::string model(const std::string& name) {
-  return (std::filesystem::path(NOONMARK_SOURCE_DIR).parent_path() / "shared/scenes" / name / (name + ".gltf"))
+  return (std::filesystem::path(noonmark::test::source_dir()).parent_path() / "shared/scenes" / name / (name + ".gltf"))
       .string();
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "base/file.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 
@@ -40,7 +41,7 @@ class Browser : public testing::Test {
       ASSERT_NE(at, std::string::npos);
       page.insert(at, "<script>" + script + "</script>");
     };
-    insert("</body>", read_file(std::string(NOONMARK_SOURCE_DIR "/tests/compare/report/") + probe));
+    insert("</body>", read_file(std::string(noonmark::test::source_dir() + "/tests/compare/report/") + probe));
     insert("</head>",
            "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
            "addEventListener('unhandledrejection', function(e) { errors.push(String(e.reason)); });"

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/file.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark {
 namespace {
@@ -58,7 +59,7 @@ TEST(Style, ContrastIsThatOfWcag) {
 }
 
 TEST(Style, TextHasContrastInLightAndDark) {
-  const std::string style = read_file(NOONMARK_SOURCE_DIR "/compare/report/page/style.css");
+  const std::string style = read_file(noonmark::test::source_dir() + "/compare/report/page/style.css");
   const size_t dark_at = style.find("(prefers-color-scheme: dark)");
   ASSERT_NE(dark_at, std::string::npos);
   Colors light, dark;

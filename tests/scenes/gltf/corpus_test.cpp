@@ -7,13 +7,14 @@
 
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path shared(const char* name) { return fs::path(NOONMARK_SOURCE_DIR).parent_path() / "shared" / name; }
+fs::path shared(const char* name) { return fs::path(noonmark::test::source_dir()).parent_path() / "shared" / name; }
 
 json parse_file(const fs::path& path) { return json::parse(std::ifstream(path)); }
 

@@ -13,6 +13,7 @@
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"
 #include "tests/scenes/gltf/second_reader.h"
+#include "tests/support/source_dir.h"
 
 namespace noonmark::test {
 namespace {
@@ -185,7 +186,7 @@ TEST_F(GltfDifferential, ADifferenceIsFound) {
 }
 
 TEST_F(GltfDifferential, ModelsBesideTheProject) {
-  const fs::path root = fs::path(NOONMARK_SOURCE_DIR).parent_path() / "shared" / "scenes";
+  const fs::path root = fs::path(noonmark::test::source_dir()).parent_path() / "shared" / "scenes";
   if (!fs::exists(root)) GTEST_SKIP() << "no models at " << root;
   for (const char* name : {"FlightHelmet", "Lantern"})
     expect_agreement(name, (root / name / (std::string(name) + ".gltf")).string());
