@@ -46,8 +46,8 @@ void add_out(CLI::App& verb, ExperimentArguments& arguments, const char* what, c
 void add_results_folder(CLI::App& verb, ExperimentArguments& arguments, const char* what);
 // Of these verbs too: --overwrite, --shard, --dry-run, --json, --quiet, --print-config.
 void add_sweep_options(CLI::App& verb, ExperimentArguments& arguments, const char* dry_run);
-// Sets the share: that of --shard, else that of the task of a Slurm array. Throws Error(usage) for options that exclude each
-// other, and for a wrong share.
+// Sets the share: that of --shard, else that of the task of a Slurm array. Throws Error(usage) for options that exclude
+// each other, and for a wrong share.
 void read_sweep_arguments(ExperimentArguments& arguments);
 
 // A default folder for the help: "out/shadows for shadows.toml, out/checks/shadows for checks/shadows.toml".
