@@ -33,6 +33,13 @@ std::string lookup_work_of(const Settings& settings) {
   return key;
 }
 
+StageKeys::StageKeys(const Settings& settings)
+    : scene(scene_key_of(settings)),
+      view(view_key_of(settings)),
+      truth(truth_key_of(settings)),
+      map(map_key_of(settings)),
+      lookup(lookup_key_of(settings)) {}
+
 std::string curve_key_of(const Settings& settings, const BiasPart& varied, const CurveOptions& options) {
   // All settings except the amount of the part that the curve varies.
   return settings_key(settings, {Stage::scene, Stage::view, Stage::truth, Stage::map, Stage::lookup, Stage::ladder},

@@ -20,6 +20,12 @@ std::string lookup_key_of(const Settings& settings);
 // change the depth that is compared are not in it, because they change no step of the shader and no texel it reads. So
 // points with the same map_key_of() and the same text here ask the same of the machine.
 std::string lookup_work_of(const Settings& settings);
+// All of them, made once for a point.
+struct StageKeys {
+  explicit StageKeys(const Settings& settings);
+  std::string scene, view, truth, map, lookup;
+};
+
 std::string curve_key_of(const Settings& settings, const BiasPart& varied, const CurveOptions& options);
 
 }  // namespace noonmark

@@ -108,8 +108,8 @@ struct Workbench::Impl {
   Impl(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> all)
       : renderer(debug, std::move(shaders)), stages(std::move(all)) {}
 
-  const SceneStage& load(const Settings& settings) {
-    const std::string key = scene_key_of(settings);
+  const SceneStage& load(const Settings& settings) { return load(settings, scene_key_of(settings)); }
+  const SceneStage& load(const Settings& settings, const std::string& key) {
     if (!scene.has(key)) forget_scene();
     return scene.get(key, [&] { return stages->load_scene(renderer, settings); });
   }
@@ -127,12 +127,14 @@ struct Workbench::Impl {
   struct Asked {
     const SceneStage& loaded;
     Technique technique;
+    StageKeys keys;
   };
   // The settings' scene, loaded, and what the settings mean there. Throws before the scene is loaded where it can.
   Asked begin(const Settings& settings) {
     validate(settings);
-    const SceneStage& loaded = load(settings);
-    return {loaded, Technique(*loaded.scene, settings)};
+    StageKeys keys(settings);
+    const SceneStage& loaded = load(settings, keys.scene);
+    return {loaded, Technique(*loaded.scene, settings), std::move(keys)};
   }
 
   struct Looked {
@@ -140,26 +142,26 @@ struct Workbench::Impl {
     const TruthStage& truth;
   };
   // The receivers, which are then on the device.
-  const ViewStage& see(const SceneStage& loaded, const Settings& settings) {
-    const std::string key = view_key_of(settings);
-    const ViewStage& seen = view.get(key, [&] { return stages->take_view(renderer, *loaded.scene, settings.view); });
-    if (receivers_on_device != key) {
+  const ViewStage& see(const Asked& asked) {
+    const ViewStage& seen = view.get(asked.keys.view, [&] {
+      return stages->take_view(renderer, *asked.loaded.scene, asked.technique.settings.view);
+    });
+    if (receivers_on_device != asked.keys.view) {
       renderer.load_receivers(seen.receivers, seen.camera.eye_m);
-      receivers_on_device = key;
+      receivers_on_device = asked.keys.view;
     }
     return seen;
   }
   // The receivers and their truth.
-  Looked look(const SceneStage& loaded, const Technique& technique) {
-    const ViewStage& seen = see(loaded, technique.settings);
+  Looked look(const Asked& asked) {
+    const ViewStage& seen = see(asked);
     return {seen,
-            truth.get(truth_key_of(technique.settings), [&] { return stages->trace_truth(loaded, seen, technique); })};
+            truth.get(asked.keys.truth, [&] { return stages->trace_truth(asked.loaded, seen, asked.technique); })};
   }
 
   // The map of a point.
-  MapStage& drawn(const Scene& drawn_scene, const Technique& technique) {
-    MapStage& stage =
-        map.get(map_key_of(technique.settings), [&] { return stages->draw_map(renderer, drawn_scene, technique); });
+  MapStage& drawn(const Scene& drawn_scene, const Technique& technique, const std::string& key) {
+    MapStage& stage = map.get(key, [&] { return stages->draw_map(renderer, drawn_scene, technique); });
     if (!stage.map) stage.map = stages->draw_map(renderer, drawn_scene, technique).map;
     return stage;
   }
@@ -169,8 +171,7 @@ struct Workbench::Impl {
     if (MapStage* const kept = map.value()) keep_small(renderer, kept->map);
   }
 
-  void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
-                      const Technique& technique);
+  void add_placements(PointRecord& record, PlacementStage& placements, const Looked& looked, const Asked& asked);
 
   LivePicture draw_live(const SceneStage& loaded, const Settings& settings);
 
@@ -235,17 +236,18 @@ AvailableMemory Workbench::memory_of_program(bool pictures) const {
 
 // Adds the metrics over all placements. OpenGL renders the worst placement too: the counts are compared with it, and what
 // it shows there is a metric of its own.
-void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen,
-                                     const TruthStage& traced, const Technique& technique) {
+void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const Looked& looked,
+                                     const Asked& asked) {
+  const auto& [seen, traced] = looked;
   const int worst = worst_placement(placements.counts());
   record.metrics.merge(placement_metrics(placements.counts(), placements.facts(worst)));
-  const Technique moved = technique.at(placements.frame(worst));
-  const SceneStage& loaded = load(technique.settings);
-  LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
+  const Technique moved = asked.technique.at(placements.frame(worst));
+  const SceneStage& loaded = asked.loaded;
+  LookupStage lookup_there = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
   MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
-  const ShownStage shown = stages->show(renderer, drawn, asked, traced, moved);
+  const ShownStage shown = stages->show(renderer, drawn, lookup_there, traced, moved);
   const Climbed climbed = stages->climb_strips(
-      renderer, asked, seen, traced, shown, moved, nullptr,
+      renderer, lookup_there, seen, traced, shown, moved, nullptr,
       [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
   record.metrics["error_worst_shown"] = error_of(climbed.ladder);
   record.metrics["placement_disagreements"] = static_cast<double>(placements.disagreements());
@@ -261,15 +263,17 @@ void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placem
 
 PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured,
                               const RowDone& row_done) {
-  const auto [loaded, technique] = impl_->begin(settings);
-  const auto [view, truth] = impl_->look(loaded, technique);
+  const Impl::Asked asked = impl_->begin(settings);
+  const SceneStage& loaded = asked.loaded;
+  const auto [view, truth] = impl_->look(asked);
   if (measured) return rejudged_phase(*measured, *loaded.scene, view, truth, settings, options);
   return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options, row_done);
 }
 
 std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<const Settings> points) {
-  const auto [loaded, technique] = impl_->begin(picture);
-  const auto [view, truth] = impl_->look(loaded, technique);
+  const Impl::Asked asked = impl_->begin(picture);
+  const SceneStage& loaded = asked.loaded;
+  const auto [view, truth] = impl_->look(asked);
   // Each place reads medians over the receivers, and the points of a sweep share most of their maps.
   std::map<std::string, PhasePlace> of_one_unit;
   std::vector<PhasePlace> places;
@@ -332,8 +336,9 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
 
 PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup) {
   Impl& b = *impl_;
-  const auto [loaded, technique] = b.begin(settings);
-  b.see(loaded, settings);
+  const Impl::Asked asked = b.begin(settings);
+  const auto& [loaded, technique, keys] = asked;
+  b.see(asked);
   b.lookup.forget();  // there may be no memory for another map
   b.map.forget();
   PassTimes times;
@@ -353,14 +358,13 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Technique& technique = asked.technique;
   const Scene& scene = *loaded.scene;
 
-  const Impl::Looked looked = b.look(loaded, technique);
+  const Impl::Looked looked = b.look(asked);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  if (!b.lookup.has(lookup_key_of(settings))) b.free_large_map();
-  LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
-    return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, technique);
-  });
-  MapStage& map = b.drawn(scene, technique);
+  if (!b.lookup.has(asked.keys.lookup)) b.free_large_map();
+  LookupStage& lookup = b.lookup.get(
+      asked.keys.lookup, [&] { return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, technique); });
+  MapStage& map = b.drawn(scene, technique, asked.keys.map);
   ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, technique);
 
   const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
@@ -394,9 +398,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     m.flicker = trace_flicker({*b.stages, b.renderer, loaded, view, truth, technique, shown.r5});
     m.record.metrics.merge(measure_flicker(*m.flicker));
   }
-  if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, view, truth, technique);
-  m.stored_rows = [&b, &scene, technique = technique](int first_row, int count) {
-    return b.renderer.read_rows(*b.drawn(scene, technique).map, first_row, count);
+  if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, looked, asked);
+  m.stored_rows = [&b, &scene, technique = technique, key = asked.keys.map](int first_row, int count) {
+    return b.renderer.read_rows(*b.drawn(scene, technique, key).map, first_row, count);
   };
   return m;
 }
