@@ -157,5 +157,15 @@ TEST(ExperimentDefinition, HasNoFolderOfItsHost) {
   EXPECT_EQ(experiment_of(one, "x").base.scene.name, "/home/ann/models/a.glb");
 }
 
+TEST(Experiment, EveryFileInTheRepositoryIsGood) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(noonmark::test::source_dir() + "/experiments"))
+    if (entry.path().extension() == ".toml") {
+      EXPECT_GT(points(load_experiment(entry.path().string())).size(), 0u);
+      ++files;
+    }
+  EXPECT_GT(files, 0);
+}
+
 }  // namespace
 }  // namespace noonmark
