@@ -8,8 +8,14 @@
 set(NOONMARK_SANITIZE -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow)
 set(NOONMARK_SANITIZED_LIBRARIES noonmark_base noonmark_scenes)
 
-# noonmark_sanitized(OUT item...): the items with the names of the sanitized libraries; other names stay as they are.
+# noonmark_sanitized(OUT item...): the items with the names of the sanitized libraries; other names stay as they are. Another
+# library of the program is an error: it would bring the code without sanitizers.
 function(noonmark_sanitized out)
+  foreach(item ${ARGN})
+    if(item MATCHES "^noonmark_" AND NOT item IN_LIST NOONMARK_SANITIZED_LIBRARIES AND NOT item STREQUAL noonmark_options)
+      message(FATAL_ERROR "${item} has no sanitized twin (cmake/sanitize.cmake), so nothing that links it is sanitized")
+    endif()
+  endforeach()
   list(JOIN NOONMARK_SANITIZED_LIBRARIES "|" names)
   list(TRANSFORM ARGN REPLACE "(${names})" "\\1_sanitized")
   set(${out} ${ARGN} PARENT_SCOPE)

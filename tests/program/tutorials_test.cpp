@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Chapters, Tutorial, testing::ValuesIn(chapters()), [](c
 
 // A chapter must assert an artefact and a cure and must compare the two. Otherwise it shows nothing.
 TEST(Tutorials, EachAssertsBeforeAndAfter) {
-  EXPECT_EQ(chapters().size(), 16u);
+  EXPECT_FALSE(chapters().empty());
   for (const std::string& chapter : chapters()) {
     const Experiment experiment = load_experiment(path_of(chapter));
     std::vector<Experiment> parts = experiment.parts;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "scenes/builtin.h"
 #include "scenes/camera_frame.h"

@@ -1,8 +1,10 @@
 // A picture's pixels against the camera's matrix, and the receivers at their centres.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "base/error.h"
 #include "scenes/camera_frame.h"

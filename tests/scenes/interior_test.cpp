@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <utility>
 
 #include "scenes/builtin.h"
 #include "scenes/library.h"

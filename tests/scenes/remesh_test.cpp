@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "scenes/library.h"
 #include "scenes/scene_size.h"

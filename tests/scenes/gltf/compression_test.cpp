@@ -1,5 +1,6 @@
 // load_gltf on compressed meshes: what the encoders of the libraries write is read back, and damaged or inconsistent
 // data are refused.
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <random>

@@ -1,6 +1,7 @@
 // load_gltf against files that others made: the corpus of the Khronos glTF-Validator with its verdicts, and two real
 // models. Both are next to the project; without them the tests are skipped.
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <optional>
 #include <set>

@@ -6,7 +6,10 @@
 //
 // This command lists each file with its outcome. A file that both readers read must agree. A file that is refused is
 // listed with its reason.
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <set>
 

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"

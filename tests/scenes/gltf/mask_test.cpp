@@ -2,7 +2,9 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"

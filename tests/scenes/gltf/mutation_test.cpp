@@ -1,5 +1,8 @@
 // Thousands of files with random damage: each gives a whole, finite scene or one Error(file), and nothing else. The
 // seed is fixed, so that a failure can be repeated.
+#include <cstdio>
+#include <exception>
+#include <iterator>
 #include <random>
 
 #include "tests/scenes/gltf/expect.h"

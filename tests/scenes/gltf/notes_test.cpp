@@ -1,6 +1,7 @@
 // load_gltf on files that leave something open, break a rule that does not matter, or contain what is not modelled:
 // which triangles are drawn, and which notes are written.
 #include <algorithm>
+#include <utility>
 
 #include "scenes/library.h"
 #include "tests/scenes/gltf/expect.h"

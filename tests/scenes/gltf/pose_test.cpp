@@ -1,6 +1,8 @@
 // load_gltf on files whose geometry moves: skins, morph targets, instances, visibility and animations, against numbers
 // worked out by hand.
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
+#include <utility>
 
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"

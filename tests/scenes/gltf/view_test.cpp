@@ -5,7 +5,6 @@
 #include "scenes/camera_fit.h"
 #include "scenes/fit.h"
 #include "scenes/library.h"
-#include "technique/light_frame.h"
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"
 
@@ -117,10 +116,6 @@ TEST_F(GltfView, SpotStandsAndLooksAsItsNode) {
   expect_near(s.light.target_m, {1, 0.5, 3});  // level with the square's middle
   EXPECT_NEAR(s.light.cone_deg, glm::degrees(1.0), view_rounding);
   EXPECT_FALSE(s.map);
-  // A fitted map contains the scene, whatever `range` is, because our lights do not fall off with distance.
-  const LightFrame frame = make_light_frame(s, {});
-  EXPECT_GT(frame.near_m, 0);
-  for (const glm::vec3& p : s.positions) EXPECT_LT(frame.depth_m(frame.to_light(p)), frame.far_m);
 }
 
 TEST_F(GltfView, SpotsAreNinetyDegreesWideWhenTheyDoNotSay) {
@@ -137,7 +132,6 @@ TEST_F(GltfView, PointLightStandsAtItsNode) {
   EXPECT_EQ(s.light.kind, LightKind::point);
   EXPECT_EQ(s.light.position_m, glm::dvec3(0.5, 4.5, 0));
   EXPECT_EQ(s.light.radius_m, 0);
-  EXPECT_GT(make_light_frame(s, {}).far_m, glm::length(glm::dvec2(0.5, 4.5)));
   // From the exact middle of the scene there is no direction to the middle, but the light still has a target.
   const Scene inside = load(with_lights({{{"type", "point"}}}, {{"translation", {0.5, 0.5, 0}}}));
   EXPECT_EQ(inside.light.position_m, glm::dvec3(0.5, 0.5, 0));
