@@ -2,6 +2,7 @@
 // the texture says whether the point is there. Nothing of this knows how cards are cut.
 #include <gtest/gtest.h>
 
+#include "raytrace/own_surface.h"
 #include "scenes/foliage.h"
 #include "tests/raytrace/fixture.h"
 
@@ -180,6 +181,55 @@ TEST(MaskedTruth, OfATapUnderALinearMaskIsWrongNowhereAndInDoubtHardlyAnywhere) 
     EXPECT_GT(dark, asked / 50);
     RecordProperty(noise ? "unsure_noise" : "unsure_frond", unsure);
     EXPECT_LT(unsure, asked / 1000) << (noise ? "noise" : "frond");
+  }
+}
+
+// V at places so near to the polygon's border that the texture may say otherwise, and a little further away. Random taps
+// hardly ever lie there.
+TEST(MaskedTruth, IsFirmBesideABorderOnlyWhereTheTextureAgrees) {
+  for (const bool noise : {false, true}) {
+    SCOPED_TRACE(noise ? "noise" : "frond");
+    const AlphaMask mask = linear_mask(noise);
+    const Scene scene = masked_cards(mask);
+    const LightFrame frame = frame_of(scene);
+    const glm::dvec3 to_light = frame.direction_to_light();
+    const EmbreeDevice device;
+    const EmbreeScene embree(device, scene);
+    const Adjacency adjacency(scene);
+    const LightView view(scene, frame);
+    const Silhouettes silhouettes(adjacency, view, Silhouettes::reach_of(view));
+    const OwnSurface surface(embree, adjacency, view, silhouettes);
+    const auto on_floor = [&](glm::dvec3 q) { return q - q.y / to_light.y * to_light; };
+    const auto covered_by_floor = [](glm::dvec3 q) { return std::max(std::abs(q.x), std::abs(q.z)) < 3.9; };
+    int firm = 0, near_unsure = 0, polygon_differs = 0, differ = 0;
+    const auto ask = [&](glm::dvec3 q, bool near) {
+      const glm::dvec3 floor = on_floor(q), p = floor + glm::dvec3(0.07, 0, 0.03);
+      if (!covered_by_floor(floor) || !covered_by_floor(p)) return;
+      const bool occluded = occluded_by_texture(floor, to_light, mask);
+      const glm::dvec3 x = view.place_of(frame.to_light(floor)), at = frame.to_light(p);
+      uint32_t hit = no_primitive;
+      view.first_hits(embree, 1, &x, &hit);
+      const uint32_t own = surface.covers(0, view.place_of(at)) ? 0 : 1;
+      const OwnSurface::Verdict v =
+          surface.lit_at(surface.point(at, own, !occluded_by_texture(p, to_light, mask)), x, hit);
+      firm += v.sure, near_unsure += near && !v.sure;
+      polygon_differs += v.lit == occluded;
+      differ += v.sure && v.lit == occluded;
+    };
+    const size_t step = 1 + scene.triangles.size() / 5000;
+    for (uint32_t t = 2; t < scene.triangles.size(); t += static_cast<uint32_t>(step))
+      for (int e = 0; e < 3; ++e) {
+        if (!adjacency.across(t, e).empty()) continue;
+        const auto corner = [&](int i) { return glm::dvec3(scene.positions[scene.triangles[t][i % 3]]); };
+        const glm::dvec3 a = corner(e), b = corner(e + 1), middle = (a + b) / 2.0;
+        const glm::dvec3 aside = glm::normalize(glm::cross(glm::cross(b - a, corner(e + 2) - a), b - a));
+        for (const double share : {-3.0, -0.5, -0.1, 0.1, 0.5, 3.0})
+          ask(middle + share * scene.mask_error_m * aside, std::abs(share) < 1);
+      }
+    EXPECT_EQ(differ, 0);
+    EXPECT_GT(polygon_differs, 100) << "the places do not tell the polygon from the texture";
+    EXPECT_GT(near_unsure, 1000);
+    EXPECT_GT(firm, 100);
   }
 }
 
