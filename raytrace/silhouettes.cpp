@@ -13,7 +13,7 @@ constexpr int least_cells = 256, most_cells = 2048;  // on a side: from 0.25 to 
 // to this many cells on a side, until its lists are at most so long.
 constexpr int coarsest_cells = 16;
 constexpr size_t most_searched = 4;  // of the edges nearby; a cell of the grid lists fewer than a longer list
-constexpr size_t listed_per_piece = 16, listed_besides = size_t{1} << 20;
+constexpr size_t listed_per_piece = 16, pieces_besides = size_t{1} << 20;
 
 bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge) {
   bool any = false;
@@ -82,7 +82,7 @@ void Silhouettes::fill(Grid& grid, const std::vector<Piece>& pieces) {
     grid.cells_per_unit = grids_per_unit * grid.size;
     grid.begin.assign(static_cast<size_t>(grid.size) * static_cast<size_t>(grid.size) + 1, 0);
     const size_t most = grid.size <= coarsest_cells ? std::numeric_limits<size_t>::max()
-                                                    : listed_per_piece * pieces.size() + listed_besides;
+                                                    : listed_per_piece * pieces.size() + pieces_besides;
     size_t listed = 0;
     for (const Piece& p : pieces) {
       grid.each_cell(p.a, p.b, p.reach, [&](size_t cell) { ++grid.begin[cell + 1], ++listed; });

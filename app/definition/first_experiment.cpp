@@ -45,7 +45,7 @@ std::string scene_text(const Model& model, const std::string& path, bool floor) 
   return text;
 }
 
-constexpr const char* bounds_text =
+constexpr const char* first_bounds =
     "[[bound]]                   # the shadow must hold this, or `noonmark check` ends with exit code 1\n"
     "metric = \"acne\"             # share of the receivers that shadow themselves; more bias helps\n"
     "max = 0.005                 # 0.5%. Change it to what your pictures can bear\n"
@@ -100,7 +100,7 @@ std::string first_experiment(const Model& model, const std::string& path) {
       "[sweep]                     # each value is measured: 4 points; of several settings, every combination\n"
       "map.resolution = [{}]\n\n",
       light == LightKind::point ? "256, 512, 1024, 2048" : "512, 1024, 2048, 4096");
-  return text + bounds_text;
+  return text + first_bounds;
 }
 
 }  // namespace noonmark

@@ -99,15 +99,15 @@ bool counts_by(const ComparedChoice& one, const std::string& metric, AtBias at) 
   return (at == AtBias::best && follows_bias(one, metric)) || was_rendered_in_window(one.choice);
 }
 
-std::optional<Span> span_over_window(const ComparedChoice& one, const std::string& metric) {
+std::optional<Interval> span_over_window(const ComparedChoice& one, const std::string& metric) {
   if (!one.usable || !follows_bias(one, metric)) return std::nullopt;
-  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  Interval span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   std::vector<double> biases = curve_biases(one.choice, one.usable->low, one.usable->high);
   biases.push_back(*one.bias);  // so that the value itself lies within the span
   for (double bias : biases) {
     const double value = joined_at(one.choice, metric, bias).worst;
     if (!std::isfinite(value)) return std::nullopt;
-    span = {std::min(span.least, value), std::max(span.largest, value)};
+    span = {std::min(span.low, value), std::max(span.high, value)};
   }
   return span;
 }

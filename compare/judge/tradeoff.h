@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/interval.h"
 #include "compare/judge/choices.h"
 #include "compare/judge/recommendation.h"
 #include "compare/results/records.h"
@@ -62,10 +63,7 @@ bool counts_by(const ComparedChoice& one, const std::string& metric, AtBias at =
 // The least and the largest value over the usable window, of the largest over the conditions. Of one condition both are
 // exact for the stored curve, because it is linear between its entries; of several the least is that over all entries.
 // Empty without a window, if the metric does not follow the bias, or if a value is not finite.
-struct Span {
-  double least = 0, largest = 0;
-};
-std::optional<Span> span_over_window(const ComparedChoice& one, const std::string& metric);
+std::optional<Interval> span_over_window(const ComparedChoice& one, const std::string& metric);
 
 // The cause with the largest mean over the conditions, at the bias; causes that do not follow the bias as
 // rendered. Dark and light aliasing, and dark and light coverage, count together. Empty if no cause is above 0.

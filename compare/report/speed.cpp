@@ -21,11 +21,6 @@ namespace {
 using nlohmann::json;
 using Window = ComparedChoice::Window;
 
-constexpr std::array cost_metrics{"texel_work",    "traffic_bytes",  "map_bytes",     "map_texels",
-                                  "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations",
-                                  "map_ms",        "lookup_ms",      "shadow_ms"};
-constexpr std::array error_metrics{"error_soft", "error", "aliasing_rms", "shaded_rmse"};
-
 template <size_t count>
 std::vector<std::string> measured(const Results& results, const std::string& first,
                                   const std::array<const char*, count>& others) {
@@ -107,8 +102,8 @@ json metric_data(const ComparedChoice& one, const std::string& metric) {
   const Joined rendered = value_of(one, metric, AtBias::as_set);
   out["set_counts"] = counts_by(one, metric, AtBias::as_set);
   out["set"] = {or_null(rendered.worst), or_null(rendered.mean)};
-  if (const std::optional<Span> span = span_over_window(one, metric))
-    out["span"] = {or_null(span->least), or_null(span->largest)};
+  if (const std::optional<Interval> span = span_over_window(one, metric))
+    out["span"] = {or_null(span->low), or_null(span->high)};
   return out;
 }
 

@@ -2,6 +2,7 @@
 //
 //   for (size_t i : front_of(group, "traffic_bytes", "error")) print(names.of(group.choices[i].choice));
 #pragma once
+#include <array>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -13,6 +14,12 @@
 #include "compare/results/records.h"
 
 namespace noonmark::report {
+
+// The costs and the errors that can be an axis, in the order in which they are offered.
+inline constexpr std::array cost_metrics{"texel_work",    "traffic_bytes",  "map_bytes",     "map_texels",
+                                         "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations",
+                                         "map_ms",        "lookup_ms",      "shadow_ms"};
+inline constexpr std::array error_metrics{"error_soft", "error", "aliasing_rms", "shaded_rmse"};
 
 // The metrics that the reader can choose for an axis: RunInfo::cost and the other costs; the errors and
 // RunInfo::accuracy. Only those that are finite at some point.

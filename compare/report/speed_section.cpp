@@ -108,8 +108,8 @@ std::string front_text(const ComparedGroup& group, const std::vector<size_t>& fr
 }
 
 std::string span_cell(const ComparedChoice& one, const std::string& error, std::string_view unit) {
-  const std::optional<Span> span = span_over_window(one, error);
-  return span ? fmt::format("{} … {}", cell(span->least, unit), cell(span->largest, unit)) : "–";
+  const std::optional<Interval> span = span_over_window(one, error);
+  return span ? fmt::format("{} … {}", cell(span->low, unit), cell(span->high, unit)) : "–";
 }
 
 // "4.1 <small>3.9 … 4.4</small>"

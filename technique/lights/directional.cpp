@@ -112,11 +112,11 @@ class Directional final : public KindOfLight {
   }
 };
 
-const Directional instance;
+const Directional directional_instance;
 
 }  // namespace
 
 extern const KindOfLight& directional_light;
-const KindOfLight& directional_light = instance;
+const KindOfLight& directional_light = directional_instance;
 
 }  // namespace noonmark

@@ -143,11 +143,11 @@ class Point final : public KindOfLight {
   }
 };
 
-const Point instance;
+const Point point_instance;
 
 }  // namespace
 
 extern const KindOfLight& point_light;
-const KindOfLight& point_light = instance;
+const KindOfLight& point_light = point_instance;
 
 }  // namespace noonmark

@@ -94,11 +94,11 @@ class Spot final : public KindOfLight {
   }
 };
 
-const Spot instance;
+const Spot spot_instance;
 
 }  // namespace
 
 extern const KindOfLight& spot_light;
-const KindOfLight& spot_light = instance;
+const KindOfLight& spot_light = spot_instance;
 
 }  // namespace noonmark

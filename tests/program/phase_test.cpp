@@ -12,7 +12,7 @@
 namespace noonmark::acceptance {
 namespace {
 
-const std::string sweep = R"(
+const std::string swept_phase = R"(
 scene = "cube-room"
 pictures = "none"
 [view]
@@ -40,7 +40,7 @@ class Phase : public Program {
 };
 
 TEST_F(Phase, ASweepStoresItsDiagramOnceWithItsPoints) {
-  write("x.toml", sweep);
+  write("x.toml", swept_phase);
   ASSERT_EQ(run({"run", "x.toml", "--out", "one", "--threads", "1"}), 0) << output_;
   const std::vector<PhaseDiagram> one = phases("one");
   ASSERT_EQ(one.size(), 1u);
@@ -74,7 +74,7 @@ TEST_F(Phase, ASweepStoresItsDiagramOnceWithItsPoints) {
 }
 
 TEST_F(Phase, AKillLosesAndDoublesNoDiagram) {
-  write("x.toml", sweep);
+  write("x.toml", swept_phase);
   ASSERT_EQ(run({"run", "x.toml", "--out", "whole"}), 0) << output_;
   const PhaseDiagram whole = phases("whole").at(0);
   for (const char* when : {"the phase diagram", "[1/16]"}) {
@@ -91,7 +91,7 @@ TEST_F(Phase, AKillLosesAndDoublesNoDiagram) {
   }
 
   // Another [phase] makes the diagram anew, and no point.
-  std::string other = sweep;
+  std::string other = swept_phase;
   other.replace(other.find("texel_sizes = 3"), 15, "texel_sizes = 4");
   write("x.toml", other);
   ASSERT_EQ(run({"run", "x.toml", "--out", "whole"}), 0) << output_;

@@ -16,7 +16,7 @@
 namespace noonmark::acceptance {
 namespace {
 
-const std::string sweep = R"(
+const std::string cut_sweep = R"(
 scene = "plate"
 pictures = "first"
 [view]
@@ -52,7 +52,7 @@ class PowerCut : public Program, public testing::WithParamInterface<Disk> {
       setenv("NOONMARK_TEST_DISK_LOG", (folder_ / "trace").c_str(), 1);
       if (GetParam().network) setenv("NOONMARK_TEST_DISK_NETWORK", "1", 1);
     };
-    EXPECT_EQ(run({"check", write("sweep.toml", sweep), "--out", "disk/new/out"}, prepare), 0) << output_;
+    EXPECT_EQ(run({"check", write("sweep.toml", cut_sweep), "--out", "disk/new/out"}, prepare), 0) << output_;
     return test::read_trace((folder_ / "trace").string());
   }
 };

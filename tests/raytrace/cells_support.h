@@ -7,7 +7,7 @@
 namespace noonmark::test {
 
 // Rays that were cast, by what they were cast for.
-struct Rays {
+struct RayCounts {
   uint64_t hard = 0, soft = 0, texels = 0, taps = 0;
 };
 
@@ -37,7 +37,7 @@ inline ReceiverImage receivers_of(const Scene& scene, glm::dvec3 to_light, int c
 struct CellsAndRays {
   int receivers = 0;                                 // whose truth differs
   bool taps = false, edges = false, depths = false;  // whether one differs
-  Rays by_cells, by_rays;
+  RayCounts by_cells, by_rays;
   bool same() const { return receivers == 0 && !taps && !edges && !depths; }
 };
 
@@ -48,7 +48,7 @@ inline CellsAndRays compare_cells(const Scene& scene, int count, uint32_t seed, 
   const glm::dvec3 to_light =
       frame.light().rays().have_one_direction() ? frame.direction_to_light() : glm::dvec3(0, 1, 0);
   const ReceiverImage receivers = receivers_of(scene, to_light, count, seed);
-  const auto measure = [&](bool use_cells, Rays& rays) {
+  const auto measure = [&](bool use_cells, RayCounts& rays) {
     const Tracer tracer(scene, use_cells);
     StageTime hard, soft;
     const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, sun(sun_deg, 0.1), &hard, &soft);
@@ -70,7 +70,7 @@ inline CellsAndRays compare_cells(const Scene& scene, int count, uint32_t seed, 
 }
 
 // Returns the rays that were cast with cells.
-inline Rays expect_same(const Scene& scene, int count = 4000, uint32_t seed = 1, const std::string& what = "",
+inline RayCounts expect_same(const Scene& scene, int count = 4000, uint32_t seed = 1, const std::string& what = "",
                         double sun_deg = 1, const FilterSettings& filter = box(3)) {
   const CellsAndRays found = compare_cells(scene, count, seed, sun_deg, filter);
   EXPECT_EQ(found.receivers, 0) << what << scene.name;

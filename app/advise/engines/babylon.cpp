@@ -9,6 +9,7 @@
 #include "app/advise/engines/engine.h"
 
 namespace noonmark {
+namespace babylon_engine {
 namespace {
 
 double typed_depth(double metres, const AdvicePlace& place) {
@@ -79,8 +80,10 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 }
 
 }  // namespace
+}  // namespace babylon_engine
 
 Engine babylon_js() {
+  using namespace babylon_engine;
   return {
       "Babylon.js",
       "9.34",

@@ -7,6 +7,7 @@
 #include "app/advise/engines/engine.h"
 
 namespace noonmark {
+namespace bevy_engine {
 namespace {
 
 // The texel that the engine takes: of a spot light from the light's cone, and of a point light from a face of the cube.
@@ -71,8 +72,10 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 }
 
 }  // namespace
+}  // namespace bevy_engine
 
 Engine bevy() {
+  using namespace bevy_engine;
   return {"Bevy",
           "0.20-dev (4805ca7)",
           "bevy crates/bevy_pbr/src/render/shadows.wesl, shadow_sampling.wesl and light.rs",

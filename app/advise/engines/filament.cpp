@@ -8,6 +8,7 @@
 #include "app/advise/engines/engine.h"
 
 namespace noonmark {
+namespace filament_engine {
 namespace {
 
 constexpr int least_size = 8;  // of mapSize, by LightManager.h
@@ -67,8 +68,10 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 }
 
 }  // namespace
+}  // namespace filament_engine
 
 Engine filament() {
+  using namespace filament_engine;
   return {"Filament",
           "until 2026, before pull request 9734",
           "filament include/filament/LightManager.h, src/ShadowMapManager.cpp, src/ShadowMap.cpp and "

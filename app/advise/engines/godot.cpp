@@ -10,6 +10,7 @@
 #include "app/advise/engines/engine.h"
 
 namespace noonmark {
+namespace godot_engine {
 namespace {
 
 constexpr double pancake_m = 20;       // DirectionalLight3D.directional_shadow_pancake_size, its default
@@ -126,8 +127,10 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 }
 
 }  // namespace
+}  // namespace godot_engine
 
 Engine godot() {
+  using namespace godot_engine;
   return {"Godot",
           "4.4, Forward+",
           "godot servers/rendering/renderer_rd/storage_rd/light_storage.cpp, servers/rendering/renderer_scene_cull.cpp "

@@ -11,6 +11,7 @@
 #include "technique/filters.h"
 
 namespace noonmark {
+namespace opengl_engine {
 namespace {
 
 struct PartText {
@@ -152,8 +153,10 @@ std::vector<std::string> filter_limits(const AdvicePlace& place) {
 }
 
 }  // namespace
+}  // namespace opengl_engine
 
 EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPart>& parts) {
+  using namespace opengl_engine;
   EngineAdvice advice{"OpenGL",
                       "3.3 and later",
                       map_lines(place),
@@ -176,6 +179,7 @@ EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPa
 }
 
 std::vector<EngineField> opengl_fields() {
+  using namespace opengl_engine;
   std::vector<EngineField> rows;
   for (LightKind kind : {LightKind::directional, LightKind::spot})
     for (const auto& [field, unit] : {std::pair<std::string, std::string>{"glPolygonOffset factor",

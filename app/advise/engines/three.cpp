@@ -8,6 +8,7 @@
 #include "app/advise/engines/engine.h"
 
 namespace noonmark {
+namespace three_engine {
 namespace {
 
 // A point light's map holds the perspective depth along the axis of each face; Noonmark's holds the distance. Along
@@ -77,8 +78,10 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 }
 
 }  // namespace
+}  // namespace three_engine
 
 Engine three_js() {
+  using namespace three_engine;
   return {"three.js",
           "0.187",
           "three.js src/renderers/shaders/ShaderChunk/shadowmap_pars_fragment.glsl.js and shadowmap_vertex.glsl.js",

@@ -8,6 +8,7 @@
 #include "app/advise/engines/engine.h"
 
 namespace noonmark {
+namespace urp_engine {
 namespace {
 
 constexpr double greatest = 10;       // of both biases in the inspector
@@ -87,8 +88,10 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 }
 
 }  // namespace
+}  // namespace urp_engine
 
 Engine unity_urp() {
+  using namespace urp_engine;
   return {"Unity URP",
           "17",
           "Unity Graphics com.unity.render-pipelines.universal Runtime/ShadowUtils.cs (GetShadowBias, "

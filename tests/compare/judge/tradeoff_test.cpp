@@ -53,9 +53,9 @@ TEST(Tradeoff, SpansTheErrorOverTheWindow) {
   results.points = {point_of_valley(0, 1, 0.25, 1.0)};
   results.points[0].curve->error = {0.5, 0.25, 0.125, 0.45, 0.375};  // least and largest are between the ends
   const ComparedChoice one = compared(results);
-  const Span span = *span_over_window(one, "error");
-  EXPECT_EQ(span.least, 0.125);
-  EXPECT_EQ(span.largest, 0.45);
+  const Interval span = *span_over_window(one, "error");
+  EXPECT_EQ(span.low, 0.125);
+  EXPECT_EQ(span.high, 0.45);
   EXPECT_FALSE(span_over_window(one, "aliasing_rms")) << "the curve does not give it at any bias";
 }
 
@@ -139,7 +139,7 @@ TEST(Tradeoff, JoinsTheConditions) {
   EXPECT_EQ(one.usable->high, 0.75);
   EXPECT_EQ(value_of(one, "texel_work").worst, 3);
   EXPECT_EQ(value_of(one, "texel_work").mean, 2);
-  EXPECT_EQ(span_over_window(one, "error")->largest, 0.45);
+  EXPECT_EQ(span_over_window(one, "error")->high, 0.45);
   EXPECT_EQ(groups[0].recommended, 0u);
   results.planned_points = 3;
   EXPECT_FALSE(compared_groups(results)[0].recommended) << "the third condition is not measured yet";
