@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <utility>
 
 #include "scenes/camera_frame.h"
 #include "scenes/foliage.h"

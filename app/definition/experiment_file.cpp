@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <tuple>
 
 #include "app/definition/atlas_reader.h"
 #include "app/definition/experiment.h"

@@ -1,5 +1,6 @@
 // Reads the settings of an experiment file. Only experiment_file.cpp includes it, because toml++ is a large header.
 #pragma once
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <vector>

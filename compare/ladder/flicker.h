@@ -18,6 +18,7 @@
 // of its own: there the lookup goes from one answer to another because the map's edge passes over it.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <type_traits>
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "compare/report/cause_colors.h"
 #include "compare/report/page_parts.h"

@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "scenes/gltf/error.h"
 #include "scenes/gltf/extensions.h"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "scenes/gltf/error.h"
 
 namespace noonmark::gltf {

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/gltf/accessor.h"

@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cstdlib>
+#include <iostream>
 
 #include "scenes/builtin.h"
 #include "technique/placements.h"

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "compare/results/metrics.h"
 #include "measure/pass_times.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "app/advise/recommend_around.h"
 #include "tests/support/measured.h"

@@ -1,6 +1,8 @@
 // Experiment files with parts, phase diagrams and laws.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_file.h"
 #include "app/definition/idle_notes.h"

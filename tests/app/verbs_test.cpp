@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "app/verbs/command_line.h"
 #include "compare/ladder/bias_curves.h"

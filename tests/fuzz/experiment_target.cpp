@@ -3,6 +3,7 @@
 // must give one verdict.
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "app/definition/experiment.h"

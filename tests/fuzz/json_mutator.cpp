@@ -1,6 +1,9 @@
 #include "tests/fuzz/json_mutator.h"
 
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <utility>
 
 namespace noonmark::fuzz {
 namespace {

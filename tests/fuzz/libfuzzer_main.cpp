@@ -2,10 +2,12 @@
 //
 //   fuzz_gltf --write FOLDER     writes seeds to FOLDER/seeds and the dictionary to FOLDER/words.dict; does not fuzz
 //   fuzz_gltf FOLDER/corpus FOLDER/seeds -dict=FOLDER/words.dict -max_total_time=60
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 

@@ -1,6 +1,7 @@
 // Depth maps against closed forms.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "tests/gl/fixture.h"
 

@@ -1,4 +1,6 @@
 // The numbers that the shader computes before it compares, against the light's frame in double.
+#include <array>
+
 #include "gl/bias_text.h"
 #include "technique/light_frame.h"
 #include "technique/setting_rules.h"

@@ -1,6 +1,8 @@
 // Pictures in which almost no pixel can be judged. The program must say so, give the reason, and invent no number.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/program/fixture.h"
 #include "tests/scenes/gltf/files.h"
 

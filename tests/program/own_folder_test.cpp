@@ -1,5 +1,6 @@
 // Each experiment's file has a results' folder of its own, and no run touches the results of another one.
 #include <map>
+#include <utility>
 
 #include "tests/program/fixture.h"
 

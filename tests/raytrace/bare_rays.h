@@ -5,6 +5,7 @@
 #pragma once
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "raytrace/embree_compat.h"

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <memory>
+#include <tuple>
 
 #include "tests/raytrace/fixture.h"
 

@@ -5,6 +5,9 @@
 #include <rapidcheck.h>
 #include <tbb/parallel_for.h>
 
+#include <cstdlib>
+#include <sstream>
+
 #include "scenes/camera_frame.h"
 #include "technique/map_address.h"
 #include "tests/raytrace/closed_form_scenes.h"
@@ -396,14 +399,14 @@ TEST_P(ClosedFormSweep, TracerAgrees) {
 
 constexpr LightKind sun_light = LightKind::directional, spot_light = LightKind::spot, point_light = LightKind::point;
 INSTANTIATE_TEST_SUITE_P(Random, ClosedFormSweep,
-                         testing::Values(Sweep{"FlatAtTheOrigin", sun_light, &at_origin, 2, 8, 150, 0.01, 0.05, 1e-4},
-                                         Sweep{"FlatAt1Km", sun_light, &at_1_km, 2, 8, 150, 0.02, 0.05, 1e-3},
-                                         Sweep{"FlatAt1000Km", sun_light, &at_1000_km, 2, 8, 150, 0.04, 0.05, 1e-3},
-                                         Sweep{"RoundAtTheOrigin", sun_light, &at_origin, 4, 48, 60, 0.02, 0.05, 1e-4},
-                                         Sweep{"FlatSpot", spot_light, &at_origin, 2, 8, 120, 0.01, 0.05, 1e-4},
-                                         Sweep{"FlatPoint", point_light, &at_origin, 2, 8, 120, 0.01, 0.05, 1e-4},
-                                         Sweep{"RoundSpot", spot_light, &at_origin, 4, 48, 40, 0.02, 0.05, 1e-4},
-                                         Sweep{"RoundPoint", point_light, &at_origin, 4, 48, 40, 0.02, 0.05, 1e-4}),
+                         testing::Values(Sweep{"FlatAtTheOrigin", sun_light, &at_origin, 2, 8, 80, 0.01, 0.05, 1e-4},
+                                         Sweep{"FlatAt1Km", sun_light, &at_1_km, 2, 8, 80, 0.02, 0.05, 1e-3},
+                                         Sweep{"FlatAt1000Km", sun_light, &at_1000_km, 2, 8, 80, 0.04, 0.05, 1e-3},
+                                         Sweep{"RoundAtTheOrigin", sun_light, &at_origin, 4, 48, 30, 0.02, 0.05, 1e-4},
+                                         Sweep{"FlatSpot", spot_light, &at_origin, 2, 8, 60, 0.01, 0.05, 1e-4},
+                                         Sweep{"FlatPoint", point_light, &at_origin, 2, 8, 60, 0.01, 0.05, 1e-4},
+                                         Sweep{"RoundSpot", spot_light, &at_origin, 4, 48, 20, 0.02, 0.05, 1e-4},
+                                         Sweep{"RoundPoint", point_light, &at_origin, 4, 48, 20, 0.02, 0.05, 1e-4}),
                          [](const auto& given) { return given.param.name; });
 
 // The distance between the two forms of a sphere or a disc is proportional to the square of the length of its segments.

@@ -30,7 +30,7 @@ TEST_P(ThinShape, OfEverySizeAnswersAsTheRaysDo) {
                 std::to_string(triangles) + " triangles: ");
   };
   for (const int triangles : {3, 40, 500, 2000})
-    for (const glm::dvec3 from : {above, oblique, low}) expect(triangles, from, 600);
+    for (const glm::dvec3 from : {above, oblique, low}) expect(triangles, from, 300);
   expect(20000, above, 150);
   if (GetParam().joined) expect(200000, above, 150);
 }

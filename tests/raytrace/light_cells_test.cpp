@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include <numbers>
+#include <tuple>
 
 #include "scenes/builtin.h"
 #include "technique/filters.h"

@@ -1,5 +1,6 @@
 // Meshes of long, thin triangles over a floor, with any number of triangles.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

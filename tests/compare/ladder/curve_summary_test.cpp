@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "compare/ladder/bias_curves.h"
 #include "compare/ladder/numbers.h"

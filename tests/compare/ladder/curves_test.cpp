@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 
 #include "compare/ladder/bias_curves.h"
 #include "compare/ladder/numbers.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <stdexcept>
 
 #include "compare/ladder/measure.h"
 #include "compare/ladder/receiver_taps.h"

@@ -10,6 +10,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
+#include <tuple>
 
 #include "compare/judge/soundness.h"
 #include "compare/ladder/ladder.h"

@@ -6,6 +6,7 @@
 #include <map>
 #include <regex>
 #include <string>
+#include <utility>
 
 #include "base/file.h"
 #include "tests/support/source_dir.h"

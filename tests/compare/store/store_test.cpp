@@ -10,6 +10,7 @@
 
 #include <bit>
 #include <fstream>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/file.h"
