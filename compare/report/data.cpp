@@ -83,92 +83,136 @@ size_t curve_entries(const Results& results) {
   return entries;
 }
 
-json chart_data(const Results& results, const ShownPoints& shown) {
-  json data;
-  data["swept"] = json::array();
+namespace {
+
+json swept_data(const Results& results, const ShownPoints& shown) {
+  json out = json::array();
   for (const std::string& name : results.info.swept) {
     const std::vector<std::string> values = values_of(shown.results, name);
     std::vector<std::string> texts;  // of the values, for people
     for (const std::string& value : values) texts.push_back(setting_text(value));
     bool numeric = !values.empty();
     for (const std::string& value : values) numeric = numeric && number_of(value);
-    data["swept"].push_back({{"name", name},
-                             {"label", setting_label(name)},
-                             {"unit", swept_unit(name, results)},
-                             {"numeric", numeric},
-                             {"values", values},
-                             {"texts", texts}});
+    out.push_back({{"name", name},
+                   {"label", setting_label(name)},
+                   {"unit", swept_unit(name, results)},
+                   {"numeric", numeric},
+                   {"values", values},
+                   {"texts", texts}});
   }
-  data["metrics"] = json::array();
+  return out;
+}
+
+json metric_data(const Results& results) {
+  json out = json::array();
   for (const Metric& metric : metrics_of(results.points))
-    data["metrics"].push_back({{"name", metric.name},
-                               {"label", error_label(metric.name)},
-                               {"unit", metric.unit},
-                               {"help", metric.help},
-                               {"plotted", metric.plotted}});
-  data["causes"] = json::array();
+    out.push_back({{"name", metric.name},
+                   {"label", error_label(metric.name)},
+                   {"unit", metric.unit},
+                   {"help", metric.help},
+                   {"plotted", metric.plotted}});
+  return out;
+}
+
+json cause_data(const Results& results) {
+  json out = json::array();
   for (const CauseColor& cause : causes_of(results.points))
-    data["causes"].push_back({{"name", cause.name}, {"label", cause.label}});
-  data["plot"] = results.info.plot;
-  data["over"] = results.info.over;
-  data["cost"] = results.info.cost;
-  data["accuracy"] = results.info.accuracy;
-  data["bias"] = opens_as_set(results) ? "set" : "recommended";
-  // What is not good enough is not recommended: of such choices the bias is the best that there is.
+    out.push_back({{"name", cause.name}, {"label", cause.label}});
+  return out;
+}
+
+// What is not good enough is not recommended: of such choices the bias is the best that there is.
+const char* bias_word(const ShownPoints& shown) {
   const bool any_good = std::any_of(shown.groups.begin(), shown.groups.end(), [](const ComparedGroup& group) {
     return std::any_of(group.choices.begin(), group.choices.end(),
                        [](const auto& one) { return one.good.has_value(); });
   });
-  data["bias_word"] = any_good ? "Recommended" : "Best";
+  return any_good ? "Recommended" : "Best";
+}
 
+// The settings in the command of every point: those that all share.
+std::set<std::string> shared_settings(const std::vector<PointRecord>& points) {
+  std::map<std::string, size_t> times;
+  for (const PointRecord& point : points)
+    for (const std::string& word : settings_of_command(point)) ++times[word];
+  std::set<std::string> shared;
+  for (const auto& [word, count] : times)
+    if (count >= points.size()) shared.insert(word);
+  return shared;
+}
+
+// The pixels at which the point is worst.
+void add_worst_pixels(const PointRecord& point, json& entry) {
+  for (const PointRecord::WorstOf& worst : point.worst_of)
+    if (find_quantity(worst.metric, {&point, 1}).unit == "fraction")
+      entry["worst_of"][worst.metric] = {{"x", worst.x}, {"y", worst.y}, {"size", value_of(worst.size)}};
+  if (point.worst.x >= 0)
+    entry["worst"] = {{"x", point.worst.x},
+                      {"y", point.worst.y},
+                      {"error", value_of(point.worst.error)},
+                      {"cause", point.worst.cause}};
+}
+
+// shared: the settings that are not said again for each point.
+json point_data(const PointRecord& point, const Results& results, const std::set<std::string>& shared) {
+  json settings = json::object(), metrics = json::object();
+  for (const std::string& name : results.info.swept) settings[name] = setting_of(point, name);
+  for (const auto& [name, value] : point.metrics) metrics[name] = value_of(value);
+  json entry{{"id", point.id}, {"settings", settings}, {"metrics", metrics}};
+  entry["phrase"] = settings_phrase(point, results.info.swept);
+  if (const std::vector<std::string> names = without_curve_parameter(point, results.info.swept);
+      names.size() < results.info.swept.size())
+    entry["phrase_at_bias"] = settings_phrase(point, names);
+  if (json failures = failures_of(point, results); !failures.empty()) entry["failures"] = std::move(failures);
+  if (!point.part.empty()) entry["part"] = point.part;
+  for (const std::string& word : settings_of_command(point))
+    if (!shared.contains(word)) entry["set"].push_back(word);
+  add_worst_pixels(point, entry);
+  return entry;
+}
+
+json points_data(const Results& results, const ShownPoints& shown, const std::set<std::string>& shared) {
   const size_t entries = curve_entries(shown.results);
   const std::map<int64_t, double> biases = recommended_biases(shown.groups);
-  // The settings that all shown points share stand once.
-  std::map<std::string, size_t> times;
-  for (const PointRecord& point : shown.results.points)
-    for (const std::string& word : settings_of_command(point)) ++times[word];
-  std::set<std::string> common;
-  data["command"] = json::array();
-  for (const auto& [word, count] : times) {
-    if (count < shown.results.points.size()) continue;
-    common.insert(word);
-    data["command"].push_back(word);
-  }
-  data["points"] = json::array();
+  json out = json::array();
   for (const PointRecord& point : shown.results.points) {
-    json settings = json::object(), metrics = json::object();
-    for (const std::string& name : results.info.swept) settings[name] = setting_of(point, name);
-    for (const auto& [name, value] : point.metrics) metrics[name] = value_of(value);
-    json entry{{"id", point.id}, {"settings", settings}, {"metrics", metrics}};
-    entry["phrase"] = settings_phrase(point, results.info.swept);
-    if (const std::vector<std::string> names = without_curve_parameter(point, results.info.swept);
-        names.size() < results.info.swept.size())
-      entry["phrase_at_bias"] = settings_phrase(point, names);
-    if (json failures = failures_of(point, results); !failures.empty()) entry["failures"] = std::move(failures);
-    if (!point.part.empty()) entry["part"] = point.part;
+    json entry = point_data(point, results, shared);
     if (point.curve) entry["curve"] = curve_of(point, entries);
     if (const auto bias = biases.find(point.id); bias != biases.end()) entry["at"] = at_bias(point, bias->second);
-    for (const std::string& word : settings_of_command(point))
-      if (!common.contains(word)) entry["set"].push_back(word);
-    for (const PointRecord::WorstOf& worst : point.worst_of)
-      if (find_quantity(worst.metric, {&point, 1}).unit == "fraction")
-        entry["worst_of"][worst.metric] = {{"x", worst.x}, {"y", worst.y}, {"size", value_of(worst.size)}};
-    if (point.worst.x >= 0)
-      entry["worst"] = {{"x", point.worst.x},
-                        {"y", point.worst.y},
-                        {"error", value_of(point.worst.error)},
-                        {"cause", point.worst.cause}};
-    data["points"].push_back(std::move(entry));
+    out.push_back(std::move(entry));
   }
+  return out;
+}
 
-  data["laws"] = law_data(results);
-  data["phases"] = json::array();
+json diagram_data(const Results& results) {
+  json out = json::array();
   for (const PhaseDiagram& diagram : results.phases)
-    if (diagram.refused.empty()) data["phases"].push_back(phase_data(diagram));
+    if (diagram.refused.empty()) out.push_back(phase_data(diagram));
+  return out;
+}
+
+}  // namespace
+
+json chart_data(const Results& results, const ShownPoints& shown) {
+  const std::set<std::string> shared = shared_settings(shown.results.points);
   const Recommendation recommendation = recommend(results);
-  data["recommended"] = recommendation.choice.points.empty() ? json() : json(recommendation.choice.first().id);
-  data["speed"] = speed_data(results, shown);
-  return data;
+  return {
+      {"swept", swept_data(results, shown)},
+      {"metrics", metric_data(results)},
+      {"causes", cause_data(results)},
+      {"plot", results.info.plot},
+      {"over", results.info.over},
+      {"cost", results.info.cost},
+      {"accuracy", results.info.accuracy},
+      {"bias", opens_as_set(results) ? "set" : "recommended"},
+      {"bias_word", bias_word(shown)},
+      {"command", shared},
+      {"points", points_data(results, shown, shared)},
+      {"laws", law_data(results)},
+      {"phases", diagram_data(results)},
+      {"recommended", recommendation.choice.points.empty() ? json() : json(recommendation.choice.first().id)},
+      {"speed", speed_data(results, shown)},
+  };
 }
 
 }  // namespace noonmark::report
