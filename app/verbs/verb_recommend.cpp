@@ -16,6 +16,7 @@
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
+#include "base/build_facts.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
@@ -186,7 +187,9 @@ int recommend(const RecommendOptions& options) {
   if (!advice.answer) return 1;
   write_file_atomically(out + "/recommended.toml", advice_experiment(advice, out));
   write_file_atomically(out + "/engines.txt", advice_engines(engines));
-  if (advice.around) write_file_atomically(out + "/recommended.html", to_tornado_page(*advice.around));
+  if (advice.around)
+    write_file_atomically(out + "/recommended.html",
+                          to_tornado_page(*advice.around, std::string(build_facts().version)));
   const Measurement shown = bench.measure(advice.answer->settings, std::nullopt);
   write_pictures(shown, out, ".", "recommended");
   if (!arguments.json) print_advice(request, engines, bench, out, advice.around.has_value());

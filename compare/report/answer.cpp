@@ -1,9 +1,11 @@
 #include "compare/report/answer.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
@@ -13,6 +15,7 @@
 #include "compare/judge/recommendation.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
+#include "compare/report/blocks.h"
 #include "compare/report/broken.h"
 #include "compare/report/findings.h"
 #include "compare/report/laws.h"
@@ -26,9 +29,7 @@
 namespace noonmark::report {
 namespace {
 
-std::string item(std::string_view kind, const std::string& inner) {
-  return fmt::format("<li class=\"{}\">{}</li>\n", kind, inner);
-}
+Markup item(std::string_view kind, const Markup& content) { return element("li", css(kind), content) + "\n"; }
 
 std::string points_text(size_t count) { return fmt::format("{} point{}", count, count == 1 ? "" : "s"); }
 
@@ -48,7 +49,8 @@ bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags
 
 // "at 9 of 32 points", and a list of these points to follow the sentence.
 struct Where {
-  std::string count, list;
+  std::string count;
+  Markup list;
 };
 Where where_text(const Results& results, const std::vector<bool>& chosen, const std::vector<bool>& either_way = {}) {
   const size_t count = static_cast<size_t>(std::count(chosen.begin(), chosen.end(), true));
@@ -57,13 +59,12 @@ Where where_text(const Results& results, const std::vector<bool>& chosen, const 
   constexpr size_t most_rules = 4;  // more rules are harder to read than the table
   RuleSearch search{.most_rules = most_rules + 1};
   const std::vector<Rule> rules = describe_points(results, chosen, either_way, &search);
-  std::string list;
+  Markup list;
   for (size_t i = 0; i < std::min(rules.size(), most_rules); ++i)
-    list += fmt::format("<li>{}{}</li>", html(rule_phrase(rules[i])),
-                        rules.size() > 1 ? fmt::format(" <small>{}</small>", points_text(rules[i].points)) : "");
-  if (rules.size() > most_rules) list += "<li>and others: see the table of windows</li>";
+    list += element("li", with_small(rule_phrase(rules[i]), rules.size() > 1 ? points_text(rules[i].points) : ""));
+  if (rules.size() > most_rules) list += element("li", "and others: see the table of windows");
   return {fmt::format("at {} of {}", count, points_text(chosen.size())),
-          list.empty() ? "" : "<ul class=\"rules\">" + list + "</ul>"};
+          list.empty() ? "" : element("ul", css("rules"), list)};
 }
 
 // The window is the one that the recommendation uses: of all placements if there are several.
@@ -76,59 +77,63 @@ bool set_too_large(const PointRecord& point) {
   return has_usable_bias(point) && *bias_as_set(point) > usable_window(*point.curve)->high;
 }
 
-std::string window_items(const Results& results) {
+// "The method fails at 9 of 32 points: no value keeps ..., with" and the list of these points.
+Markup bad_item(std::string_view what, const Markup& how, const Where& where) {
+  return item("bad", prose("{}{}{}{}", bold(prose("{} {}", what, where.count)), how,
+                           where.list.empty() ? "." : ", with", where.list));
+}
+
+Markup window_items(const Results& results) {
   const auto curved =
       std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return p.curve.has_value(); });
   const auto without =
       std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return !p.curve.has_value(); });
-  const std::string why =
-      without == results.points.end() || why_no_curve(*without).empty()
-          ? ""
-          : item("note", fmt::format("Points without a bias curve: {}.", html(why_no_curve(*without))));
+  const Markup why = without == results.points.end() || why_no_curve(*without).empty()
+                         ? ""
+                         : item("note", prose("Points without a bias curve: {}.", why_no_curve(*without)));
   if (curved == results.points.end())
     return item("note", "No bias curve was measured, so no usable window can be given.") + why;
   const BiasCurve& first = *curved->curve;
   const std::string bounds =
       fmt::format("acne at most {} and Peter Panning at most {}", quantity(first.acne_bound, "fraction"),
                   quantity(first.peter_panning_bound, "fraction"));
-  std::string out;
+  Markup out;
   const auto fails = flags_of(results, window_fails);
-  if (any(fails)) {
-    const Where where = where_text(results, fails);
-    out += item("bad", fmt::format("<b>The method fails {}</b>: no value of {} keeps {}{}{}", where.count,
-                                   html(first.parameter), bounds, where.list.empty() ? "." : ", with", where.list));
-  } else {
-    out += item("good", fmt::format("A usable bias exists at every point{}: some value of {} keeps {}.",
-                                    without == results.points.end() ? "" : " that has a bias curve",
-                                    html(first.parameter), bounds));
-  }
-  const auto low = flags_of(results, set_too_small), high = flags_of(results, set_too_large);
-  if (any(low)) {
-    const Where where = where_text(results, low, fails);
-    out += item("bad",
-                fmt::format("<b>The bias as set is too small {}</b>: it leaves acne, and a larger bias would not{}{}",
-                            where.count, where.list.empty() ? "." : ", with", where.list));
-  }
-  if (any(high)) {
-    const Where where = where_text(results, high, fails);
+  if (any(fails))
+    out += bad_item("The method fails", prose(": no value of {} keeps {}", first.parameter, bounds),
+                    where_text(results, fails));
+  else
     out +=
-        item("bad", fmt::format("<b>The bias as set is too large {}</b>: it detaches shadows more than necessary{}{}",
-                                where.count, where.list.empty() ? "." : ", with", where.list));
-  }
+        item("good", prose("A usable bias exists at every point{}: some value of {} keeps {}.",
+                           without == results.points.end() ? "" : " that has a bias curve", first.parameter, bounds));
+  const auto low = flags_of(results, set_too_small), high = flags_of(results, set_too_large);
+  if (any(low))
+    out += bad_item("The bias as set is too small", ": it leaves acne, and a larger bias would not",
+                    where_text(results, low, fails));
+  if (any(high))
+    out += bad_item("The bias as set is too large", ": it detaches shadows more than necessary",
+                    where_text(results, high, fails));
   if (!any(low) && !any(high) && any(flags_of(results, has_usable_bias)))
     out += item("good", "The bias as set lies within the usable window at every point that has one.");
   return out + why;
 }
 
-std::string health_items(const Results& results) {
-  std::string out;
+Markup unsound_items(const Results& results) {
+  Markup out;
   constexpr size_t most_listed = 5;
   const std::vector<Unsound> unsound = find_unsound(results.points);
   for (size_t i = 0; i < std::min(unsound.size(), most_listed); ++i)
-    out += item("bad",
-                fmt::format("A defect of Noonmark, so do not rely on any number here: {}.", html(text_of(unsound[i]))));
+    out += item("bad", prose("A defect of Noonmark, so do not rely on any number here: {}.", text_of(unsound[i])));
   if (unsound.size() > most_listed)
-    out += item("bad", fmt::format("And {} more such defects.", unsound.size() - most_listed));
+    out += item("bad", prose("And {} more such defects.", unsound.size() - most_listed));
+  return out;
+}
+
+// A note that is a clause without its full stop; nothing if it is empty.
+Markup note_item(std::string_view kind, const std::string& note) { return note.empty() ? "" : item(kind, note + "."); }
+
+Markup health_items(const Results& results) {
+  Markup out = unsound_items(results);
   size_t not_finite = 0;
   double ambiguous = 0;
   for (const PointRecord& point : results.points) {
@@ -139,79 +144,80 @@ std::string health_items(const Results& results) {
       ambiguous = std::max(ambiguous, value);
   }
   if (not_finite)
-    out += item(
-        "bad",
-        fmt::format(
-            "{} ha{} a metric that is <b>not finite</b>: it could not be measured, which breaks every bound on it.",
-            points_text(not_finite), not_finite == 1 ? "s" : "ve"));
-  if (const std::string poor = poor_view_note(results.points); !poor.empty()) out += item("bad", html(poor) + ".");
-  if (const std::string still = no_flicker_note(results.points); !still.empty()) out += item("bad", html(still) + ".");
+    out += item("bad", prose("{} ha{} a metric that is {}: it could not be measured, which breaks every bound on it.",
+                             points_text(not_finite), not_finite == 1 ? "s" : "ve", bold("not finite")));
+  out += note_item("bad", poor_view_note(results.points)) + note_item("bad", no_flicker_note(results.points));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
-    out += item("note", fmt::format("At the point with the largest share, {}.", html(doubt)));
+    out += item("note", prose("At the point with the largest share, {}.", doubt));
   if (ambiguous > 0)
-    out += item("note", fmt::format("At most {} of the facing receivers have an ambiguous truth; they are left out.",
-                                    quantity(ambiguous, "fraction")));
-  for (const std::string& note : results.info.sweep_notes) out += item("bad", html(note) + ".");
+    out += item("note", prose("At most {} of the facing receivers have an ambiguous truth; they are left out.",
+                              quantity(ambiguous, "fraction")));
   const MachineNotes machines = machine_notes(results);
-  for (const std::string& note : machines.warnings) out += item("bad", html(note) + ".");
-  for (const std::string& note : machines.machines) out += item("note", html(note) + ".");
-  for (const std::string& note : results.info.scene_notes)
-    out += item("note", fmt::format("About the scene {}.", html(note)));
+  for (const std::string& note : results.info.sweep_notes) out += note_item("bad", note);
+  for (const std::string& note : machines.warnings) out += note_item("bad", note);
+  for (const std::string& note : machines.machines) out += note_item("note", note);
+  for (const std::string& note : results.info.scene_notes) out += item("note", prose("About the scene {}.", note));
   return out;
 }
 
-std::string bounds_section(const Results& results) {
-  if (results.bounds.empty()) return "";
-  std::string rows;
-  for (const BoundResult& bound : results.bounds) {
-    std::string where;
-    for (const auto& [name, values] : bound.where)
-      where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", html(name),
-                           html(fmt::format("{}", fmt::join(values, " | "))));
-    const std::string_view unit = unit_of(bound.metric, results);
-    std::string limit;
-    const int digits = found_digits(bound, report_digits);
-    if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit, digits));
-    if (bound.min) limit += fmt::format("{}at least {}", limit.empty() ? "" : ", ", quantity(*bound.min, unit, digits));
-    std::string found = bound.points == 0 ? "no point matches" : quantity(bound.found, unit, digits);
-    if (bound.point >= 0) {
-      const std::string name = fmt::format("point {}", bound.point);
-      found +=
-          " at " + (bound.held ? fmt::format("<a href=\"#p{}\">{}</a>", bound.point, name) : failure_link(bound, name));
-    }
-    rows += fmt::format(
-        "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        breaks(bound) ? "broken"
-        : bound.held  ? "held"
-                      : "warning",
-        bound.held    ? "✓ holds"
-        : bound.warns ? "! warning"
-                      : "✗ broken",
-        html(metric_label(bound.metric)), limit, found,
-        html(bound.join) + (bound.placement.empty() ? "" : fmt::format(", {}", placement_text(bound))),
-        where.empty() ? fmt::format("all ({})", bound.points) : fmt::format("{} ({})", where, bound.points));
-    if (bound.held) continue;
-    if (const PointRecord* point = find_point(results.points, bound.point)) {
-      const std::string bias = set_bias_phrase(*point), worst = failing_pixel_text(bound, *point);
-      if (!bias.empty() || !worst.empty())
-        rows += fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">{}{}{}</td></tr>\n",
-                            bias.empty() ? "" : "With " + html(bias), bias.empty() || worst.empty() ? "" : "; ",
-                            worst.empty() ? "" : failure_link(bound, html(worst)));
-    }
-    if (!bound.reproduce.empty())
-      rows += fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">See it: <code>{}</code></td></tr>\n",
-                          html(bound.reproduce));
+Markup bound_row(const BoundResult& bound, std::string_view unit) {
+  std::string where;
+  for (const auto& [name, values] : bound.where)
+    where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", name, fmt::join(values, " | "));
+  std::string limit;
+  const int digits = found_digits(bound, report_digits);
+  if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit, digits));
+  if (bound.min) limit += fmt::format("{}at least {}", limit.empty() ? "" : ", ", quantity(*bound.min, unit, digits));
+  Markup found = bound.points == 0 ? "no point matches" : quantity(bound.found, unit, digits);
+  if (bound.point >= 0) {
+    const std::string name = fmt::format("point {}", bound.point);
+    found += " at " + (bound.held ? point_link(bound.point, name) : failure_link(bound, name));
   }
-  return "<h3>Bounds</h3><div class=\"scroll\"><table "
-         "class=\"bounds\"><thead><tr><th>Verdict</th><th>Metric</th><th>Allowed</th><th>Found</th>"
-         "<th>Joined by</th><th>Points</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  return tr(css(breaks(bound) ? "broken"
+                : bound.held  ? "held"
+                              : "warning"),
+            td(bound.held    ? "✓ holds"
+               : bound.warns ? "! warning"
+                             : "✗ broken"),
+            row_head(metric_label(bound.metric)), td(limit), td(found),
+            td(bound.join, bound.placement.empty() ? "" : prose(", {}", placement_text(bound))),
+            td(where.empty() ? "all" : where, prose(" ({})", bound.points)));
+}
+
+// The bias at which a broken bound was judged, its worst pixel, and the command that shows it.
+Markup broken_bound_rows(const BoundResult& bound, const Results& results) {
+  const auto row_below = [](const Markup& content) {
+    return tr(css("command"), td(), td(Attribute("colspan", 5), content));
+  };
+  Markup rows;
+  if (const PointRecord* point = find_point(results.points, bound.point)) {
+    const std::string bias = set_bias_phrase(*point), worst = failing_pixel_text(bound, *point);
+    if (!bias.empty() || !worst.empty())
+      rows += row_below(prose("{}{}{}", bias.empty() ? "" : "With " + bias, bias.empty() || worst.empty() ? "" : "; ",
+                              worst.empty() ? "" : failure_link(bound, worst)));
+  }
+  if (!bound.reproduce.empty()) rows += row_below("See it: " + code(bound.reproduce));
+  return rows;
+}
+
+Markup bounds_section(const Results& results) {
+  if (results.bounds.empty()) return "";
+  Markup rows;
+  for (const BoundResult& bound : results.bounds) {
+    rows += bound_row(bound, unit_of(bound.metric, results));
+    if (!bound.held) rows += broken_bound_rows(bound, results);
+  }
+  const Markup head = heads({"Verdict", "Metric", "Allowed", "Found", "Joined by", "Points"});
+  return element("h3", "Bounds") + div(css("scroll"), table("bounds", head, rows)) + "\n";
 }
 
 }  // namespace
 
-std::string verdict_line(const Results& results) {
-  std::string out;
+Markup verdict_line(const Results& results) {
+  std::vector<Markup> pills;
+  const auto add = [&](std::string_view kind, const Markup& text) {
+    pills.push_back(span(css(fmt::format("pill {}", kind)), text));
+  };
   // Bounds are judged as rendered. The page also shows other biases, so it is said which one.
   const bool other_biases = std::any_of(results.points.begin(), results.points.end(),
                                         [](const PointRecord& point) { return point.curve.has_value(); });
@@ -225,21 +231,19 @@ std::string verdict_line(const Results& results) {
                              : warned ? fmt::format("{} of {} {}s hold, the others warn", kept, list.size(), noun)
                              : list.size() == 1 ? std::string(alone)
                                                 : fmt::format("All {} {}s hold", list.size(), noun);
-    out += fmt::format("{}<span class=\"pill {}\">{}{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held",
-                       text, at);
+    add(broken ? "broken" : "held", text + at);
   };
   if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty()) {
     // If the numbers are not sound, the verdicts on them have no meaning.
-    out = "<span class=\"pill broken\">Not sound: the measurement contradicts itself</span>";
+    add("broken", "Not sound: the measurement contradicts itself");
   } else {
     judge(results.bounds, "bound", "The bound holds", as_set, breaks);
     judge(results.laws, "law", "The law holds", "", [](const LawResult& law) { return !law.held; });
   }
-  if (out.empty()) out = "<span class=\"pill none\">No bounds were set</span>";
+  if (pills.empty()) add("none", "No bounds were set");
   if (static_cast<int64_t>(results.points.size()) < results.planned_points)
-    out += fmt::format(" <span class=\"pill broken\">Incomplete: {} of {} points</span>", results.points.size(),
-                       results.planned_points);
-  return "<p class=\"verdict\">" + out + "</p>\n";
+    add("broken", prose("Incomplete: {} of {} points", results.points.size(), results.planned_points));
+  return paragraph(css("verdict"), joined(pills, " "));
 }
 
 namespace {
@@ -254,26 +258,26 @@ bool has_answer(const Results& results) {
 
 const char* answer_label(const Results& results) { return has_answer(results) ? "Answer" : "Findings"; }
 
-std::string answer_section(const Results& results) {
+Markup answer_section(const Results& results) {
   if (results.points.empty()) return "";
-  const std::string head =
-      fmt::format("<section id=\"answer\"><h2>{}</h2>", has_answer(results) ? "The answer" : "What was found");
+  const char* const title = has_answer(results) ? "The answer" : "What was found";
+  const auto findings = [](const Markup& items) { return element("ul", css("findings"), "\n", items); };
+  Markup items = health_items(results);
   if (!results.points.front().part.empty()) {
-    std::string found = laws_table(results) + bounds_section(results);
-    if (const std::string items = health_items(results); !items.empty())
-      found += "<ul class=\"findings\">\n" + items + "</ul>";
-    return found.empty() ? "" : head + found + "</section>\n";
+    const Markup found = laws_table(results) + bounds_section(results) + (items.empty() ? "" : findings(items));
+    return found.empty() ? "" : section("answer", title, found);
   }
   std::vector<const PointRecord*> all;
   for (const PointRecord& point : results.points) all.push_back(&point);
-  std::string items = window_items(results);
-  if (const std::string causes = cause_sentence(all); !causes.empty())
-    items += item("note", fmt::format("Largest causes of error over {}, with the bias as rendered: {}.",
-                                      all.size() == 1 ? "this point" : "all points", causes));
-  items += health_items(results);
-  return head + "<div class=\"answer\">" + recommendation_box(results) +
-         "<div class=\"breaks\"><h3>What breaks</h3><ul class=\"findings\">\n" + items + "</ul></div></div>\n" +
-         bounds_section(results) + laws_table(results) + "</section>\n";
+  Markup causes = cause_sentence(all);
+  if (!causes.empty())
+    causes = item("note", prose("Largest causes of error over {}, with the bias as rendered: {}.",
+                                all.size() == 1 ? "this point" : "all points", causes));
+  items = window_items(results) + causes + items;
+  const Markup what_breaks = div(css("breaks"), element("h3", "What breaks"), findings(items));
+  return section("answer", title,
+                 div(css("answer"), recommendation_box(results), what_breaks) + "\n" + bounds_section(results) +
+                     laws_table(results));
 }
 
 }  // namespace noonmark::report

@@ -1,15 +1,14 @@
 // The report's verdict, and its section with what breaks, what to set, bounds and laws.
 #pragma once
-#include <string>
-
+#include "compare/report/element.h"
 #include "compare/results/records.h"
 
 namespace noonmark::report {
 
 // "All 4 bounds hold", as the coloured line at the top of the page.
-std::string verdict_line(const Results& results);
+Markup verdict_line(const Results& results);
 // Empty if there is nothing to say.
-std::string answer_section(const Results& results);
+Markup answer_section(const Results& results);
 // The section's name in the page's head: "Answer" if a setting is recommended, otherwise "Findings".
 const char* answer_label(const Results& results);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "compare/report/blocks.h"
 #include "compare/report/escape.h"
 #include "compare/report/links.h"
 #include "compare/report/page_parts.h"
@@ -15,7 +16,7 @@
 namespace noonmark {
 namespace {
 
-using report::html;
+using report::Markup;
 
 // The techniques with a column of their own: those that at least four rows try. The others stand in the last column.
 constexpr size_t rows_of_a_column = 4;
@@ -47,25 +48,21 @@ std::string left_text(const AtlasCell& cell) {
   return std::isfinite(cell.left) ? report::quantity(cell.left, "fraction") : "–";
 }
 
-std::string cell_html(const AtlasRow& row, const AtlasCell* cell) {
-  if (!cell) return "<td>–</td>";
-  std::string_view kind = name_of(cell->verdict);
-  if (cell->verdict == AtlasVerdict::nothing) kind = "nothing";
-  return fmt::format("<td class=\"{}\"><b>{}</b><br>{}error {}, work {}</td>", kind, html(verdict_text(row, *cell)),
-                     cell->why.empty() ? "" : html(cell->why) + "<br>", html(left_text(*cell)),
-                     html(report::cell(cell->cost, "count")));
+Markup cell_of(const AtlasRow& row, const AtlasCell* cell) {
+  using namespace report;
+  if (!cell) return td("–");
+  const std::string_view kind = cell->verdict == AtlasVerdict::nothing ? "nothing" : name_of(cell->verdict);
+  return td(css(kind), bold(verdict_text(row, *cell)), line_break(), cell->why.empty() ? "" : cell->why + line_break(),
+            prose("error {}, work {}", left_text(*cell), report::cell(cell->cost, "count")));
 }
 
-std::string laws_html(const AtlasRow& row) {
-  std::string text;
-  for (const LawResult& law : row.laws) {
-    text += fmt::format("<br>law “{}” {}", html(law.name), law.held ? "holds" : "<b>broken</b>");
-    if (law.worst < 0) continue;
-    const LawResult::Sample& sample = law.samples[static_cast<size_t>(law.worst)];
-    text += fmt::format(" (predicted {}, measured {})", html(report::number(sample.predicted)),
-                        html(report::number(sample.measured)));
-  }
-  return text;
+Markup law_line(const LawResult& law) {
+  using namespace report;
+  const Markup verdict = prose("law “{}” {}", law.name, law.held ? "holds" : bold("broken"));
+  if (law.worst < 0) return line_break() + verdict;
+  const LawResult::Sample& sample = law.samples[static_cast<size_t>(law.worst)];
+  return line_break() + verdict +
+         prose(" (predicted {}, measured {})", report::number(sample.predicted), report::number(sample.measured));
 }
 
 // The address without its host: "bevyengine/bevy/issues/16075".
@@ -82,49 +79,69 @@ std::vector<const AtlasCell*> others_of(const AtlasRow& row, const std::vector<s
   return cells;
 }
 
+Markup failure_cell(const AtlasRow& row) {
+  using namespace report;
+  const AtlasEntry& entry = row.entry;
+  Markup text = bold(file_link(row.report, entry.failure));
+  if (!row.held) text += " " + bold("(a bound or law is broken)");
+  text += line_break() + prose("cause: {}; swept: {}", entry.cause, entry.driver);
+  text += line_break() + prose("cure: {}", entry.cure);
+  if (!entry.note.empty()) text += line_break() + entry.note;
+  for (const LawResult& law : row.laws) text += law_line(law);
+  if (!entry.thread.empty())
+    text += line_break() + prose("{}: {}", web_link(entry.thread, thread_text(entry.thread)), entry.answer);
+  return td(text, line_break(), code(row.command));
+}
+
+Markup picture_cell(const AtlasRow& row) {
+  using namespace report;
+  if (row.picture.empty()) return td("–");
+  return td(element("img", Attribute("loading", "lazy"), Attribute("src", file_address(row.picture)),
+                    Attribute("alt", "causes at the worst point of " + row.entry.failure)));
+}
+
+Markup others_cell(const AtlasRow& row, const std::vector<std::string>& techniques) {
+  using namespace report;
+  Markup text;
+  for (const AtlasCell* cell : others_of(row, techniques))
+    text += prose("{}: {}, error {}, work {}{}", cell->technique, bold(verdict_text(row, *cell)), left_text(*cell),
+                  report::cell(cell->cost, "count"), line_break());
+  return td(text);
+}
+
+Markup words_before_the_matrix(size_t rows) {
+  using namespace report;
+  return paragraph(prose(
+      "Each of the {} rows is a known failure, each column a technique. A technique {} if at every point the usable "
+      "biases span at least a factor of {} at every placement of the texel grid, with acne, Peter Panning and coverage "
+      "of at most {} each. It is {} if the span is narrower, or if a placement breaks it. It {} if no bias is usable "
+      "at "
+      "some point. {} names the first value of the swept setting that does not hold. The error is the one that is left "
+      "at the best bias there, the work counts texels written and texture instructions. What flickers in motion, and "
+      "why, is measured by {}.",
+      rows, bold("holds"), atlas_window_factor, quantity(atlas_share, "fraction"), bold("fragile"), bold("fails"),
+      italic("From"), code("noonmark check experiments/motion.toml")));
+}
+
 }  // namespace
 
 std::string to_atlas_page(std::span<const AtlasRow> rows, const std::string& version) {
+  using namespace report;
   const std::vector<std::string> techniques = techniques_of(rows);
-  std::string text = fmt::format(
-      "<p>Each of the {} rows is a known failure, each column a technique. A technique <b>holds</b> if at "
-      "every point the usable "
-      "biases span at least a factor of {} at every placement of the texel grid, with acne, Peter Panning and coverage "
-      "of at most {} each. It is <b>fragile</b> if the span is narrower, or if a placement breaks it. It <b>fails</b> "
-      "if no bias is usable at some point. <i>From</i> names the first value of the swept setting that does not hold. "
-      "The error is the one that is left at the best bias there, the work counts texels written and texture "
-      "instructions. What flickers in motion, and why, is measured by <code>noonmark check "
-      "experiments/motion.toml</code>.</p>\n",
-      rows.size(), atlas_window_factor, html(report::quantity(atlas_share, "fraction")));
-  text +=
-      "<div class=\"scroll tall\" tabindex=\"0\" role=\"region\" aria-label=\"Failures and techniques\">"
-      "<table class=\"atlas\"><thead><tr><th>Failure</th><th>Worst point</th>";
-  for (const std::string& technique : techniques) text += fmt::format("<th>{}</th>", html(technique));
-  text += "<th>Other techniques</th></tr></thead><tbody>\n";
+  Markup head = heads({"Failure", "Worst point"}), body;
+  for (const std::string& technique : techniques) head += th(technique);
+  head += th("Other techniques");
   for (const AtlasRow& row : rows) {
-    const AtlasEntry& entry = row.entry;
-    text += fmt::format("<tr><td><b><a href=\"{}\">{}</a></b>{}<br>cause: {}; swept: {}<br>cure: {}",
-                        report::file_address(row.report), html(entry.failure),
-                        row.held ? "" : " <b>(a bound or law is broken)</b>", html(entry.cause), html(entry.driver),
-                        html(entry.cure));
-    if (!entry.note.empty()) text += "<br>" + html(entry.note);
-    text += laws_html(row);
-    if (!entry.thread.empty())
-      text += fmt::format("<br>{}: {}", report::web_link(entry.thread, thread_text(entry.thread)), html(entry.answer));
-    text += fmt::format("<br><code>{}</code></td><td>{}</td>", html(row.command),
-                        row.picture.empty()
-                            ? "–"
-                            : fmt::format("<img loading=\"lazy\" src=\"{}\" alt=\"causes at the worst point of {}\">",
-                                          report::file_address(row.picture), html(entry.failure)));
-    for (const std::string& technique : techniques) text += cell_html(row, find_cell(row, technique));
-    text += "<td>";
-    for (const AtlasCell* cell : others_of(row, techniques))
-      text += fmt::format("{}: <b>{}</b>, error {}, work {}<br>", html(cell->technique), html(verdict_text(row, *cell)),
-                          html(left_text(*cell)), html(report::cell(cell->cost, "count")));
-    text += "</td></tr>\n";
+    Markup cells = failure_cell(row) + picture_cell(row);
+    for (const std::string& technique : techniques) cells += cell_of(row, find_cell(row, technique));
+    body += tr(cells, others_cell(row, techniques));
   }
-  return report::plain_page("The atlas of failures", text + "</tbody></table></div>\n", version,
-                            report::Pictures::beside);
+  const Markup matrix = div(css("scroll tall"), Attribute("tabindex", 0), Attribute("role", "region"),
+                            Attribute("aria-label", "Failures and techniques"), table("atlas", head, body));
+  return plain_page({.title = "The atlas of failures",
+                     .body = words_before_the_matrix(rows.size()) + matrix + "\n",
+                     .version = version,
+                     .pictures = Pictures::beside});
 }
 
 std::string to_atlas_table(std::span<const AtlasRow> rows) {

@@ -61,30 +61,30 @@ std::string set_bias_phrase(const PointRecord& point) {
   return fmt::format("{} {} as set", point.curve->parameter, bias_in_unit(*value, setting_of(point, "bias.unit")));
 }
 
-std::string failure_link(const BoundResult& bound, const std::string& inner) {
-  return fmt::format("<a href=\"#p{}\" data-failure=\"{}\">{}</a>", bound.point, html(bound.metric), inner);
+Markup failure_link(const BoundResult& bound, const Markup& content) {
+  return element("a", Attribute("href", fmt::format("#p{}", bound.point)), Attribute("data-failure", bound.metric),
+                 content);
 }
 
-std::string broken_sentence(const Results& results) {
+Markup broken_sentence(const Results& results) {
   const std::vector<const BoundResult*> broken = broken_bounds(results);
   if (broken.empty()) return "";
   const BoundResult& bound = *broken.front();
-  std::string out;
+  Markup out;
   if (bound.points == 0) {
-    out = fmt::format("The bound on {} fits no point", html(metric_label(bound.metric)));
+    out = prose("The bound on {} fits no point", metric_label(bound.metric));
   } else {
-    out = fmt::format("{} is {}{} where {} is allowed{}", html(metric_label(bound.metric)), value_text(bound),
-                      html(joined_text(bound)), limits_text(bound), place_text(bound));
+    out = prose("{} is {}{} where {} is allowed{}", metric_label(bound.metric), value_text(bound), joined_text(bound),
+                limits_text(bound), place_text(bound));
     if (const PointRecord* point = find_point(results.points, bound.point)) {
       const std::string phrase = point_phrase(*point, results), bias = set_bias_phrase(*point);
-      out += fmt::format(", at {}{}",
-                         failure_link(bound, html(phrase.empty() ? fmt::format("point {}", point->id) : phrase)),
-                         bias.empty() ? "" : ", with " + html(bias));
+      out += prose(", at {}{}", failure_link(bound, phrase.empty() ? fmt::format("point {}", point->id) : phrase),
+                   bias.empty() ? "" : ", with " + bias);
     }
   }
   out += ".";
   if (broken.size() > 1)
-    out += fmt::format(" {} more bound{} broken.", broken.size() - 1, broken.size() == 2 ? " is" : "s are");
+    out += prose(" {} more bound{} broken.", broken.size() - 1, broken.size() == 2 ? " is" : "s are");
   return out;
 }
 

@@ -1,5 +1,5 @@
-// Writes text of unknown origin safely, with one function for each format. The function for HTML is report::html
-// (compare/report/text.h), the one for a terminal is printable() (base/text.h).
+// Writes text of unknown origin safely, with one function for each format. The one for HTML is
+// report::Markup (compare/report/element.h), the one for a terminal is printable() (base/text.h).
 #pragma once
 #include <string>
 #include <string_view>

@@ -1,13 +1,13 @@
 #include "compare/report/flicker_section.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "compare/ladder/flicker.h"
+#include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/text.h"
 #include "compare/results/quantities.h"
@@ -70,45 +70,78 @@ std::string frame_of(const PointRecord& point) {
 
 std::string rgb_of(const CauseColor& color) { return fmt::format("rgb({},{},{})", color.r, color.g, color.b); }
 
-// A bar for each frame, as high as its flicker; `largest` is the whole height.
-std::string strip_svg(const Strip& strip, double largest) {
-  const double step = strip_width / static_cast<double>(strip.frames.size());
-  std::string bars;
-  for (size_t i = 0; i < strip.frames.size(); ++i) {
-    const PointRecord& point = *strip.frames[i];
-    double top = strip_height;
-    std::string parts;
-    for (const CauseColor& color : flicker_colors) {
-      const double value = metric_of(point, std::string(color.name));
-      if (!(value > 0) || !std::isfinite(value) || !(largest > 0)) continue;
-      const double height = value / largest * strip_height;
-      top -= height;
-      parts += fmt::format("<rect x=\"{:.2f}\" y=\"{:.3f}\" width=\"{:.2f}\" height=\"{:.3f}\" fill=\"{}\"/>",
-                           static_cast<double>(i) * step, top, std::max(step * 0.9, 0.5), height, rgb_of(color));
-    }
-    if (!parts.empty())
-      bars += fmt::format("<g><title>frame {}: {}</title>{}</g>", html(frame_of(point)),
-                          quantity(flicker_of_point(point), "fraction"), parts);
+// The bar of one frame: its parts, one on the other, with its number as a title. Empty if nothing flickers.
+Markup bar_of(const PointRecord& point, double left, double step, double largest) {
+  double top = strip_height;
+  Markup parts;
+  for (const CauseColor& color : flicker_colors) {
+    const double value = metric_of(point, std::string(color.name));
+    if (!(value > 0) || !std::isfinite(value) || !(largest > 0)) continue;
+    const double height = value / largest * strip_height;
+    top -= height;
+    parts += element("rect", Attribute("x", fmt::format("{:.2f}", left)), Attribute("y", fmt::format("{:.3f}", top)),
+                     Attribute("width", fmt::format("{:.2f}", std::max(step * 0.9, 0.5))),
+                     Attribute("height", fmt::format("{:.3f}", height)), Attribute("fill", rgb_of(color)));
   }
-  return fmt::format(
-      "<svg viewBox=\"0 0 {0:g} {1:g}\" width=\"100%\" height=\"{1:g}\" preserveAspectRatio=\"none\" role=\"img\" "
-      "aria-label=\"Flicker over {2} frames\"><line x1=\"0\" x2=\"{0:g}\" y1=\"{1:g}\" y2=\"{1:g}\" "
-      "stroke=\"currentColor\" vector-effect=\"non-scaling-stroke\"/>{3}</svg>",
-      strip_width, strip_height, strip.frames.size(), bars);
+  if (parts.empty()) return "";
+  const std::string flicker = quantity(flicker_of_point(point), "fraction");
+  return element("g", element("title", prose("frame {}: {}", frame_of(point), flicker)), parts);
 }
 
-std::string numbers_of_point(const PointRecord& point) {
-  std::string cells = fmt::format("<td>{}</td><td>{}</td>", cell(flicker_of_point(point), "fraction"),
-                                  cell(metric_of(point, "flicker_changed"), "fraction"));
-  for (const CauseColor& color : flicker_colors)
-    cells += fmt::format("<td>{}</td>", cell(metric_of(point, std::string(color.name)), "fraction"));
-  return cells + fmt::format("<td>{}</td>", cell(metric_of(point, "flicker_truth"), "fraction"));
+// A bar for each frame, as high as its flicker; `largest` is the whole height.
+Markup strip_svg(const Strip& strip, double largest) {
+  const double step = strip_width / static_cast<double>(strip.frames.size());
+  const std::string width = fmt::format("{:g}", strip_width), height = fmt::format("{:g}", strip_height);
+  Markup bars;
+  for (size_t i = 0; i < strip.frames.size(); ++i)
+    bars += bar_of(*strip.frames[i], static_cast<double>(i) * step, step, largest);
+  const Markup base =
+      element("line", Attribute("x1", 0), Attribute("x2", width), Attribute("y1", height), Attribute("y2", height),
+              Attribute("stroke", "currentColor"), Attribute("vector-effect", "non-scaling-stroke"));
+  return element("svg", Attribute("viewBox", fmt::format("0 0 {} {}", width, height)), Attribute("width", "100%"),
+                 Attribute("height", height), Attribute("preserveAspectRatio", "none"), Attribute("role", "img"),
+                 Attribute("aria-label", fmt::format("Flicker over {} frames", strip.frames.size())), base, bars);
 }
 
-std::string head_of_numbers() {
-  std::string head = "<th>Flicker <small>%</small></th><th>Changed <small>%</small></th>";
-  for (const CauseColor& color : flicker_colors) head += fmt::format("<th>{} <small>%</small></th>", html(color.label));
-  return head + "<th>Truth changed <small>%</small></th>";
+Markup numbers_of_point(const PointRecord& point) {
+  const auto percent = [&](std::string_view metric) {
+    return td(cell(metric_of(point, std::string(metric)), "fraction"));
+  };
+  Markup cells = percent("flicker") + percent("flicker_changed");
+  for (const CauseColor& color : flicker_colors) cells += percent(color.name);
+  return cells + percent("flicker_truth");
+}
+
+Markup head_of_numbers() {
+  Markup head = th(with_small("Flicker", "%")) + th(with_small("Changed", "%"));
+  for (const CauseColor& color : flicker_colors) head += th(with_small(color.label, "%"));
+  return head + th(with_small("Truth changed", "%"));
+}
+
+Markup strip_figure(const Strip& strip, double largest) {
+  const PointRecord& worst = *strip.worst;
+  const std::string most =
+      flicker_of_point(worst) == 0
+          ? "no point of the world changes in any frame"
+          : fmt::format("at most {}, at frame {}", quantity(flicker_of_point(worst), "fraction"), frame_of(worst));
+  return element("figure", css("chart strip"), element("figcaption", bold(strip.name), ": ", most),
+                 strip_svg(strip, largest)) +
+         "\n";
+}
+
+// Every frame of every choice. Empty if they are too many.
+Markup frames_table(const std::vector<Strip>& strips) {
+  size_t frames = 0;
+  for (const Strip& strip : strips) frames += strip.frames.size();
+  if (frames > most_frame_rows) return "";
+  Markup rows;
+  for (const Strip& strip : strips)
+    for (const PointRecord* point : strip.frames)
+      rows +=
+          tr(row_head(css("text"), strip.name), td(point_link(point->id, frame_of(*point))), numbers_of_point(*point));
+  return folded(
+      "more", false, prose("Every frame ({})", frames),
+      div(css("scroll tall"), table("numbers", th(css("text"), "Choice") + th("Frame") + head_of_numbers(), rows)));
 }
 
 }  // namespace
@@ -118,12 +151,11 @@ bool has_flicker(const Results& results) {
                      [](const PointRecord& point) { return point.metrics.contains("flicker"); });
 }
 
-std::string flicker_strips(const Results& results) {
+Markup flicker_strips(const Results& results) {
   const std::vector<Strip> strips = strips_of_motion(results);
-  std::string legend, figures;
+  Markup legend, figures, left_out;
   for (const CauseColor& color : flicker_colors)
-    legend +=
-        fmt::format("<span><i class=\"sw\" style=\"background:{}\"></i>{}</span>\n", rgb_of(color), html(color.label));
+    legend += span(element("i", css("sw"), Attribute("style", "background:" + rgb_of(color))), color.label) + "\n";
   std::vector<const Strip*> drawn;
   double largest = 0;
   for (const Strip& strip : strips) {
@@ -134,78 +166,50 @@ std::string flicker_strips(const Results& results) {
                    [](const Strip* a, const Strip* b) { return flickers_more(*a->worst, *b->worst); });
   if (drawn.size() > most_strips) drawn.resize(most_strips);
   std::sort(drawn.begin(), drawn.end());  // in the order of the results
-  for (const Strip* strip : drawn)
-    figures += fmt::format(
-        "<figure class=\"chart strip\"><figcaption><b>{}</b>: {}</figcaption>{}</figure>\n", html(strip->name),
-        flicker_of_point(*strip->worst) == 0 ? "no point of the world changes in any frame"
-                                             : "at most " + quantity(flicker_of_point(*strip->worst), "fraction") +
-                                                   ", at frame " + html(frame_of(*strip->worst)),
-        strip_svg(*strip, largest));
-  return fmt::format(
-      "<p>How much the shadow of a point of the world changes from each frame to the next although its truth does not: "
-      "the "
-      "mean change of its light over the points that both frames see. The colours say what brought the change. All "
-      "strips "
-      "have one scale; their top is {}.</p>\n<div class=\"legend\">{}</div>\n{}{}",
-      quantity(largest, "fraction"), legend, figures,
-      strips.size() > drawn.size()
-          ? fmt::format("<p class=\"small\">The {} choices that flicker most of {} are drawn.</p>\n", drawn.size(),
-                        strips.size())
-          : "");
+  for (const Strip* strip : drawn) figures += strip_figure(*strip, largest);
+  if (strips.size() > drawn.size())
+    left_out = paragraph(css("small"),
+                         prose("The {} choices that flicker most of {} are drawn.", drawn.size(), strips.size()));
+  return paragraph(prose("How much the shadow of a point of the world changes from each frame to the next although its "
+                         "truth does not: the mean change of its light over the points that both frames see. The "
+                         "colours say what brought the change. All strips have one scale; their top is {}.",
+                         quantity(largest, "fraction"))) +
+         div(css("legend"), legend) + "\n" + figures + left_out;
 }
 
-std::string flicker_sentence(const Results& results) {
+Markup flicker_sentence(const Results& results) {
   const std::vector<Strip> strips = strips_of_motion(results);
   if (strips.empty()) return "";
-  std::vector<std::string> still;
+  std::vector<Markup> still;
   const Strip* most = &strips.front();
   for (const Strip& strip : strips) {
-    if (flicker_of_point(*strip.worst) == 0) still.push_back(html(strip.name));
+    if (flicker_of_point(*strip.worst) == 0) still.push_back(strip.name);
     if (flickers_more(*strip.worst, *most->worst)) most = &strip;
   }
   constexpr size_t most_named = 3;
-  std::string out;
+  Markup out;
   if (!still.empty())
-    out = fmt::format("Of {} choices {} {} not flicker in any frame{}.", strips.size(), still.size(),
-                      still.size() == 1 ? "does" : "do",
-                      still.size() <= most_named ? fmt::format(": {}", fmt::join(still, ", ")) : "");
+    out = prose("Of {} choices {} {} not flicker in any frame{}.", strips.size(), still.size(),
+                still.size() == 1 ? "does" : "do", still.size() <= most_named ? ": " + joined(still, ", ") : "");
   if (still.size() < strips.size())
-    out += fmt::format("{}<b>{}</b> flickers most: {} of the light at <a href=\"#p{}\">frame {}</a>.",
-                       out.empty() ? "" : " ", html(most->name), quantity(flicker_of_point(*most->worst), "fraction"),
-                       most->worst->id, html(frame_of(*most->worst)));
+    out += prose("{}{} flickers most: {} of the light at {}.", out.empty() ? "" : " ", bold(most->name),
+                 quantity(flicker_of_point(*most->worst), "fraction"),
+                 point_link(most->worst->id, "frame " + frame_of(*most->worst)));
   return out;
 }
 
-std::string flicker_section(const Results& results, bool strips_on_first_screen) {
+Markup flicker_section(const Results& results, bool strips_on_first_screen) {
   const std::vector<Strip> strips = strips_of_motion(results);
-  std::string table, rows;
-  size_t frames = 0;
-  for (const Strip& strip : strips) {
-    frames += strip.frames.size();
-    table += fmt::format(
-        "<tr><th class=\"text\" scope=\"row\">{}</th><td>{}</td><td>{}</td><td><a href=\"#p{}\">{}</a></td>{}</tr>\n",
-        html(strip.name), strip.frames.size(), cell(strip.mean, "fraction"), strip.worst->id,
-        html(frame_of(*strip.worst)), numbers_of_point(*strip.worst));
-  }
-  if (frames <= most_frame_rows) {
-    for (const Strip& strip : strips)
-      for (const PointRecord* point : strip.frames)
-        rows += fmt::format("<tr><th class=\"text\" scope=\"row\">{}</th><td><a href=\"#p{}\">{}</a></td>{}</tr>\n",
-                            html(strip.name), point->id, html(frame_of(*point)), numbers_of_point(*point));
-    rows = fmt::format(
-        "<details class=\"more\"><summary>Every frame ({})</summary><div class=\"scroll tall\"><table "
-        "class=\"numbers\"><thead><tr>"
-        "<th class=\"text\">Choice</th><th>Frame</th>{}</tr></thead><tbody>\n{}</tbody></table></div></details>\n",
-        frames, head_of_numbers(), rows);
-  }
-  return fmt::format(
-      "<section id=\"motion\"><h2>Motion</h2>\n{}"
-      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th class=\"text\">Choice</th><th>Frames</th><th>Mean "
-      "flicker "
-      "<small>%</small></th><th>Worst frame</th>{}</tr></thead><tbody>\n{}</tbody></table></div>\n{}</section>\n",
-      strips_on_first_screen ? "<p>The strips of all choices are at the top of this page.</p>\n"
-                             : flicker_strips(results),
-      head_of_numbers(), table, rows);
+  Markup rows;
+  for (const Strip& strip : strips)
+    rows += tr(row_head(css("text"), strip.name), td(strip.frames.size()), td(cell(strip.mean, "fraction")),
+               td(point_link(strip.worst->id, frame_of(*strip.worst))), numbers_of_point(*strip.worst));
+  const Markup head = th(css("text"), "Choice") + th("Frames") + th(with_small("Mean flicker", "%")) +
+                      th("Worst frame") + head_of_numbers();
+  return section("motion", "Motion",
+                 (strips_on_first_screen ? paragraph("The strips of all choices are at the top of this page.")
+                                         : flicker_strips(results)) +
+                     div(css("scroll"), table("numbers", head, rows)) + "\n" + frames_table(strips));
 }
 
 }  // namespace noonmark::report

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/report/blocks.h"
 #include "compare/report/broken.h"
 #include "compare/report/links.h"
 #include "compare/report/page_parts.h"
@@ -15,7 +16,7 @@
 namespace noonmark {
 namespace {
 
-using report::html;
+using report::Markup;
 using Verdict = IndexEntry::Verdict;
 
 size_t count(const std::vector<IndexEntry>& entries, Verdict verdict) {
@@ -25,24 +26,21 @@ size_t count(const std::vector<IndexEntry>& entries, Verdict verdict) {
 
 int rank(Verdict verdict) { return verdict == Verdict::broken ? 0 : verdict == Verdict::not_judged ? 1 : 2; }
 
-std::string row(const IndexEntry& entry) {
+Markup row(const IndexEntry& entry) {
+  using namespace report;
   const char* const mark = entry.verdict == Verdict::held     ? "✓ held"
                            : entry.verdict == Verdict::broken ? "✗ broken"
                                                               : "! not judged";
   const char* const kind = entry.verdict == Verdict::held     ? "held"
                            : entry.verdict == Verdict::broken ? "broken"
                                                               : "warning";
-  const std::string name = html(entry.title.empty() ? entry.experiment : entry.title);
-  return fmt::format(
-      "<tr class=\"{}\"><td>{}</td><th "
-      "scope=\"row\">{}<br><small>{}</small></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-      kind, mark,
-      entry.report.empty() ? name : fmt::format("<a href=\"{}\">{}</a>", report::file_address(entry.report), name),
-      html(entry.experiment), html(entry.words), html(entry.numbers),
-      entry.thumbnail.empty() ? "–"
-                              : fmt::format("<img class=\"thumb\" alt=\"What the shadow map showed in {}\" "
-                                            "src=\"data:image/png;base64,{}\">",
-                                            name, report::base64(entry.thumbnail)));
+  const std::string name = entry.title.empty() ? entry.experiment : entry.title;
+  const Markup thumbnail = element("img", css("thumb"), Attribute("alt", "What the shadow map showed in " + name),
+                                   Attribute("src", "data:image/png;base64," + base64(entry.thumbnail)));
+  return tr(
+      css(kind), td(mark),
+      row_head(entry.report.empty() ? name : file_link(entry.report, name), line_break(), small(entry.experiment)),
+      td(entry.words), td(entry.numbers), td(entry.thumbnail.empty() ? "–" : thumbnail));
 }
 
 }  // namespace
@@ -91,17 +89,16 @@ std::string index_page(const std::vector<IndexEntry>& entries, const std::string
   std::vector<IndexEntry> ordered = entries;
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const IndexEntry& a, const IndexEntry& b) { return rank(a.verdict) < rank(b.verdict); });
-  std::string rows;
+  using namespace report;
+  Markup rows;
   for (const IndexEntry& entry : ordered) rows += row(entry);
   const bool all = count(entries, Verdict::held) == entries.size();
-  return report::plain_page(
-      "Checked experiments",
-      fmt::format(
-          "<p class=\"verdict\"><span class=\"pill {}\">{}</span></p>\n<div class=\"scroll\"><table "
-          "class=\"index\"><thead><tr><th>Verdict</th><th>Experiment</th><th>In words</th><th>Worst numbers</th>"
-          "<th>Picture</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
-          all ? "held" : "broken", html(index_words(entries)), rows),
-      version);
+  const Markup head = heads({"Verdict", "Experiment", "In words", "Worst numbers", "Picture"});
+  return plain_page(
+      {.title = "Checked experiments",
+       .body = paragraph(css("verdict"), span(css(all ? "pill held" : "pill broken"), index_words(entries))) +
+               div(css("scroll"), table("index", head, rows)) + "\n",
+       .version = version});
 }
 
 }  // namespace noonmark

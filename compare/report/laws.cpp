@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/laws.h"
+#include "compare/report/blocks.h"
 #include "compare/report/sections.h"
 #include "compare/report/shown.h"
 #include "compare/report/text.h"
@@ -32,53 +33,48 @@ size_t drawn_every(const LawResult& law) {
   return law.samples.size() <= most_whole_points ? 1 : 1 + law.samples.size() / max_even_points;
 }
 
-std::string broken_rows(const LawResult& law) {
+// Where a broken law is furthest off, and the command that shows it.
+Markup broken_law_row(const LawResult& law) {
   if (law.held) return "";
-  std::string what = "no point matches";
+  Markup what = "no point matches";
   if (law.worst >= 0) {
     const LawResult::Sample& sample = law.samples[static_cast<size_t>(law.worst)];
-    what = fmt::format("Off by {} at <a href=\"#p{}\">point {}</a>, where at most {} is allowed.",
-                       number(sample.measured - sample.predicted), sample.point, sample.point, number(sample.allowed));
+    what = prose("Off by {} at {}, where at most {} is allowed.", number(sample.measured - sample.predicted),
+                 point_link(sample.point, prose("point {}", sample.point)), number(sample.allowed));
   }
-  if (!law.reproduce.empty()) what += fmt::format(" See it: <code>{}</code>", html(law.reproduce));
-  return fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">{}</td></tr>\n", what);
+  if (!law.reproduce.empty()) what += " See it: " + code(law.reproduce);
+  return tr(css("command"), td(), td(Attribute("colspan", 5), what));
 }
 
-std::string sentence(const std::string& text) {
-  return text.empty() ? "" : fmt::format("<br><span class=\"says\">{}</span>", html(text));
+Markup said_below(const std::string& text) { return text.empty() ? "" : line_break() + span(css("says"), text); }
+
+Markup law_row(const LawResult& law) {
+  const auto figure = [](const Markup& content) { return td(css("number"), content); };
+  const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
+  return tr(css(law.held ? "held" : "broken"), td(law.held ? "✓ holds" : "✗ broken"),
+            row_head(law.name, said_below(law.says), said_below(law.found), line_break(), code(law_text(law))),
+            figure(law.samples.size()), figure(predicted_text(law)), figure(worst ? number(worst->measured) : "–"),
+            figure(ratio_text(law)));
 }
 
 }  // namespace
 
-std::string laws_table(const Results& results) {
+Markup laws_table(const Results& results) {
   if (results.laws.empty()) return "";
-  std::string rows;
-  for (const LawResult& law : results.laws) {
-    const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
-    rows += fmt::format(
-        "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}{}<br><code>{}</code></th><td class=\"number\">{}</td><td "
-        "class=\"number\">{}</td>"
-        "<td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n{}",
-        law.held ? "held" : "broken", law.held ? "✓ holds" : "✗ broken", html(law.name),
-        sentence(law.says) + sentence(law.found), html(law_text(law)), law.samples.size(), html(predicted_text(law)),
-        worst ? number(worst->measured) : "–", html(ratio_text(law)), broken_rows(law));
-  }
-  std::string out = "<h3 id=\"laws\">Laws</h3>\n";
-  if (std::any_of(results.laws.begin(), results.laws.end(), charted))
-    out += chart_place("laws", "Measured against predicted. On the line the two are equal.");
-  if (std::any_of(results.laws.begin(), results.laws.end(), [](const auto& law) { return drawn_every(law) > 1; }))
-    out += fmt::format(
-        "<p class=\"note thinned\">Of a law with more than {} samples the chart draws some, evenly chosen, and the "
-        "worst. All samples are judged; <code>results.sqlite</code> has them.</p>\n",
-        most_whole_points);
-  return out +
-         "<div class=\"scroll\"><table class=\"bounds laws\"><thead><tr><th>Verdict</th><th>Law</th><th "
-         "class=\"number\">Samples</th>"
-         "<th class=\"number\">Predicted</th><th class=\"number\">Measured</th><th class=\"number\">Measured / "
-         "predicted</th></tr></thead><tbody>\n" +
-         rows +
-         "</tbody></table></div>\n<p class=\"small\">Predicted and measured are from the sample that is furthest "
-         "off.</p>\n";
+  const auto any_law = [&](const auto& is) { return std::any_of(results.laws.begin(), results.laws.end(), is); };
+  Markup rows;
+  for (const LawResult& law : results.laws) rows += law_row(law) + broken_law_row(law);
+  Markup out = element("h3", Attribute("id", "laws"), "Laws") + "\n";
+  if (any_law(charted)) out += chart_place("laws", "Measured against predicted. On the line the two are equal.");
+  if (any_law([](const LawResult& law) { return drawn_every(law) > 1; }))
+    out += paragraph(css("note thinned"),
+                     prose("Of a law with more than {} samples the chart draws some, evenly chosen, and the worst. All "
+                           "samples are judged; {} has them.",
+                           most_whole_points, code("results.sqlite")));
+  Markup head = heads({"Verdict", "Law"});
+  for (const char* name : {"Samples", "Predicted", "Measured", "Measured / predicted"}) head += th(css("number"), name);
+  return out + div(css("scroll"), table("bounds laws", head, rows)) + "\n" +
+         paragraph(css("small"), "Predicted and measured are from the sample that is furthest off.");
 }
 
 json law_data(const Results& results) {

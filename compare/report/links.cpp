@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "compare/report/text.h"
-
 namespace noonmark::report {
 namespace {
 
@@ -18,11 +16,15 @@ bool begins_any_case(std::string_view text, std::string_view beginning) {
 
 }  // namespace
 
-std::string web_link(std::string_view address, std::string_view text) {
+Markup web_link(std::string_view address, std::string_view text) {
   // No address has a space or a control character (RFC 3986, section 2): such a text is no address.
   const bool whole = std::all_of(address.begin(), address.end(), [](unsigned char c) { return c > ' ' && c != 0x7f; });
-  if (!whole || (!begins_any_case(address, "http://") && !begins_any_case(address, "https://"))) return html(address);
-  return fmt::format("<a href=\"{}\">{}</a>", html(address), html(text));
+  if (!whole || (!begins_any_case(address, "http://") && !begins_any_case(address, "https://"))) return address;
+  return element("a", Attribute("href", address), text);
+}
+
+Markup file_link(std::string_view path, const Markup& content) {
+  return element("a", Attribute("href", file_address(path)), content);
 }
 
 // Only letters, digits and a few signs stand for themselves (RFC 3986, section 2.3), so no path has a scheme.

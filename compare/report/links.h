@@ -4,12 +4,15 @@
 #include <string>
 #include <string_view>
 
+#include "compare/report/element.h"
+
 namespace noonmark::report {
 
 // A link to an address of the web (http or https). Any other address is written as text, without a link.
-std::string web_link(std::string_view address, std::string_view text);
+Markup web_link(std::string_view address, std::string_view text);
 
-// The address of a file beside the page, for href and src. path: relative to the page, any bytes.
+// A link to a file beside the page, and its address, for src. path: relative to the page, any bytes.
+Markup file_link(std::string_view path, const Markup& content);
 std::string file_address(std::string_view path);
 
 }  // namespace noonmark::report

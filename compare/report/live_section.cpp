@@ -11,8 +11,10 @@
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
+#include "compare/report/blocks.h"
 #include "compare/report/deflate.h"
 #include "compare/report/opening.h"
+#include "compare/report/page_parts.h"
 #include "compare/report/point_data.h"
 #include "compare/report/text.h"
 #include "compare/results/quantities.h"
@@ -46,13 +48,27 @@ std::string packed(std::string_view arrays, size_t answers) {
   return deflated(byte_planes(arrays.substr(0, floats), sizeof(float)) + std::string(arrays.substr(floats)));
 }
 
-std::string without_picture(const std::string& why) {
-  return fmt::format(
-      "<p class=\"small\">{} Points with pictures get a live "
-      "picture if a part of the bias has a curve and the filter is a mean of at most 255 comparisons. Run the "
-      "experiment "
-      "with <code>pictures = \"first\"</code> or another value than none.</p>\n",
-      why);
+Markup without_picture(const std::string& why) {
+  return paragraph(
+      css("small"),
+      prose("The live picture is not shown: {}. Points with pictures get a live picture if a part of the "
+            "bias has a curve and the filter is a mean of at most 255 comparisons. Run the experiment with "
+            "{} or another value than none.",
+            why, code("pictures = \"first\"")));
+}
+
+// What page/live.js fills: buttons, the picture, the slider with its marks, and what is seen.
+Markup live_stage(const json& head, const Markup& caption) {
+  const Markup canvas =
+      element("canvas", Attribute("width", head.value("width", 0)), Attribute("height", head.value("height", 0)),
+              Attribute("role", "img"), Attribute("aria-label", "The picture at the chosen bias"));
+  const Markup slider =
+      div(css("bias-slider"), div(css("bias-marks"), Attribute("aria-hidden", "true")),
+          element("input", Attribute("type", "range"), Attribute("aria-label", "Bias, on a logarithmic scale")));
+  return element("figure", css("chart js-only"), Attribute("id", "live-picture"), div(css("controls")), canvas, slider,
+                 element("p", css("facts"), Attribute("aria-live", "polite")), div(css("legend")),
+                 element("figcaption", caption)) +
+         "\n";
 }
 
 }  // namespace
@@ -62,8 +78,8 @@ bool has_live_picture(const Results& results) {
                      [](const PointRecord& point) { return live_image(point) != nullptr; });
 }
 
-std::string live_figure(const Results& results, const ShownPoints& shown,
-                        const std::function<std::string(const std::string&)>& read_file) {
+Markup live_figure(const Results& results, const ShownPoints& shown,
+                   const std::function<std::string(const std::string&)>& read_file) {
   const PointRecord* const point = opening(results, shown.groups).point;
   if (!point) return "";
   std::string bytes;
@@ -74,7 +90,7 @@ std::string live_figure(const Results& results, const ShownPoints& shown,
     head["data"] =
         base64(packed(std::string_view(bytes).substr(bytes.find('\n') + 1), head.value("answers", size_t{0})));
   } catch (const std::exception& error) {
-    return without_picture(fmt::format("The live picture is not shown: {}.", html(error.what())));
+    return without_picture(error.what());
   }
   head["point"] = point->id;
   head["marks"] = marks_of(*point, recommend(results));
@@ -84,19 +100,13 @@ std::string live_figure(const Results& results, const ShownPoints& shown,
   });
   // The picture is at every bias, so the one that was set is not its name.
   const std::string phrase = settings_phrase(*point, without_curve_parameter(*point, results.info.swept));
-  return fmt::format(
-      "<figure class=\"chart js-only\" id=\"live-picture\"><div class=\"controls\"></div>"
-      "<canvas width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"The picture at the chosen bias\"></canvas>"
-      "<div class=\"bias-slider\"><div class=\"bias-marks\" aria-hidden=\"true\"></div>"
-      "<input type=\"range\" aria-label=\"Bias, on a logarithmic scale\"></div>"
-      "<p class=\"facts\" aria-live=\"polite\"></p><div class=\"legend\"></div>"
-      "<figcaption><a href=\"#p{2}\">Point {2}</a>{3}, at every bias: each pixel has the light and the cause that "
-      "OpenGL's picture has with that bias, exactly; only the grey of the shading is rounded. At the bias as set{4} it "
-      "is the point's own picture, with its numbers; at others {0} × {1} pixels, measured for themselves. The marks "
-      "are those of the own picture.</figcaption></figure>\n"
-      "<script type=\"application/json\" id=\"live-data\">{5}</script>\n",
-      head.value("width", 0), head.value("height", 0), point->id, phrase.empty() ? "" : ": " + html(phrase),
-      at_other ? ", and at the recommended one," : "", script_json(head));
+  const Markup caption = prose(
+      "{}{}, at every bias: each pixel has the light and the cause that OpenGL's picture has with that bias, exactly; "
+      "only the grey of the shading is rounded. At the bias as set{} it is the point's own picture, with its numbers; "
+      "at others {} × {} pixels, measured for themselves. The marks are those of the own picture.",
+      point_link(point->id, prose("Point {}", point->id)), phrase.empty() ? "" : ": " + phrase,
+      at_other ? ", and at the recommended one," : "", head.value("width", 0), head.value("height", 0));
+  return live_stage(head, caption) + data_block("live-data", head) + "\n";
 }
 
 }  // namespace noonmark::report

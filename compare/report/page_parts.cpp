@@ -55,13 +55,16 @@ std::string colour_rules(const std::vector<CauseColor>& causes) {
 // packed: the 5.3 MB of JSON in the report of experiments/laws.toml become 0.5 MB.
 constexpr size_t largest_plain_block = 1 << 20;
 
-// The HTML element that holds the data of the charts. report/page/data.js reads it.
-std::string data_block(const nlohmann::json& data) {
+Markup json_block(std::string_view id, const std::string& safe_json) {
+  return element("script", Attribute("type", "application/json"), Attribute("id", id), Markup::unescaped(safe_json));
+}
+
+// The element that holds the data of the charts. report/page/data.js reads it.
+Markup chart_block(const nlohmann::json& data) {
   const std::string text = script_json(data);
-  if (text.size() <= largest_plain_block)
-    return "<script type=\"application/json\" id=\"noonmark-data\">" + text + "</script>";
-  return "<script type=\"text/plain\" id=\"noonmark-data\" data-packed=\"deflate base64\">" + base64(deflated(text)) +
-         "</script>";
+  if (text.size() <= largest_plain_block) return json_block("noonmark-data", text);
+  return element("script", Attribute("type", "text/plain"), Attribute("id", "noonmark-data"),
+                 Attribute("data-packed", "deflate base64"), base64(deflated(text)));
 }
 
 // Replaces each {{name}} of the template once. Inserted text is not searched again.
@@ -73,22 +76,26 @@ std::string fill(std::string_view page, Lookup&& lookup) {
     out += page.substr(0, open);
     if (open == std::string_view::npos) return out;
     const size_t close = page.find("}}", open);
-    if (close == std::string_view::npos) throw std::logic_error("the report's template has an open {{");
+    if (close == std::string_view::npos) throw std::logic_error("a page's template has an open {{");
     out += lookup(page.substr(open + 2, close - open - 2));
     page.remove_prefix(close + 2);
   }
+}
+
+std::logic_error unknown(std::string_view name) {
+  return std::logic_error("a page's template asks for " + std::string(name));
 }
 
 }  // namespace
 
 std::string fill_page(const PageParts& parts) {
   return fill(file("report/page/page.html"), [&](std::string_view name) -> std::string {
-    if (name == "title") return parts.title;
-    if (name == "subtitle") return parts.subtitle;
+    if (name == "title") return parts.title.html();
+    if (name == "subtitle") return parts.subtitle.html();
     if (name == "style") return colour_rules(parts.causes) + std::string(file("report/page/style.css"));
-    if (name == "nav") return parts.navigation;
-    if (name == "sections") return parts.sections;
-    if (name == "data") return data_block(parts.data);
+    if (name == "nav") return parts.navigation.html();
+    if (name == "sections") return parts.sections.html();
+    if (name == "data") return chart_block(parts.data).html();
     if (name == "vega") return vega_script();
     if (name == "start") return std::string(file("report/page/data.js"));
     if (name == "script") {
@@ -96,23 +103,26 @@ std::string fill_page(const PageParts& parts) {
       for (const std::string& part : parts.scripts) script += file(fmt::format("report/page/{}.js", part));
       return script;
     }
-    if (name == "version") return html(parts.version);
-    throw std::logic_error("the report's template asks for " + std::string(name));
+    if (name == "version") return Markup(parts.version).html();
+    throw unknown(name);
   });
 }
 
-std::string plain_page(const std::string& title, const std::string& body, const std::string& version,
-                       Pictures pictures) {
-  return fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-      "http-equiv=\"Content-Security-Policy\" "
-      "content=\"default-src 'none'; img-src {4}; style-src 'unsafe-inline'\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<title>{0} · Noonmark</title>\n<style>\n{1}</style>\n</head>\n<body>\n"
-      "<header><h1>{0}</h1></header>\n<main>\n{2}</main>\n<footer><p>Made by Noonmark {3}.</p></footer>\n</body>\n"
-      "</html>\n",
-      html(title), file("report/page/style.css"), body, html(version),
-      pictures == Pictures::inside ? "data:" : "'self' file: data:");
+std::string plain_page(const PlainPageParts& parts) {
+  return fill(file("report/page/plain.html"), [&](std::string_view name) -> std::string {
+    if (name == "title") return parts.title.html();
+    if (name == "pictures") return parts.pictures == Pictures::inside ? "data:" : "'self' file: data:";
+    if (name == "style") {
+      std::string style(file("report/page/style.css"));
+      if (!parts.style.empty()) style += file(fmt::format("report/page/{}.css", parts.style));
+      return style;
+    }
+    if (name == "body") return parts.body.html();
+    if (name == "version") return Markup(parts.version).html();
+    throw unknown(name);
+  });
 }
+
+Markup data_block(std::string_view id, const nlohmann::json& data) { return json_block(id, script_json(data)); }
 
 }  // namespace noonmark::report

@@ -3,17 +3,19 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compare/report/cause_colors.h"
+#include "compare/report/element.h"
 
 namespace noonmark::report {
 
 struct PageParts {
-  std::string title, subtitle, navigation, sections;  // HTML
-  nlohmann::json data;                                // for the scripts
-  std::vector<CauseColor> causes;                     // whose colours the page may use
-  std::vector<std::string> scripts;                   // names of files in page/, in order: "charts", "page"
+  Markup title, subtitle, navigation, sections;
+  nlohmann::json data;               // for the scripts
+  std::vector<CauseColor> causes;    // whose colours the page may use
+  std::vector<std::string> scripts;  // names of files in page/, in order: "charts", "page"
   std::string version;
 };
 
@@ -22,8 +24,16 @@ std::string fill_page(const PageParts& parts);
 // Whether a page holds its pictures itself, or shows files from folders beside it. The page allows no other pictures.
 enum class Pictures { inside, beside };
 
-// A page with the same style, without scripts. title: text; body: HTML.
-std::string plain_page(const std::string& title, const std::string& body, const std::string& version,
-                       Pictures pictures = Pictures::inside);
+// A page with the same style, without scripts.
+struct PlainPageParts {
+  Markup title, body;
+  std::string version;
+  Pictures pictures = Pictures::inside;
+  std::string style{};  // name of a file in page/ with rules for this page alone; empty: none
+};
+std::string plain_page(const PlainPageParts& parts);
+
+// Data for a script, as the element that holds it. The script reads it by its id.
+Markup data_block(std::string_view id, const nlohmann::json& data);
 
 }  // namespace noonmark::report

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
@@ -16,7 +17,6 @@
 namespace noonmark {
 namespace {
 
-using report::html;
 using report::metres;
 
 std::string percent(double share) { return fmt::format("{:g}%", 100 * share); }
@@ -101,31 +101,27 @@ std::vector<std::string> phase_words(const PhaseDiagram& d) {
 }
 
 std::string render_phase(const PhaseDiagram& d) {
-  const std::string sections =
-      "<section id=\"phase\"><h2>Texel size and bias</h2>\n" + report::phase_figure(d, 0) + "</section>\n" +
-      fmt::format(
-          "<section id=\"making\"><h2>How it was made</h2>\n<dl "
-          "class=\"terms\"><div><dt>Command</dt><dd><code>{}</code>"
-          "</dd></div><div><dt>Technique</dt><dd>{}</dd></div>{}</dl></section>\n",
-          html(d.command), html(d.technique),
-          d.notes.empty() ? "" : fmt::format("<div><dt>Notes</dt><dd>{}</dd></div>", html(d.notes)));
+  using namespace report;
+  const Markup made = term("Command", code(d.command)) + term("Technique", d.technique) +
+                      (d.notes.empty() ? "" : term("Notes", d.notes));
   nlohmann::json causes = nlohmann::json::array();
   for (const CauseColor& color : cause_colors) causes.push_back({{"name", color.name}, {"label", color.label}});
   const nlohmann::json none = nlohmann::json::array();
-  return report::fill_page({.title = html(fmt::format("Phase diagram of {}", d.scene)),
-                            .subtitle = html(fmt::format("Scene {} · {} light · {} texel sizes × {} biases", d.scene,
-                                                         d.light, d.rows.size(), d.bias_m.size())),
-                            .navigation = "<a href=\"#phase\">Diagram</a><a href=\"#making\">Making</a>",
-                            .sections = sections,
-                            .data = {{"points", none},
-                                     {"metrics", none},
-                                     {"plot", none},
-                                     {"swept", none},
-                                     {"causes", causes},
-                                     {"phases", {report::phase_data(d)}}},
-                            .causes = {cause_colors.begin(), cause_colors.end()},
-                            .scripts = {"charts", "chart_phase", "save", "page"},
-                            .version = d.version});
+  return fill_page({.title = prose("Phase diagram of {}", d.scene),
+                    .subtitle = prose("Scene {} · {} light · {} texel sizes × {} biases", d.scene, d.light,
+                                      d.rows.size(), d.bias_m.size()),
+                    .navigation = section_link("phase", "Diagram") + section_link("making", "Making"),
+                    .sections = section("phase", "Texel size and bias", phase_figure(d, 0)) +
+                                section("making", "How it was made", terms("terms", made)),
+                    .data = {{"points", none},
+                             {"metrics", none},
+                             {"plot", none},
+                             {"swept", none},
+                             {"causes", causes},
+                             {"phases", {phase_data(d)}}},
+                    .causes = {cause_colors.begin(), cause_colors.end()},
+                    .scripts = {"charts", "chart_phase", "save", "page"},
+                    .version = d.version});
 }
 
 std::string phase_csv(const PhaseDiagram& d) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "compare/report/blocks.h"
 #include "compare/report/phase.h"
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
@@ -30,29 +31,25 @@ nlohmann::json series(const std::vector<double>& values) {
   return list;
 }
 
-std::string table(const PhaseDiagram& d) {
-  std::string rows;
-  for (const PhaseRow& row : d.rows) {
-    const Interval worst = d.usable(row), mean = d.usable_on_average(row);
-    const auto least = std::min_element(row.error_worst.begin(), row.error_worst.end()) - row.error_worst.begin();
-    const auto best = static_cast<size_t>(least);
-    const auto cells = [](const Interval& interval) {
-      return interval.empty() ? std::string("<td colspan=\"2\">none</td>")
-                              : fmt::format("<td>{}</td><td>{}</td>", metres(interval.low), metres(interval.high));
-    };
-    rows +=
-        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>{}{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                    row.resolution, metres(row.texel_m), cells(worst), cells(mean), metres(d.bias_m[best]),
-                    quantity(row.error_worst[best], "fraction"), quantity(row.error[best], "fraction"),
-                    std::isfinite(row.last_acne_m) ? metres(row.last_acne_m) : "more");
-  }
-  return fmt::format(
-      "<details class=\"more\"{}><summary>The same as a table</summary>\n<div class=\"scroll\"><table "
-      "class=\"numbers\"><thead>"
-      "<tr><th>Resolution</th><th>Texel</th><th>Usable from</th><th>to</th><th>In the mean from</th><th>to</th>"
-      "<th>Least error at</th><th>Error, worst</th><th>mean</th><th>No acne from</th></tr></thead><tbody>\n{}"
-      "</tbody></table></div></details>\n",
-      d.points.empty() ? " open" : "", rows);
+Markup texel_size_row(const PhaseDiagram& d, const PhaseRow& row) {
+  const auto least = std::min_element(row.error_worst.begin(), row.error_worst.end()) - row.error_worst.begin();
+  const auto best = static_cast<size_t>(least);
+  const auto cells = [](const Interval& interval) {
+    return interval.empty() ? td(Attribute("colspan", 2), "none")
+                            : td(metres(interval.low)) + td(metres(interval.high));
+  };
+  return tr(row_head(row.resolution), td(metres(row.texel_m)), cells(d.usable(row)), cells(d.usable_on_average(row)),
+            td(metres(d.bias_m[best])), td(quantity(row.error_worst[best], "fraction")),
+            td(quantity(row.error[best], "fraction")),
+            td(std::isfinite(row.last_acne_m) ? metres(row.last_acne_m) : "more"));
+}
+
+Markup texel_sizes(const PhaseDiagram& d) {
+  Markup rows;
+  for (const PhaseRow& row : d.rows) rows += texel_size_row(d, row);
+  const Markup head = heads({"Resolution", "Texel", "Usable from", "to", "In the mean from", "to", "Least error at",
+                             "Error, worst", "mean", "No acne from"});
+  return folded("more", d.points.empty(), "The same as a table", div(css("scroll"), table("numbers", head, rows)));
 }
 
 // Where a bias lies to the usable interval of its texel size.
@@ -73,52 +70,51 @@ std::string left_out_text(const PhaseDiagram& d) {
   constexpr size_t most = 4;  // the point's own rows in the table of all points have the rest
   std::string text;
   for (size_t i = 0; i < std::min(most, ordered.size()); ++i)
-    text += fmt::format("{}{} with {}", i ? ", " : "", ordered[i].second, html(ordered[i].first));
+    text += fmt::format("{}{} with {}", i ? ", " : "", ordered[i].second, ordered[i].first);
   if (ordered.size() > most) text += fmt::format(", and others with {} other settings", ordered.size() - most);
   return text;
 }
 
+Markup point_on_diagram(const PhasePoint& point, const PointRecord& record, const std::vector<std::string>& swept,
+                        const Interval& window, std::string_view verdict) {
+  return tr(row_head(point_link(point.point, point.point)), td(css("text"), settings_phrase(record, swept)),
+            td(metres(point.texel_m)), td(metres(point.bias_m)),
+            td(window.empty() ? "none" : fmt::format("{} … {}", metres(window.low), metres(window.high))),
+            td(css(verdict == "usable" ? "text" : "text fails"), verdict));
+}
+
 // The points of the sweep that lie on the diagram: in words, and as a table of those that are shown one by one.
-std::string points_of(const PhaseDiagram& d, const ShownPoints& shown) {
+Markup points_of(const PhaseDiagram& d, const ShownPoints& shown) {
+  if (d.points.empty()) return "";
   size_t on = 0, usable = 0;
-  std::string rows;
+  Markup rows;
   for (const PhasePoint& point : d.points) {
     if (!point.left_out.empty()) continue;
     ++on;
-    const PhaseRow& row = d.nearest_row(point.texel_m);
-    const Interval window = d.usable(row);
+    const Interval window = d.usable(d.nearest_row(point.texel_m));
     const std::string_view verdict = verdict_of(window, point.bias_m);
     usable += verdict == "usable";
     const auto& all = shown.results.points;
     const auto record = std::find_if(all.begin(), all.end(), [&](const auto& p) { return p.id == point.point; });
-    if (record == all.end()) continue;
-    rows += fmt::format(
-        "<tr><th scope=\"row\"><a href=\"#p{0}\">{0}</a></th><td class=\"text\">{1}</td><td>{2}</td><td>{3}</td>"
-        "<td>{4}</td><td class=\"text{6}\">{5}</td></tr>\n",
-        point.point, html(settings_phrase(*record, shown.results.info.swept)), metres(point.texel_m),
-        metres(point.bias_m), window.empty() ? "none" : fmt::format("{} … {}", metres(window.low), metres(window.high)),
-        verdict, verdict == "usable" ? "" : " fails");
+    if (record != all.end()) rows += point_on_diagram(point, *record, shown.results.info.swept, window, verdict);
   }
-  if (d.points.empty()) return "";
-  std::string text = fmt::format(
-      "<p>{} of the {} point{} of {} {} on the diagram, as rings; with the bias as set, {} of them {} usable at every "
+  Markup words = prose(
+      "{} of the {} point{} of {} {} on the diagram, as rings; with the bias as set, {} of them {} usable at every "
       "placement of the grid. A ring lies at the width of its point's texel and {}; what lies outside its own map is "
       "not on the diagram.",
-      on, d.points.size(), d.points.size() == 1 ? "" : "s",
-      d.part.empty() ? "this sweep" : fmt::format("part {}", html(d.part)), on == 1 ? "is" : "are", usable,
-      usable == 1 ? "is" : "are", by_bias("its constant bias as set", "its recommended constant bias"));
+      on, d.points.size(), d.points.size() == 1 ? "" : "s", d.part.empty() ? "this sweep" : "part " + d.part,
+      on == 1 ? "is" : "are", usable, usable == 1 ? "is" : "are",
+      by_bias("its constant bias as set", "its recommended constant bias"));
   if (on < d.points.size())
-    text += fmt::format(
+    words += prose(
         " The diagram is of {}. Points with other settings are not on it, because other texel sizes and biases are "
         "usable for them: {}.",
-        html(d.technique), left_out_text(d));
-  text += "</p>\n";
-  if (rows.empty()) return text;
-  return text +
-         "<details class=\"more\"><summary>The sweep's points on the diagram</summary>\n<div class=\"scroll\"><table "
-         "class=\"numbers\"><thead><tr><th>Point</th><th class=\"text\">Settings</th><th>Texel</th><th>Bias as set</th>"
-         "<th>Usable at the nearest texel size</th><th class=\"text\">That is</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div></details>\n";
+        d.technique, left_out_text(d));
+  if (rows.empty()) return paragraph(words);
+  const Markup head = th("Point") + th(css("text"), "Settings") +
+                      heads({"Texel", "Bias as set", "Usable at the nearest texel size"}) + th(css("text"), "That is");
+  return paragraph(words) + folded("more", false, prose("The sweep's points on the diagram"),
+                                   div(css("scroll"), table("numbers", head, rows)));
 }
 
 }  // namespace
@@ -154,7 +150,7 @@ nlohmann::json phase_data(const PhaseDiagram& d) {
 
 namespace {
 
-std::string chart_of(size_t index) {
+Markup chart_of(size_t index) {
   return chart_place(index == 0 ? std::string("phase") : fmt::format("phase-{}", index + 1),
                      "Texel size against a constant bias. Hatched: usable at every placement of the texel grid. "
                      "Red line: acne meets its bound; blue line: Peter Panning meets its bound (solid: worst "
@@ -169,36 +165,37 @@ bool has_diagram(const Results& results) {
                      [](const PhaseDiagram& diagram) { return diagram.refused.empty(); });
 }
 
-std::string first_diagram() { return chart_of(0); }
+Markup first_diagram() { return chart_of(0); }
 
-std::string phase_figure(const PhaseDiagram& d, size_t index, const std::string& points, bool with_chart) {
-  std::string sentences;
-  for (const std::string& sentence : phase_words(d)) sentences += fmt::format("<p>{}</p>\n", html(sentence));
+Markup phase_figure(const PhaseDiagram& d, size_t index, const Markup& points, bool with_chart) {
+  Markup sentences;
+  for (const std::string& sentence : phase_words(d)) sentences += paragraph(sentence);
   const int64_t placements = placements_of(d);
-  return sentences + (with_chart ? chart_of(index) : "") + points + table(d) +
-         fmt::format(
-             "<p class=\"small\">{} receivers of a picture of {} × {} pixels. Each texel size is measured at {} "
-             "placements of its grid, all from one set of first hits. Colour: the cause with the largest share; the "
-             "stronger, the larger the error. The largest error of all placements may be a tenth more than the largest "
-             "of these {}. The error is that on an exact map: what the depth format and the rasteriser add is not in "
-             "it.</p>\n",
-             number(d.receivers), d.width_px, d.height_px, placements, placements);
+  return sentences + (with_chart ? chart_of(index) : "") + points + texel_sizes(d) +
+         paragraph(
+             css("small"),
+             prose("{} receivers of a picture of {} × {} pixels. Each texel size is measured at {} placements of its "
+                   "grid, all from one set of first hits. Colour: the cause with the largest share; the stronger, the "
+                   "larger the error. The largest error of all placements may be a tenth more than the largest of "
+                   "these {}. The error is that on an exact map: what the depth format and the rasteriser add is not "
+                   "in it.",
+                   number(d.receivers), d.width_px, d.height_px, placements, placements));
 }
 
-std::string phase_section(const Results& results, const ShownPoints& shown) {
+Markup phase_section(const Results& results, const ShownPoints& shown) {
   if (results.phases.empty()) return "";
-  std::string out = "<section id=\"phase\"><h2>Texel size and bias</h2>\n";
+  Markup out;
   size_t index = 0;
   for (const PhaseDiagram& diagram : results.phases) {
-    if (!diagram.part.empty()) out += fmt::format("<h3>{}</h3>\n", html(diagram.part));
-    if (!diagram.refused.empty())
-      out += fmt::format("<p>There is no phase diagram: {}.</p>\n", html(diagram.refused));
-    else {
-      out += phase_figure(diagram, index, points_of(diagram, shown), index > 0);
-      ++index;
+    if (!diagram.part.empty()) out += element("h3", diagram.part) + "\n";
+    if (!diagram.refused.empty()) {
+      out += paragraph(prose("There is no phase diagram: {}.", diagram.refused));
+      continue;
     }
+    out += phase_figure(diagram, index, points_of(diagram, shown), index > 0);
+    ++index;
   }
-  return out + "</section>\n";
+  return section("phase", "Texel size and bias", out);
 }
 
 }  // namespace noonmark::report

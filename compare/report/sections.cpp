@@ -3,13 +3,13 @@
 #include "compare/report/sections.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
@@ -21,36 +21,88 @@
 namespace noonmark::report {
 namespace {
 
-std::string folded(const std::string& title, size_t rows, const std::string& inner) {
-  return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", rows <= open_rows ? " open" : "", title,
-                     inner);
-}
-
-std::string point_link(const PointRecord& point) { return fmt::format("<a href=\"#p{0}\">{0}</a>", point.id); }
-
 using Classes = std::map<std::string, std::string>;
 
 // Head cells and row cells for the swept settings, which distinguish the points.
-std::string swept_head(const Results& results, const Classes& classes) {
-  std::string out = "<th>Point</th>";
-  for (const std::string& name : results.info.swept) {
-    const std::string unit = swept_unit(name, results);
-    out += fmt::format("<th{} title=\"{}\">{}{}</th>", classes.at(name), html(name), html(setting_label(name)),
-                       unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)));
-  }
-  return out;
-}
-
-std::string swept_cells(const Results& results, const PointRecord& point, const Classes& classes) {
-  std::string out = fmt::format("<th scope=\"row\">{}</th>", point_link(point));
+Markup swept_head(const Results& results, const Classes& classes) {
+  Markup cells = th("Point");
   for (const std::string& name : results.info.swept)
-    out += fmt::format("<td{}>{}</td>", classes.at(name), html(setting_text(setting_of(point, name))));
-  return out;
+    cells +=
+        th(css(classes.at(name)), Attribute("title", name), with_small(setting_label(name), swept_unit(name, results)));
+  return cells;
 }
 
-std::string bias_cell(double depth, const BiasCurve& curve) {
-  return fmt::format("<td class=\"first\">{}</td><td>{}</td><td>{}</td>", number(depth),
-                     number(depth * curve.m_per_depth), number(depth * curve.texels_per_depth));
+Markup swept_cells(const Results& results, const PointRecord& point, const Classes& classes) {
+  Markup cells = row_head(point_link(point.id, point.id));
+  for (const std::string& name : results.info.swept)
+    cells += td(css(classes.at(name)), setting_text(setting_of(point, name)));
+  return cells;
+}
+
+Markup bias_cells(double depth, const BiasCurve& curve) {
+  return td(css("first"), number(depth)) + td(number(depth * curve.m_per_depth)) +
+         td(number(depth * curve.texels_per_depth));
+}
+
+// What the curves of the points have in common. alike: all vary the same parameter and were made in the same way.
+struct CurvesOfAll {
+  const BiasCurve* first = nullptr;
+  bool alike = true;
+};
+
+CurvesOfAll curves_of_all(const Results& results) {
+  CurvesOfAll curves;
+  for (const PointRecord& point : results.points) {
+    if (!point.curve) continue;
+    if (!curves.first) curves.first = &*point.curve;
+    curves.alike =
+        curves.alike && point.curve->parameter == curves.first->parameter && point.curve->made == curves.first->made;
+  }
+  return curves;
+}
+
+Markup window_row(const Results& results, const PointRecord& point, const Classes& classes, bool alike) {
+  const BiasCurve& curve = *point.curve;
+  const std::optional<Interval> usable = usable_window(curve);
+  Markup cells = swept_cells(results, point, classes);
+  cells += usable ? bias_cells(usable->low, curve) + bias_cells(usable->high, curve)
+                  : td(Attribute("colspan", 6), css("fails first"), "none: no bias is good enough");
+  cells += bias_cells(curve.best_bias_depth, curve) + td(cell(curve.best_error, "fraction"));
+  cells += td(css("first"), number(curve.flat_min_depth), " … ", number(curve.flat_max_depth));
+  if (!alike) cells += td(css("text"), curve.parameter) + td(css("text"), curve.made);
+  return tr(css(usable ? "" : "broken"), cells);
+}
+
+// Two rows: what is told, and its units.
+Markup windows_head(const Results& results, const Classes& classes, bool alike) {
+  const auto wide = [](int columns, const Markup& name) {
+    return th(css("first"), Attribute("colspan", columns), name);
+  };
+  Markup names = swept_head(results, classes) + wide(3, "Window from") + wide(3, "Window to") +
+                 wide(4, "Least error at") + th(css("first"), "Within 10\u202f%", line_break(), "of the least");
+  if (!alike) names += heads({"Parameter", "Made"});
+  Markup units = td();
+  for (size_t i = 0; i < results.info.swept.size(); ++i) units += td();
+  for (int i = 0; i < 3; ++i) units += th(css("first"), "depth") + heads({"m", "texels"});
+  units += th("error %") + th(css("first"), "depth");
+  if (!alike) units += td() + td();
+  return element("thead", tr(names), element("tr", css("units"), units));
+}
+
+Markup windows_table(const Results& results, const ShownPoints& shown, bool alike) {
+  const Classes classes = text_classes(results);
+  Markup rows;
+  size_t count = 0;
+  for (const PointRecord& point : shown.results.points) {
+    if (!point.curve) continue;
+    ++count;
+    rows += window_row(results, point, classes, alike);
+  }
+  const Markup windows =
+      element("table", css("numbers windows"), windows_head(results, classes, alike), element("tbody", "\n", rows));
+  return folded("", count <= open_rows,
+                shown.note.empty() ? "Every window" : "The windows of the points that are shown",
+                div(css("scroll"), windows) + "\n");
 }
 
 // The causes with stacked bars: the parts of R5 - R1.
@@ -58,11 +110,11 @@ bool is_part(std::string_view cause) { return cause != "light_size" && cause != 
 
 }  // namespace
 
-std::string chart_place(const std::string& name, const std::string& caption) {
-  return fmt::format(
-      "<figure class=\"chart js-only\" id=\"chart-{0}\"><div class=\"controls\"></div><div class=\"legend\"></div>"
-      "<div class=\"plot\" role=\"img\" aria-label=\"{1}\"></div><figcaption>{1}</figcaption></figure>\n",
-      name, caption);
+Markup chart_place(std::string_view name, const std::string& caption) {
+  return element("figure", css("chart js-only"), Attribute("id", fmt::format("chart-{}", name)), div(css("controls")),
+                 div(css("legend")), div(css("plot"), Attribute("role", "img"), Attribute("aria-label", caption)),
+                 element("figcaption", caption)) +
+         "\n";
 }
 
 std::map<std::string, std::string> text_classes(const Results& results) {
@@ -71,199 +123,186 @@ std::map<std::string, std::string> text_classes(const Results& results) {
     const std::vector<std::string> values = values_of(results, name);
     const bool numbers = std::all_of(values.begin(), values.end(),
                                      [](const std::string& value) { return number_of(value).has_value(); });
-    classes[name] = numbers ? "" : " class=\"text\"";
+    classes[name] = numbers ? "" : "text";
   }
   return classes;
 }
 
-std::string by_bias(const std::string& as_set, const std::string& recommended) {
-  return fmt::format("<span class=\"as-set\">{}</span><span class=\"as-recommended\">{}</span>", as_set, recommended);
+Markup by_bias(const Markup& as_set, const Markup& recommended) {
+  return span(css("as-set"), as_set) + span(css("as-recommended"), recommended);
 }
 
-std::string swatch(const std::string& cause) { return fmt::format("<i class=\"sw c-{}\"></i>", html(cause)); }
-
-std::string bias_section(const Results& results, const ShownPoints& shown) {
-  const Classes classes = text_classes(results);
-  std::string rows;
-  size_t count = 0;
-  const BiasCurve* first = nullptr;
-  bool alike = true;  // whether all curves vary the same parameter and were made in the same way
-  for (const PointRecord& point : results.points) {
-    if (!point.curve) continue;
-    if (!first) first = &*point.curve;
-    alike = alike && point.curve->parameter == first->parameter && point.curve->made == first->made;
-  }
-  for (const PointRecord& point : shown.results.points) {
-    if (!point.curve) continue;
-    ++count;
-    const BiasCurve& curve = *point.curve;
-    const std::optional<Interval> usable = usable_window(curve);
-    rows += fmt::format("<tr{}>{}", usable ? "" : " class=\"broken\"", swept_cells(results, point, classes));
-    rows += usable ? bias_cell(usable->low, curve) + bias_cell(usable->high, curve)
-                   : "<td colspan=\"6\" class=\"fails first\">none: no bias is good enough</td>";
-    rows += bias_cell(curve.best_bias_depth, curve);
-    rows += fmt::format("<td>{}</td><td class=\"first\">{} … {}</td>", cell(curve.best_error, "fraction"),
-                        number(curve.flat_min_depth), number(curve.flat_max_depth));
-    if (!alike)
-      rows +=
-          fmt::format("<td class=\"text\">{}</td><td class=\"text\">{}</td>", html(curve.parameter), html(curve.made));
-    rows += "</tr>\n";
-  }
+Markup bias_section(const Results& results, const ShownPoints& shown) {
+  const auto [first, alike] = curves_of_all(results);
   if (!first) return "";  // the findings say why
-  std::string out = "<section id=\"bias\"><h2>Error against bias</h2>\n";
+  Markup out;
   for (const PointRecord& point : results.points) {
     if (why_no_curve(point).empty()) continue;
-    out += fmt::format("<p class=\"small\">Some points have no curve: {}.</p>\n", why_no_curve(point));
+    out += paragraph(css("small"), prose("Some points have no curve: {}.", why_no_curve(point)));
     break;
   }
-  out += fmt::format(
-      "<p>Too little bias leaves acne; too much detaches shadows. The usable window is every bias that keeps acne "
-      "within {} and "
-      "Peter Panning within {} of the counted receivers{}.{}</p>\n",
+  out += paragraph(prose(
+      "Too little bias leaves acne; too much detaches shadows. The usable window is every bias that keeps acne within "
+      "{} and Peter Panning within {} of the counted receivers{}.{}",
       quantity(first->acne_bound, "fraction"), quantity(first->peter_panning_bound, "fraction"),
       first->placements > 1 ? ", at every placement of the grid" : "",
-      alike ? fmt::format(" Varied: <code>{}</code>; made: {}.", html(first->parameter), html(first->made)) : "");
+      alike ? prose(" Varied: {}; made: {}.", code(first->parameter), first->made) : ""));
   out += shown.note;
   if (const size_t drawn = drawn_biases(*first, curve_entries(shown.results)).size(); drawn < first->bias_depth.size())
-    out += fmt::format(
-        "<p class=\"small\">The chart draws {} of the {} biases of a curve, evenly chosen. <code>results.sqlite</code> "
-        "has "
-        "all of them. Windows and best biases are of the exact curve.</p>\n",
-        drawn, first->bias_depth.size());
+    out += paragraph(css("small"), prose("The chart draws {} of the {} biases of a curve, evenly chosen. {} has all of "
+                                         "them. Windows and best biases are of the exact curve.",
+                                         drawn, first->bias_depth.size(), code("results.sqlite")));
   out += chart_place("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
-  std::string head =
-      "<thead><tr>" + swept_head(results, classes) +
-      "<th class=\"first\" colspan=\"3\">Window from</th><th class=\"first\" colspan=\"3\">Window to</th>"
-      "<th class=\"first\" colspan=\"4\">Least error at</th><th class=\"first\">Within 10\u202f%<br>of the least</th>";
-  if (!alike) head += "<th>Parameter</th><th>Made</th>";
-  head += "</tr>\n<tr class=\"units\"><td></td>";
-  for (size_t i = 0; i < results.info.swept.size(); ++i) head += "<td></td>";
-  for (int i = 0; i < 3; ++i) head += "<th class=\"first\">depth</th><th>m</th><th>texels</th>";
-  head += "<th>error %</th><th class=\"first\">depth</th>";
-  if (!alike) head += "<td></td><td></td>";
-  head += "</tr></thead>";
-  out += folded(shown.note.empty() ? "Every window" : "The windows of the points that are shown", count,
-                "<div class=\"scroll\"><table class=\"numbers windows\">" + head + "<tbody>\n" + rows +
-                    "</tbody></table></div>\n");
-  return out + "</section>\n";
+  return section("bias", "Error against bias", out + windows_table(results, shown, alike));
 }
 
-std::string sweep_section(const Results& results, const ShownPoints& shown) {
-  std::string out =
-      "<p class=\"small\">The tables are of the error against the hard truth (R1). The charts offer the others.</p>\n" +
+namespace {
+
+// Mean and worst over all other settings: the chart's trend in numbers.
+struct Trend {
+  double sum = 0, worst = 0, best_sum = 0;
+  size_t finite = 0, of = 0, curves = 0;
+
+  void add(const PointRecord& point) {
+    ++of;
+    if (point.curve && std::isfinite(point.curve->best_error)) best_sum += point.curve->best_error, ++curves;
+    const double error = metric_of(point, "error");
+    if (!std::isfinite(error)) return;
+    ++finite, sum += error, worst = std::max(worst, error);
+  }
+  Markup row(const std::string& value) const {
+    const double none = std::nan("");
+    return tr(row_head(setting_text(value)), td(cell(finite ? sum / static_cast<double>(finite) : none, "fraction")),
+              td(cell(finite ? worst : none, "fraction")),
+              td(curves ? cell(best_sum / static_cast<double>(curves), "fraction") : "–"),
+              td(finite == of ? Markup(of) : prose("{} ({} not finite)", of, of - finite)));
+  }
+};
+
+// The chart of one swept setting, and its table. number: from 1.
+Markup sweep_of(const std::string& name, const std::vector<std::string>& values, size_t number,
+                const Results& results) {
+  std::unordered_map<std::string, Trend> trends;
+  for (const PointRecord& point : results.points) trends[setting_of(point, name)].add(point);
+  Markup rows;
+  for (const std::string& value : values) rows += trends[value].row(value);
+  const std::string label = setting_label(name);
+  const Markup head = th(with_small(label, swept_unit(name, results))) + th(with_small("Mean error", "%")) +
+                      th(with_small("Worst error", "%")) + th(with_small("Mean error at best bias", "%")) +
+                      th("Points");
+  return div(css("swept"), element("h3", name), "\n",
+             chart_place(
+                 fmt::format("sweep-{}", number),
+                 fmt::format("Error against {}; one line for each combination of the other swept settings.", label)),
+             div(css("scroll fit"), table("numbers small-table", head, rows))) +
+         "\n";
+}
+
+}  // namespace
+
+Markup sweep_section(const Results& results, const ShownPoints& shown) {
+  Markup out =
+      paragraph(css("small"), "The tables are of the error against the hard truth (R1). The charts offer the others.") +
       shown.note;
-  std::vector<std::string> labels;
-  size_t charts = 0;
+  std::vector<Markup> labels;
   for (const std::string& name : results.info.swept) {
     const std::vector<std::string> values = values_of(results, name);
     if (values.size() < 2 ||
         !std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
       continue;
-    ++charts;
-    labels.push_back(html(setting_label(name)));
-    // Mean and worst over all other settings: the chart's trend in numbers.
-    struct Trend {
-      double sum = 0, worst = 0, best_sum = 0;
-      size_t finite = 0, of = 0, curves = 0;
-    };
-    std::unordered_map<std::string, Trend> trends;
-    for (const PointRecord& point : results.points) {
-      Trend& trend = trends[setting_of(point, name)];
-      ++trend.of;
-      if (point.curve && std::isfinite(point.curve->best_error))
-        trend.best_sum += point.curve->best_error, ++trend.curves;
-      const double error = metric_of(point, "error");
-      if (!std::isfinite(error)) continue;
-      ++trend.finite, trend.sum += error, trend.worst = std::max(trend.worst, error);
-    }
-    std::string rows;
-    for (const std::string& value : values) {
-      const auto& [sum, worst, best_sum, finite, of, curves] = trends[value];
-      const double none = std::nan("");
-      rows += fmt::format(
-          "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", html(setting_text(value)),
-          cell(finite ? sum / static_cast<double>(finite) : none, "fraction"), cell(finite ? worst : none, "fraction"),
-          curves ? cell(best_sum / static_cast<double>(curves), "fraction") : "–",
-          finite == of ? fmt::format("{}", of) : fmt::format("{} ({} not finite)", of, of - finite));
-    }
-    const std::string unit = swept_unit(name, results);
-    out += fmt::format("<div class=\"swept\"><h3>{}</h3>\n", html(name));
-    out += chart_place(fmt::format("sweep-{}", charts),
-                       fmt::format("Error against {}; one line for each combination of the other swept settings.",
-                                   html(setting_label(name))));
-    out += fmt::format(
-        "<div class=\"scroll fit\"><table class=\"numbers small-table\"><thead><tr><th>{}{}</th><th>Mean error "
-        "<small>%</small></th>"
-        "<th>Worst error <small>%</small></th><th>Mean error at best bias "
-        "<small>%</small></th><th>Points</th></tr></thead><tbody>\n{}</tbody></table></div></div>\n",
-        html(setting_label(name)), unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)), rows);
+    labels.push_back(setting_label(name));
+    out += sweep_of(name, values, labels.size(), results);
   }
-  if (labels.empty()) return "";
-  return fmt::format("<section id=\"sweep\"><h2>Error against {}</h2>\n{}</section>\n", fmt::join(labels, ", "), out);
+  return labels.empty() ? "" : section("sweep", "Error against " + joined(labels, ", "), out);
 }
 
-std::string budget_section(const Results& results, const ShownPoints& shown) {
+namespace {
+
+// The causes of one point: "Acne 1 %, Peter Panning 2 %" of those that were measured, and those that have a bar.
+struct CausesOfPoint {
+  std::string told;
+  std::vector<std::pair<std::string_view, double>> sizes;
+  double sum = 0;
+};
+
+CausesOfPoint causes_of_point(const PointRecord& point, const std::vector<CauseColor>& causes) {
+  CausesOfPoint out;
+  for (const CauseColor& cause : causes) {
+    const double value = metric_of(point, std::string(cause.name));
+    if (!is_part(cause.name)) continue;
+    if (std::isnan(value) && !point.metrics.contains(std::string(cause.name))) continue;
+    out.told +=
+        fmt::format("{}{} {}", out.told.empty() ? "" : ", ", metric_label(cause.name), quantity(value, "fraction"));
+    if (!std::isfinite(value) || value <= 0) continue;
+    out.sum += value;
+    out.sizes.emplace_back(cause.name, value);
+  }
+  return out;
+}
+
+// differing: the swept settings that tell the rows apart. largest: the sum of the longest bar.
+Markup budget_row(const PointRecord& point, const CausesOfPoint& causes, const std::vector<std::string>& differing,
+                  double largest) {
+  Markup parts;
+  // Percent of the bar, because flex factors that sum to less than 1 would not fill it.
+  for (const auto& [name, value] : causes.sizes)
+    parts += element("i", css(fmt::format("c-{}", name)),
+                     Attribute("style", fmt::format("flex-grow:{:.4f}", 100 * value / causes.sum)));
+  const auto phrase = [&](const std::vector<std::string>& names) {
+    const std::string text = settings_phrase(point, names);
+    return text.empty() ? fmt::format("point {}", point.id) : text;
+  };
+  const std::vector<std::string> at_bias = without_curve_parameter(point, differing);
+  const Markup name =
+      at_bias.size() == differing.size() ? Markup(phrase(differing)) : by_bias(phrase(differing), phrase(at_bias));
+  const std::string size = fmt::format("--size:{:.5f}", largest > 0 ? causes.sum / largest : 0);
+  return div(css("row"), Attribute("data-point", point.id), Attribute("title", causes.told),
+             span(css("name"), point_link(point.id, name)),
+             span(css("track"), span(css("bar"), Attribute("style", size), parts)),
+             span(css("value"), quantity(metric_of(point, "error"), "fraction"))) +
+         "\n";
+}
+
+// A button of the two that scale the bars. id: "size".
+Markup budget_choice(std::string_view id, const char* label, bool checked) {
+  const std::string name = fmt::format("budget-{}", id);
+  return element("input", Attribute("type", "radio"), Attribute("name", "budget"), Attribute("id", name),
+                 Attribute("checked", checked)) +
+         element("label", Attribute("for", name), label);
+}
+
+}  // namespace
+
+Markup budget_section(const Results& results, const ShownPoints& shown) {
   if (results.points.empty()) return "";
   const std::vector<CauseColor> causes = causes_of(results.points);
+  std::vector<CausesOfPoint> of_points;
   double largest = 0;
   for (const PointRecord& point : shown.results.points) {
-    double sum = 0;
-    for (const CauseColor& cause : causes)
-      if (const double value = metric_of(point, std::string(cause.name));
-          is_part(cause.name) && value > 0 && std::isfinite(value))
-        sum += value;
-    largest = std::max(largest, sum);
+    of_points.push_back(causes_of_point(point, causes));
+    largest = std::max(largest, of_points.back().sum);
   }
   // What every point shares does not tell the rows apart.
   std::vector<std::string> differing;
   for (const std::string& name : results.info.swept)
     if (values_of(results, name).size() > 1) differing.push_back(name);
-  std::string legend, rows;
+  Markup legend, rows;
   for (const CauseColor& cause : causes)
-    if (is_part(cause.name))
-      legend += fmt::format("<span>{}{}</span>\n", swatch(std::string(cause.name)), html(cause.label));
-  for (const PointRecord& point : shown.results.points) {
-    std::vector<std::pair<std::string_view, double>> sizes;
-    std::string parts, told;
-    double sum = 0;
-    for (const CauseColor& cause : causes) {
-      const double value = metric_of(point, std::string(cause.name));
-      if (!is_part(cause.name)) continue;
-      if (std::isnan(value) && !point.metrics.contains(std::string(cause.name))) continue;
-      told += fmt::format("{}{} {}", told.empty() ? "" : ", ", metric_label(cause.name), quantity(value, "fraction"));
-      if (!std::isfinite(value) || value <= 0) continue;
-      sum += value;
-      sizes.emplace_back(cause.name, value);
-    }
-    // Percent of the bar, because flex factors that sum to less than 1 would not fill it.
-    for (const auto& [name, value] : sizes)
-      parts += fmt::format("<i class=\"c-{}\" style=\"flex-grow:{:.4f}\"></i>", name, 100 * value / sum);
-    const auto phrase = [&](const std::vector<std::string>& names) {
-      const std::string text = settings_phrase(point, names);
-      return html(text.empty() ? fmt::format("point {}", point.id) : text);
-    };
-    const std::vector<std::string> at_bias = without_curve_parameter(point, differing);
-    rows += fmt::format(
-        "<div class=\"row\" data-point=\"{1}\" title=\"{0}\"><span class=\"name\"><a href=\"#p{1}\">{2}</a></span>"
-        "<span class=\"track\"><span class=\"bar\" style=\"--size:{3:.5f}\">{4}</span></span><span "
-        "class=\"value\">{5}</span></div>\n",
-        html(told), point.id,
-        at_bias.size() == differing.size() ? phrase(differing) : by_bias(phrase(differing), phrase(at_bias)),
-        largest > 0 ? sum / largest : 0, parts, quantity(metric_of(point, "error"), "fraction"));
-  }
-  return fmt::format(
-      "<section id=\"budget\"><h2>The error budget</h2>\n<p>The part of the error that each cause adds, {}, as a share "
-      "of counted receivers. The number at the end is the whole error, mean |{} − R1|. With a filter, causes can "
-      "cancel in it, "
-      "and displacement can cancel with the others, so the bar can be longer.</p>\n{}"
-      "<div class=\"legend\">{}</div>\n"
-      "<div class=\"budget{}\"><input type=\"radio\" name=\"budget\" id=\"budget-size\" checked><label "
-      "for=\"budget-size\">By size</label>"
-      "<input type=\"radio\" name=\"budget\" id=\"budget-share\"><label for=\"budget-share\">By share</label>\n<div "
-      "class=\"rows\">\n{}</div></div></section>\n",
+    if (is_part(cause.name)) legend += legend_entry(cause.name, cause.label);
+  for (size_t i = 0; i < of_points.size(); ++i)
+    rows += budget_row(shown.results.points[i], of_points[i], differing, largest);
+  const Markup words = prose(
+      "The part of the error that each cause adds, {}, as a share of counted receivers. The number at the end is the "
+      "whole error, mean |{} − R1|. With a filter, causes can cancel in it, and displacement can cancel with the "
+      "others, so the bar can be longer.",
       by_bias("with the bias as rendered",
               "with the recommended bias (causes that no curve gives are those of the bias as rendered)"),
-      judged_rung(results.points.front()), shown.note, legend, results.points.size() > open_rows ? " many" : "", rows);
+      judged_rung(results.points.front()));
+  const Markup bars =
+      div(css(results.points.size() > open_rows ? "budget many" : "budget"), budget_choice("size", "By size", true),
+          budget_choice("share", "By share", false), "\n", div(css("rows"), "\n", rows));
+  return section("budget", "The error budget",
+                 paragraph(words) + shown.note + div(css("legend"), legend) + "\n" + bars);
 }
 
 }  // namespace noonmark::report

@@ -83,7 +83,7 @@ std::vector<size_t> smaller_grid(const Results& results, std::string& said) {
     for (size_t i : evenly(values[axis].size(), keep[axis])) kept[axis].insert(values[axis][i]);
     if (keep[axis] < values[axis].size())
       said += fmt::format("{}{} of the {} values of {}", said.empty() ? "" : ", ", keep[axis], values[axis].size(),
-                          html(setting_label(results.info.swept[axis])));
+                          setting_label(results.info.swept[axis]));
   }
   std::vector<size_t> out;
   for (size_t i = 0; i < results.points.size(); ++i) {
@@ -121,13 +121,13 @@ ShownPoints shown_points(const Results& results) {
   out.laws = results.laws;
   shown.groups = std::move(groups);
   for (size_t i : chosen) out.points.push_back(results.points[i]);
-  shown.note = fmt::format(
-      "<p class=\"note thinned\">Shown here: <b>{} of {} points</b>, so that the page opens quickly: {}, and the "
-      "points "
-      "that this page names. Verdicts, findings, means and the Pareto front in the table are of all points. All points "
-      "are in "
-      "<code>results.csv</code> and <code>results.sqlite</code> beside this page.</p>\n",
-      chosen.size(), count, said.empty() ? "evenly chosen points of the sweep" : said);
+  shown.note = paragraph(
+      css("note thinned"),
+      prose("Shown here: {}, so that the page opens quickly: {}, and the points that this page names. Verdicts, "
+            "findings, means and the Pareto front in the table are of all points. All points are in {} and {} beside "
+            "this page.",
+            bold(prose("{} of {} points", chosen.size(), count)),
+            said.empty() ? "evenly chosen points of the sweep" : said, code("results.csv"), code("results.sqlite")));
   return shown;
 }
 

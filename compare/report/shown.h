@@ -4,12 +4,13 @@
 //
 //   const ShownPoints shown = shown_points(results);
 //   for (const PointRecord& point : shown.results.points) ...  // rows, bars, symbols
-//   html += shown.note;                                        // empty if every point is shown
+//   page += shown.note;                                        // empty if every point is shown
 #pragma once
 #include <string>
 #include <vector>
 
 #include "compare/judge/tradeoff.h"
+#include "compare/report/element.h"
 #include "compare/results/records.h"
 
 namespace noonmark::report {
@@ -23,8 +24,8 @@ inline constexpr size_t max_even_points = 500;
 inline constexpr size_t max_marked_points = 150;
 
 struct ShownPoints {
-  Results results;   // the same results with the shown points only, in the same order
-  std::string note;  // HTML: how many of how many, how they were chosen, and where all points are
+  Results results;  // the same results with the shown points only, in the same order
+  Markup note;      // how many of how many, how they were chosen, and where all points are
   // All choices, also those that are not shown. They refer to the points that were given to shown_points().
   std::vector<ComparedGroup> groups;
 };

@@ -6,6 +6,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/text.h"
+#include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/sections.h"
 #include "compare/report/speed.h"
@@ -32,24 +34,20 @@ struct Plane {
   std::string error_text(const ComparedChoice& one, AtBias at) const {
     return quantity(value_of(one, error, at).worst, find_metric(error).unit);
   }
-  std::string link(const ComparedChoice& one, AtBias at) const {
-    const std::string name = html(names.of(one.choice, at));
+  Markup link(const ComparedChoice& one, AtBias at) const {
+    const std::string name = names.of(one.choice, at);
     const PointRecord* const point = point_on_page(one, error, shown_ids);
-    return point ? fmt::format("<a href=\"#p{}\">{}</a>", point->id, name) : name;
+    return point ? point_link(point->id, name) : name;
   }
   // "filter box (10.7 MB, 0.2 %)"
-  std::string with_numbers(const ComparedChoice& one, AtBias at) const {
-    return fmt::format("<b>{}</b> ({}, {})", link(one, at), cost_text(one), error_text(one, at));
+  Markup with_numbers(const ComparedChoice& one, AtBias at) const {
+    return prose("{} ({}, {})", bold(link(one, at)), cost_text(one), error_text(one, at));
   }
   // What is good enough is so at its best bias, which is said where the page shows the bias as set.
-  std::string good_one(const ComparedChoice& one) const {
+  Markup good_one(const ComparedChoice& one) const {
     return with_numbers(one, AtBias::best) + by_bias(" at its best bias", "");
   }
 };
-
-std::string counted(size_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
 
 // "Of 32 choices 18 have a usable window; 6 have none, and ...".
 std::string windows_text(const ComparedGroup& group) {
@@ -68,14 +66,14 @@ std::string windows_text(const ComparedGroup& group) {
   return out + ".";
 }
 
-std::string good_text(const ComparedGroup& group, const Plane& plane) {
+Markup good_text(const ComparedGroup& group, const Plane& plane) {
   const auto good = std::count_if(group.choices.begin(), group.choices.end(), [](const auto& one) { return one.good; });
   if (is_incomplete(plane.results)) return " Not all conditions are measured yet, so nothing is recommended.";
   if (!group.recommended) return " None is good enough.";
-  std::string out = fmt::format(" Good enough {} {}; the cheapest of them is {}.", good == 1 ? "is" : "are", good,
-                                plane.good_one(group.choices[*group.recommended]));
+  Markup out = prose(" Good enough {} {}; the cheapest of them is {}.", good == 1 ? "is" : "are", good,
+                     plane.good_one(group.choices[*group.recommended]));
   if (group.accurate != group.recommended)
-    out += fmt::format(" The most accurate of them is {}.", plane.good_one(group.choices[*group.accurate]));
+    out += prose(" The most accurate of them is {}.", plane.good_one(group.choices[*group.accurate]));
   return out;
 }
 
@@ -86,23 +84,23 @@ const char* why_no_front(AtBias at) { return no_front[at == AtBias::as_set]; }
 
 // Names the front, which goes from the cheapest to the most accurate. What good_text() named with the same numbers is not
 // named again.
-std::string front_text(const ComparedGroup& group, const std::vector<size_t>& front, const Plane& plane, AtBias at) {
+Markup front_text(const ComparedGroup& group, const std::vector<size_t>& front, const Plane& plane, AtBias at) {
   if (front.empty()) return why_no_front(at);
   const auto place = [&](size_t i) {
     return std::make_pair(value_of(group.choices[i], plane.cost).worst,
                           value_of(group.choices[i], plane.error, at).worst);
   };
   const auto said = [&](size_t i, const std::optional<size_t>& named, const char* as) {
-    return at == AtBias::best && named && place(*named) == place(i) ? std::string(as)
+    return at == AtBias::best && named && place(*named) == place(i) ? Markup(as)
                                                                     : plane.with_numbers(group.choices[i], at);
   };
-  const std::string first = said(front.front(), group.recommended, "the recommended one");
+  const Markup first = said(front.front(), group.recommended, "the recommended one");
   if (place(front.front()) == place(front.back())) {
     const size_t equal = front.size() - 1;
-    return fmt::format("No choice is cheaper than {}, and none is more accurate{}.", first,
-                       equal ? fmt::format("; {} more cost the same and are as accurate", equal) : "");
+    return prose("No choice is cheaper than {}, and none is more accurate{}.", first,
+                 equal ? fmt::format("; {} more cost the same and are as accurate", equal) : "");
   }
-  return fmt::format(
+  return prose(
       "The Pareto front has {}, from {} to {}: no other choice is both cheaper and more accurate than one of these.",
       counted(front.size(), "choice"), first, said(front.back(), group.accurate, "the most accurate one"));
 }
@@ -112,13 +110,13 @@ std::string span_cell(const ComparedChoice& one, const std::string& error, std::
   return span ? fmt::format("{} … {}", cell(span->low, unit), cell(span->high, unit)) : "–";
 }
 
-// "4.1 <small>3.9 … 4.4</small>"
-std::string cost_cell(const ComparedChoice& one, const std::string& cost) {
+// "4.1", with the ends of its interval if it has one.
+Markup cost_cell(const ComparedChoice& one, const std::string& cost) {
   const std::string_view unit = find_metric(cost).unit;
   const MedianInterval known = cost_of(one, cost);
-  const std::string value = cell(known.middle, unit);
-  if (!(known.low < known.high)) return value;
-  return fmt::format("{} <small>{} … {}</small>", value, cell(known.low, unit), cell(known.high, unit));
+  const bool sure = !(known.low < known.high);
+  return with_small(cell(known.middle, unit),
+                    sure ? "" : fmt::format("{} … {}", cell(known.low, unit), cell(known.high, unit)));
 }
 
 // "0.7 texels", or as the experiment writes it where the bias is as set.
@@ -129,28 +127,24 @@ std::string bias_cell(const ComparedChoice& one, AtBias at) {
   if (at == AtBias::best) return bias_in_unit(*one.bias, unit);
   const std::string set = setting_of(first, first.curve->parameter);
   const std::optional<double> value = number_of(set);
-  return value ? bias_in_unit(*value, unit) : html(set);
+  return value ? bias_in_unit(*value, unit) : set;
 }
 
-std::string row(const ComparedChoice& one, const Plane& plane, bool recommended, AtBias at) {
+Markup front_row(const ComparedChoice& one, const Plane& plane, bool recommended, AtBias at) {
   const std::string cause = dominating_cause(one, at);
-  return fmt::format(
-      "<tr{}><th class=\"text\" scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td "
-      "class=\"text\">{}</td></tr>\n",
-      recommended ? " class=\"recommended\"" : "", plane.link(one, at),
-      recommended ? " <small>recommended</small>" : "", cost_cell(one, plane.cost),
-      cell(value_of(one, plane.error, at).worst, find_metric(plane.error).unit),
-      span_cell(one, plane.error, find_metric(plane.error).unit), bias_cell(one, at),
-      cause.empty() ? "–" : swatch(cause) + html(metric_label(cause)));
+  const std::string_view unit = find_metric(plane.error).unit;
+  return tr(css(recommended ? "recommended" : ""),
+            row_head(css("text"), with_small(plane.link(one, at), recommended ? "recommended" : "")),
+            td(cost_cell(one, plane.cost)), td(cell(value_of(one, plane.error, at).worst, unit)),
+            td(span_cell(one, plane.error, unit)), td(bias_cell(one, at)),
+            td(css("text"), cause.empty() ? "–" : swatch(cause) + metric_label(cause)));
 }
 
 // Both texts, or one where they are equal.
-std::string at_both(const std::string& as_set, const std::string& best) {
-  return as_set == best ? best : by_bias(as_set, best);
-}
+Markup at_both(const Markup& as_set, const Markup& best) { return as_set == best ? best : by_bias(as_set, best); }
 
 struct FrontRows {
-  std::string summary, rows;
+  Markup summary, rows;
   size_t count = 0;
 };
 
@@ -160,39 +154,37 @@ FrontRows front_rows(const ComparedGroup& group, const std::string& name, const 
   FrontRows out;
   for (size_t i : front) {
     if (!point_on_page(group.choices[i], plane.error, plane.shown_ids)) continue;
-    out.rows += row(group.choices[i], plane, group.recommended == i, at), ++out.count;
+    out.rows += front_row(group.choices[i], plane, group.recommended == i, at), ++out.count;
   }
-  if (front.empty()) out.rows = fmt::format("<tr><td class=\"text\" colspan=\"6\">{}</td></tr>\n", why_no_front(at));
-  const std::string which = name.empty() ? "" : " of " + html(name);
+  if (front.empty()) out.rows = tr(td(css("text"), Attribute("colspan", 6), why_no_front(at)));
+  const std::string which = name.empty() ? "" : " of " + name;
   out.summary = out.count == front.size()
-                    ? fmt::format("The Pareto front{}: {}", which, counted(out.count, "choice"))
-                    : fmt::format("{} of the {} choices of the Pareto front{}", out.count, front.size(), which);
+                    ? prose("The Pareto front{}: {}", which, counted(out.count, "choice"))
+                    : prose("{} of the {} choices of the Pareto front{}", out.count, front.size(), which);
   return out;
 }
 
 // The front of one group: as set, and at the best bias of each choice. The page shows that of its bias. Empty if no
 // choice is on either.
-std::string front_table(const ComparedGroup& group, const std::string& name, const Plane& plane, bool open) {
+Markup front_table(const ComparedGroup& group, const std::string& name, const Plane& plane, bool open) {
   const FrontRows set = front_rows(group, name, plane, AtBias::as_set),
                   best = front_rows(group, name, plane, AtBias::best);
   if (set.count == 0 && best.count == 0) return "";
-  const std::string rows = set.rows == best.rows
-                               ? "<tbody>\n" + best.rows + "</tbody>"
-                               : "<tbody class=\"as-set\">\n" + set.rows +
-                                     "</tbody><tbody class=\"as-recommended\">\n" + best.rows + "</tbody>";
-  return fmt::format(
-      "<details class=\"more\"{}><summary>{}</summary>\n<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th "
-      "class=\"text\">Choice</th>"
-      "<th>{} <small>{}</small></th><th>{} <small>{}</small></th><th>Over the usable window</th><th>Bias</th>"
-      "<th class=\"text\">Largest cause</th></tr></thead>{}</table></div>\n</details>\n",
-      open && std::max(set.count, best.count) <= open_rows ? " open" : "", at_both(set.summary, best.summary),
-      html(metric_label(plane.cost)), head_unit(find_metric(plane.cost).unit), html(error_label(plane.error)),
-      head_unit(find_metric(plane.error).unit), rows);
+  const auto body = [](std::string_view at, const Markup& rows) { return element("tbody", css(at), "\n", rows); };
+  const Markup rows =
+      set.rows == best.rows ? body("", best.rows) : body("as-set", set.rows) + body("as-recommended", best.rows);
+  const Markup head = th(css("text"), "Choice") +
+                      th(metric_label(plane.cost), " ", small(head_unit(find_metric(plane.cost).unit))) +
+                      th(error_label(plane.error), " ", small(head_unit(find_metric(plane.error).unit))) +
+                      heads({"Over the usable window", "Bias"}) + th(css("text"), "Largest cause");
+  const Markup front = element("table", css("numbers"), element("thead", element("tr", head)), rows);
+  return folded("more", open && std::max(set.count, best.count) <= open_rows, at_both(set.summary, best.summary),
+                div(css("scroll"), front) + "\n");
 }
 
 }  // namespace
 
-std::string speed_chart() {
+Markup speed_chart() {
   return chart_place("cost",
                      "Each choice at the bias that is chosen at the top: as set, or its best one. The bar is the error "
                      "over its usable window; where choices cost the same, that of the first. The line is the Pareto "
@@ -203,9 +195,8 @@ bool has_speed_chart(const Results& results, const ShownPoints& shown) {
   return !shown.groups.empty() && !costs_of(results).empty() && !errors_of(results).empty();
 }
 
-std::string speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen) {
+Markup speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen) {
   if (!has_speed_chart(results, shown)) return "";
-  std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
   const std::vector<std::string> costs = costs_of(results), errors = errors_of(results);
   Plane plane{results, costs.front(), error_shown_first(results), ChoiceNames(results), {}};
   for (const PointRecord& point : shown.results.points) plane.shown_ids.insert(point.id);
@@ -216,23 +207,24 @@ std::string speed_section(const Results& results, const ShownPoints& shown, bool
   };
   const GroupNames names(results, shown.groups);
   const std::string name = names.of(group);
+  Markup out;
   if (!name.empty())
-    out += fmt::format(
-        "<p>Choices can be compared if they have the same scene, view and light: here are {}, and these words are "
-        "about "
-        "<b>{}</b>.</p>\n",
-        counted(shown.groups.size(), "group"), html(name));
-  out += "<p>" + windows_text(group) + good_text(group, plane) + " " +
-         at_both(words(AtBias::as_set), words(AtBias::best)) + "</p>\n" + shown.note;
+    out +=
+        paragraph(prose("Choices can be compared if they have the same scene, view and light: here are {}, and "
+                        "these words are about {}.",
+                        counted(shown.groups.size(), "group"), bold(name)));
+  out += paragraph(windows_text(group), good_text(group, plane), " ",
+                   at_both(words(AtBias::as_set), words(AtBias::best))) +
+         shown.note;
   if (!on_first_screen) out += speed_chart();
   for (size_t i = 0; i < std::min(shown.groups.size(), most_tables); ++i) {
     const size_t which = i == 0 ? first : i <= first ? i - 1 : i;  // the one shown first, then the others
     out += front_table(shown.groups[which], names.of(shown.groups[which]), plane, which == first);
   }
   if (shown.groups.size() > most_tables)
-    out += fmt::format("<p class=\"small\">The other {} groups are in the chart only.</p>\n",
-                       shown.groups.size() - most_tables);
-  return out + "</section>\n";
+    out +=
+        paragraph(css("small"), prose("The other {} groups are in the chart only.", shown.groups.size() - most_tables));
+  return section("cost", "Speed against accuracy", out);
 }
 
 }  // namespace noonmark::report

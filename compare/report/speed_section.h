@@ -1,8 +1,7 @@
 // The report's section on speed against accuracy: what is seen in words, the chart's place, and the Pareto front as a
 // table, which needs no JavaScript.
 #pragma once
-#include <string>
-
+#include "compare/report/element.h"
 #include "compare/report/shown.h"
 #include "compare/results/records.h"
 
@@ -10,10 +9,10 @@ namespace noonmark::report {
 
 // Words, chart and table are for RunInfo::cost and error_shown_first() (compare/report/speed.h); in the chart the reader
 // chooses others. on_first_screen: the chart stands there (speed_chart()) and not in the section.
-std::string speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen);
+Markup speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen);
 
 // True if at least one choice has a finite cost and a finite error. Otherwise there is no chart.
 bool has_speed_chart(const Results& results, const ShownPoints& shown);
-std::string speed_chart();
+Markup speed_chart();
 
 }  // namespace noonmark::report

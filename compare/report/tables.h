@@ -3,18 +3,19 @@
 #include <functional>
 #include <string>
 
+#include "compare/report/element.h"
 #include "compare/report/shown.h"
 #include "compare/results/records.h"
 
 namespace noonmark::report {
 
 // read_file: as for render_report().
-std::string pictures_section(const Results& results, const ShownPoints& shown,
-                             const std::function<std::string(const std::string&)>& read_file);
+Markup pictures_section(const Results& results, const ShownPoints& shown,
+                        const std::function<std::string(const std::string&)>& read_file);
 // What to type into other engines (RunInfo::engines); empty without.
-std::string engines_section(const Results& results);
-std::string points_section(const Results& results, const ShownPoints& shown);
-std::string meaning_section(const Results& results);
-std::string making_section(const Results& results);
+Markup engines_section(const Results& results);
+Markup points_section(const Results& results, const ShownPoints& shown);
+Markup meaning_section(const Results& results);
+Markup making_section(const Results& results);
 
 }  // namespace noonmark::report

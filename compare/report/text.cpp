@@ -8,8 +8,6 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "base/text.h"
-#include "compare/report/escape.h"
 #include "compare/report/rules.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
@@ -57,24 +55,6 @@ void strip_suffix(std::string& text, std::string_view suffix) {
 }
 
 }  // namespace
-
-std::string html(std::string_view text) {
-  // nlohmann's writer replaces bytes that are not UTF-8. Reading its text back undoes only its escapes.
-  const std::string dumped = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  const std::string valid = nlohmann::json::parse(dumped).get<std::string>();
-  std::string out;
-  for (std::string_view rest = valid; !rest.empty();) {
-    const std::string_view character = rest.substr(0, std::max<size_t>(utf8_length(rest), 1));
-    rest.remove_prefix(character.size());
-    if (const std::string_view entity = markup_entity(character); !entity.empty())
-      out += entity;
-    else if (is_control(character) && character != "\n" && character != "\t")
-      out += "\uFFFD";
-    else
-      out += character;
-  }
-  return out;
-}
 
 std::string script_json(const nlohmann::json& value) {
   std::string out;

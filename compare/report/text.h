@@ -1,4 +1,4 @@
-// Text and numbers of the report. Everything that is written into the page goes through these functions.
+// Texts and numbers of the report. They become HTML, and are escaped, by Markup (compare/report/element.h).
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -13,9 +13,6 @@ namespace noonmark::report {
 // A table with more rows starts folded.
 inline constexpr size_t open_rows = 40;
 
-// Text for HTML and for quoted attributes. Bytes that are not UTF-8, and control characters except line breaks and
-// tabs, become U+FFFD.
-std::string html(std::string_view text);
 // JSON that can stand inside a <script> element, because it has no '<', '>' or '&'.
 std::string script_json(const nlohmann::json& value);
 std::string base64(std::string_view bytes);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/report/blocks.h"
+#include "compare/report/page_parts.h"
 #include "compare/report/text.h"
 
 namespace noonmark {
 namespace {
 
-using report::html;
+using report::Markup;
 
 std::string tornado_error(const TornadoEnd& end) {
   if (!end.why_not.empty()) return end.why_not;
@@ -70,50 +72,68 @@ class ErrorAxis {
 
 constexpr double row_height = 44, chart_top = 34;
 
-std::string bar(const ErrorAxis& axis, double from, const TornadoEnd& end, double y, const char* kind,
-                const char* label) {
-  if (!end.why_not.empty())
-    return fmt::format("<text class=\"none\" x=\"{:.1f}\" y=\"{:.1f}\">{}: not possible</text>\n", from + 6, y + 13,
-                       label);
-  const double to = axis.at(end.error);
-  const bool right = to >= from;
-  return fmt::format(
-      "<rect class=\"{}{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"16\"/><text x=\"{:.1f}\" "
-      "y=\"{:.1f}\"{}>{} {}{}"
-      "</text>\n",
-      kind, end.held ? "" : " broken", std::min(from, to), y, std::max(1.5, std::abs(to - from)),
-      right ? to + 5 : to - 5, y + 13, right ? "" : " class=\"end\"", label, html(end.value), end.held ? "" : " ✗");
+report::Attribute pixels(report::Name name, double value) { return {name, fmt::format("{:.1f}", value)}; }
+
+Markup text_at(double x, double y, std::string_view classes, const Markup& text) {
+  return report::element("text", report::css(classes), pixels("x", x), pixels("y", y), text) + "\n";
 }
 
-std::string chart(const Tornado& tornado) {
+Markup line_at(double x, double top, double bottom, std::string_view classes) {
+  return report::element("line", report::css(classes), pixels("x1", x), pixels("x2", x), pixels("y1", top),
+                         pixels("y2", bottom));
+}
+
+Markup bar(const ErrorAxis& axis, double from, const TornadoEnd& end, double y, std::string_view kind,
+           const char* label) {
+  using namespace report;
+  if (!end.why_not.empty()) return text_at(from + 6, y + 13, "none", prose("{}: not possible", label));
+  const double to = axis.at(end.error);
+  const bool right = to >= from;
+  return element("rect", css(fmt::format("{}{}", kind, end.held ? "" : " broken")), pixels("x", std::min(from, to)),
+                 pixels("y", y), pixels("width", std::max(1.5, std::abs(to - from))), Attribute("height", 16)) +
+         text_at(right ? to + 5 : to - 5, y + 13, right ? "" : "end",
+                 prose("{}: {}{}", label, end.value, end.held ? "" : " ✗"));
+}
+
+Markup chart(const Tornado& tornado) {
+  using namespace report;
   const ErrorAxis axis(tornado);
   const double base = axis.at(tornado.error),
                bottom = chart_top + row_height * static_cast<double>(tornado.rows.size());
-  std::string svg = fmt::format(
-      "<svg viewBox=\"0 0 1010 {:.0f}\" role=\"img\" aria-label=\"Tornado chart: the error at half and at double of "
-      "each "
-      "setting; the table below has its numbers\">\n",
-      bottom + 30);
+  Markup drawn;
   for (double tick : axis.ticks())
-    svg += fmt::format(
-        "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2:.1f}\"/><text class=\"tick\" "
-        "x=\"{0:.1f}\" "
-        "y=\"{3:.1f}\">{4}</text>\n",
-        axis.at(tick), chart_top, bottom, bottom + 18, html(report::quantity(tick, "fraction")));
+    drawn += line_at(axis.at(tick), chart_top, bottom, "grid") +
+             text_at(axis.at(tick), bottom + 18, "tick", quantity(tick, "fraction"));
   double y = chart_top;
   for (const TornadoRow& row : tornado.rows) {
-    svg += fmt::format("<text class=\"end name\" x=\"{}\" y=\"{:.1f}\">{}</text>\n", ErrorAxis::left - 12, y + 18,
-                       html(row.setting));
-    svg += fmt::format("<text class=\"end\" x=\"{}\" y=\"{:.1f}\">{}</text>\n", ErrorAxis::left - 12, y + 34,
-                       html(with_unit(row.value, row)));
-    svg += bar(axis, base, row.half, y + 4, "half", "½:");
-    svg += bar(axis, base, row.twice, y + 22, "twice", "2×:");
+    drawn += text_at(ErrorAxis::left - 12, y + 18, "end name", row.setting);
+    drawn += text_at(ErrorAxis::left - 12, y + 34, "end", with_unit(row.value, row));
+    drawn += bar(axis, base, row.half, y + 4, "half", "½") + bar(axis, base, row.twice, y + 22, "twice", "2×");
     y += row_height;
   }
-  return svg + fmt::format(
-                   "<line class=\"base\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2:.1f}\"/><text class=\"tick\" "
-                   "x=\"{0:.1f}\" y=\"{3}\">as recommended: {4}</text></svg>\n",
-                   base, chart_top - 8, bottom, chart_top - 14, html(report::quantity(tornado.error, "fraction")));
+  drawn += line_at(base, chart_top - 8, bottom, "base") +
+           text_at(base, chart_top - 14, "tick", prose("as recommended: {}", quantity(tornado.error, "fraction")));
+  return element("svg", css("tornado"), Attribute("viewBox", fmt::format("0 0 1010 {:.0f}", bottom + 30)),
+                 Attribute("role", "img"),
+                 Attribute("aria-label",
+                           "Tornado chart: the error at half and at double of each setting; the table below has its "
+                           "numbers"),
+                 "\n", drawn);
+}
+
+Markup numbers(const Tornado& tornado) {
+  using namespace report;
+  Markup rows;
+  const auto ends = [](const char* open, const TornadoEnd& end) {
+    return td(open, end.value) + td(tornado_error(end));
+  };
+  for (const TornadoRow& row : tornado.rows)
+    rows += tr(row_head(row.setting), td(with_unit(row.value, row)), ends("", row.half), ends("", row.twice),
+               ends(row.low_open ? "at most " : "", row.low), ends(row.high_open ? "at least " : "", row.high));
+  return table("",
+               heads({"Setting", "Recommended", "Half", "Error", "Double", "Error", "The bounds hold from", "Error",
+                      "to", "Error"}),
+               rows);
 }
 
 }  // namespace
@@ -128,42 +148,16 @@ std::vector<std::string> tornado_text(const Tornado& tornado) {
   return lines;
 }
 
-std::string to_tornado_page(const Tornado& tornado) {
-  std::string text = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'">
-<meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark">
-<title>What each setting does around the recommendation · Noonmark</title>
-<style>
-body{font:14px/1.4 system-ui,sans-serif;margin:1rem;max-width:70rem;background:Canvas;color:CanvasText}
-.scroll{overflow-x:auto}svg{width:100%;min-width:44rem;height:auto;font-size:13px;fill:CanvasText}.end{text-anchor:end}.tick{text-anchor:middle}.name{font-weight:600}
-.half{fill:#4477aa}.twice{fill:#c98a1b}.broken{fill-opacity:.35;stroke:#d03434;stroke-width:1.5}
-.grid{stroke:#8884}.base{stroke:CanvasText;stroke-width:1.5}.none{fill-opacity:.75}
-table{border-collapse:collapse}th,td{border:1px solid #8886;padding:.3rem .5rem;text-align:left;vertical-align:top}
-</style></head><body><h1>What each setting does around the recommendation</h1>
-)";
-  text += fmt::format(
-      "<p>{} As recommended it is <b>{}</b>. Blue: half of the setting. Ochre: double. ✗ and a red edge: a bound "
-      "breaks there.</p>\n",
-      html(what_it_is(tornado)), html(report::quantity(tornado.error, "fraction")));
-  text += "<div class=\"scroll\">" + chart(tornado) + "</div>\n";
-  text +=
-      "<h2>The "
-      "numbers</h2><div "
-      "class=\"scroll\"><table><thead><tr><th>Setting</th><th>Recommended</th><th>Half</th><th>Error</th><th>Double</"
-      "th>"
-      "<th>Error</th><th>The bounds hold from</th><th>Error</th><th>to</th><th>Error</th></tr></thead><tbody>\n";
-  for (const TornadoRow& row : tornado.rows)
-    text += fmt::format(
-        "<tr><th "
-        "scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}{}</td><td>{}</td><td>{}{}</"
-        "td>"
-        "<td>{}</td></tr>\n",
-        html(row.setting), html(with_unit(row.value, row)), html(row.half.value), html(tornado_error(row.half)),
-        html(row.twice.value), html(tornado_error(row.twice)), row.low_open ? "at most " : "", html(row.low.value),
-        html(tornado_error(row.low)), row.high_open ? "at least " : "", html(row.high.value),
-        html(tornado_error(row.high)));
-  return text + "</tbody></table></div></body></html>\n";
+std::string to_tornado_page(const Tornado& tornado, const std::string& version) {
+  using namespace report;
+  const Markup words = prose(
+      "{} As recommended it is {}. Blue: half of the setting. Ochre: double. ✗ and a red edge: a bound breaks there.",
+      what_it_is(tornado), bold(quantity(tornado.error, "fraction")));
+  return plain_page({.title = "What each setting does around the recommendation",
+                     .body = paragraph(words) + div(css("scroll"), chart(tornado)) + "\n" +
+                             element("h2", "The numbers") + "\n" + div(css("scroll"), numbers(tornado)) + "\n",
+                     .version = version,
+                     .style = "tornado"});
 }
 
 }  // namespace noonmark

@@ -1,6 +1,6 @@
 // The tornado chart of a recommendation: what each setting does around it.
 //
-//   write(out + "/recommended.html", to_tornado_page(tornado, "What each setting does"));
+//   write(out + "/recommended.html", to_tornado_page(tornado, version));
 #pragma once
 #include <optional>
 #include <string>
@@ -40,6 +40,6 @@ struct Tornado {
 std::vector<std::string> tornado_text(const Tornado& tornado);
 
 // One HTML file without scripts: the chart, and all its numbers as a table.
-std::string to_tornado_page(const Tornado& tornado);
+std::string to_tornado_page(const Tornado& tornado, const std::string& version);
 
 }  // namespace noonmark

@@ -96,7 +96,7 @@ TEST(Around, ThePageHasEveryNumberAsATable) {
   row.high = {"8192", 0.00125, true, ""};
   row.high_open = true;
   tornado.rows.push_back(row);
-  const std::string page = to_tornado_page(tornado);
+  const std::string page = to_tornado_page(tornado, "0.1.0");
   for (const char* text :
        {"<svg", "2.13", "breaks a bound", "&lt;725&gt;", "at least 8192", "1024 texels", "map.resolution"})
     EXPECT_NE(page.find(text), std::string::npos) << text;

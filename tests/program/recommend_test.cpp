@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/report/text.h"
+#include "compare/report/element.h"
 #include "tests/program/fixture.h"
 
 namespace noonmark::acceptance {
@@ -111,7 +111,7 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_EQ(found()["verified"]["conditions"], 2);
   EXPECT_EQ(run({"check", "out/recommended.toml", "--out", "checked"}), 0) << output_;
   // The report has the same text for the engines, for the same settings, also when it is made again from the store.
-  const std::string engines = "<pre class=\"engines\">" + report::html(text("out/engines.txt")) + "</pre>";
+  const std::string engines = "<pre class=\"engines\">" + report::Markup(text("out/engines.txt")).html() + "</pre>";
   EXPECT_NE(text("checked/report.html").find(engines), std::string::npos) << engines;
   EXPECT_EQ(run({"report", "checked"}), 0) << output_;
   EXPECT_NE(text("checked/report.html").find(engines), std::string::npos);

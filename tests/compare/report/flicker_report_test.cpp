@@ -41,7 +41,7 @@ Results walk() {
 }
 
 TEST(FlickerSection, HasAStripForEachChoiceAndABarForEachFrame) {
-  const std::string html = report::flicker_section(walk(), false);
+  const std::string html = report::flicker_section(walk(), false).html();
   EXPECT_EQ(times_of(html, "<svg"), 2u);
   EXPECT_EQ(times_of(html, "<rect"), 4u);  // a part that is 0 has no bar
   // The worst frame fills the strip: two parts of half its height, one on the other.
@@ -58,7 +58,7 @@ TEST(FlickerSection, HasAStripForEachChoiceAndABarForEachFrame) {
 TEST(FlickerSection, ShowsWhatIsNotFinite) {
   Results results = walk();
   results.points[5].metrics["flicker"] = results.points[5].metrics["flicker_grid"] = std::nan("");
-  const std::string html = report::flicker_section(results, false);
+  const std::string html = report::flicker_section(results, false).html();
   EXPECT_TRUE(holds_text(html, "at most not finite, at frame 2")) << html;
 }
 

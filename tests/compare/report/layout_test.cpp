@@ -78,7 +78,7 @@ std::string tornado() {
     row.low = row.half;
     row.high = row.twice;
   }
-  return to_tornado_page(around);
+  return to_tornado_page(around, "0.1.0");
 }
 
 std::string index() {

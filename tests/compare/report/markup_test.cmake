@@ -1,0 +1,26 @@
+# What compare/report/element.h refuses to compile, and the same without the fault, which compiles.
+#   cmake -DCXX=<compiler> -DROOT=<source folder> -P markup_test.cmake
+function(compile code)
+  file(WRITE markup_test_code.cpp "#include \"compare/report/element.h\"\nusing namespace noonmark::report;\nvoid use([[maybe_unused]] const char* name) { ${code} }\n")
+  execute_process(COMMAND "${CXX}" -std=c++20 -fsyntax-only "-I${ROOT}" markup_test_code.cpp RESULT_VARIABLE result ERROR_VARIABLE said)
+  set(result "${result}" PARENT_SCOPE)
+  set(said "${said}" PARENT_SCOPE)
+endfunction()
+
+function(must_not_compile code error)
+  compile("${code}")
+  if(result EQUAL 0 OR NOT said MATCHES "${error}")
+    message(FATAL_ERROR "This must not compile, and the compiler must say '${error}':\n${code}\n${said}")
+  endif()
+endfunction()
+
+compile("prose(\"a {} b\", name); element(\"b\", Attribute(\"id\", name));")
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "This must compile:\n${said}")
+endif()
+must_not_compile("prose(\"a <b>{}</b>\", name);" "a literal has no markup")
+must_not_compile("prose(\"a &amp; {}\", name);" "a literal has no markup")
+must_not_compile("prose(\"a {} {}\", name);" "consteval|constant expression")
+must_not_compile("prose(name);" "constant expression")
+must_not_compile("element(name);" "constant expression")
+must_not_compile("element(\"b\", Attribute(\"on click\", name));" "letters, digits and hyphens")
