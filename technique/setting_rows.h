@@ -89,10 +89,13 @@ Setting point(std::string_view name, std::string_view unit, std::string_view hel
   return row;
 }
 
+// The member is a bool, or a number that is 0 or 1 (a filter's parameter).
 template <class Member>
 Setting flag(std::string_view name, std::string_view help, Member member) {
   Setting row{name, "", ValueType::flag, 0, 0, false, {}, std::string(help), {}, {}};
-  row.get = [member](const Settings& s) { return std::string(member(const_cast<Settings&>(s)) ? "true" : "false"); };
+  row.get = [member](const Settings& s) {
+    return std::string(member(const_cast<Settings&>(s)) != 0 ? "true" : "false");
+  };
   row.set = [member, row](Settings& s, std::string_view text) {
     if (text != "true" && text != "false") refuse(row, text);
     member(s) = text == "true";

@@ -50,13 +50,14 @@ std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stor
     for (const int64_t id : wanted) {
       const auto i = static_cast<size_t>(id);
       if (found[i]) continue;
-      const auto candidates = free.find(key_of(settings_map(planned[i]), scenes.of(planned[i])));
+      const Settings& settings = planned[i];
+      const auto candidates = free.find(key_of(settings_map(settings), scenes.of(settings)));
       if (candidates == free.end()) continue;
       const Experiment& part = part_of_point(experiment, id);
       std::vector<const PointRecord*>& list = candidates->second;
       const auto one = std::find_if(list.begin(), list.end(), [&](const PointRecord* point) {
         return (round > 1 || point->part == part.part) && (round > 0 || point->id == id) &&
-               has_asked_times(*point, timed) && has_asked_curve(*point, part, planned[i]);
+               has_asked_times(*point, timed) && has_asked_curve(*point, part, settings);
       });
       if (one == list.end()) continue;
       found[i] = *one;

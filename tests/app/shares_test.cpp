@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "app/definition/experiment_file.h"
@@ -70,6 +71,7 @@ RC_GTEST_PROP(Shares, HaveEveryPointOnceAndGroupsWhole, ()) {
   const std::vector<Share> alone = split(experiment, planned, static_cast<int>(groups));
   std::vector<uint64_t> costs;
   for (const Share& one : alone) costs.push_back(one.cost);
+  RC_ASSERT(std::accumulate(costs.begin(), costs.end(), uint64_t{0}) == all);
   std::vector<uint64_t> best(costs.size() + 1, 0);  // of the groups before g, in k runs
   for (size_t g = 1; g <= costs.size(); ++g) best[g] = best[g - 1] + costs[g - 1];
   for (int k = 2; k <= n; ++k) {

@@ -150,7 +150,7 @@ TEST_F(Libraries, ADriverOfAnOlderOpenGlSaysWhatItOffersAndWhoChoseIt) {
       {"MESA_GL_VERSION_OVERRIDE", "4.4", "OpenGL 4.4"}};
   for (const auto& [name, value, offers] : cases) {
     SCOPED_TRACE(name + "=" + value);
-    const auto chosen = [&] {
+    const auto chosen = [&name = name, &value = value] {
       setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);  // the variables work only with Mesa, and a GPU may have another driver
       setenv(name.c_str(), value.c_str(), 1);
     };

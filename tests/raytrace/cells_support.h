@@ -71,7 +71,7 @@ inline CellsAndRays compare_cells(const Scene& scene, int count, uint32_t seed, 
 
 // Returns the rays that were cast with cells.
 inline RayCounts expect_same(const Scene& scene, int count = 4000, uint32_t seed = 1, const std::string& what = "",
-                        double sun_deg = 1, const FilterSettings& filter = box(3)) {
+                             double sun_deg = 1, const FilterSettings& filter = box(3)) {
   const CellsAndRays found = compare_cells(scene, count, seed, sun_deg, filter);
   EXPECT_EQ(found.receivers, 0) << what << scene.name;
   EXPECT_FALSE(found.taps) << what << scene.name;

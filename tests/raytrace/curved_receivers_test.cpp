@@ -194,6 +194,7 @@ TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
     scene.light = {.position_m = {-3, 4, 1}, .target_m = {0, 0, 0}};
     Scene sphere_alone;
     add_sphere(sphere_alone, columns, rows, 1, centre_y);
+    const double facet = 1 - std::cos(pi / columns) * std::cos(pi / (2 * rows));  // what the facets cut off
     uint64_t floor_differ = 0, panning = 0, crease = 0, sphere_taps = 0;
     on_many_grids(scene, 600, 5000, [&](const Judged& j) {
       const LightFrame& frame = j.frame;
@@ -223,7 +224,6 @@ TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
       expect_aliasing_at_true_edges(j, edges, on_sphere);
       uint64_t wrong_dark = 0, off_crease = 0, panning_in_light = 0, outside_the_circle = 0;
       const glm::dvec2 centre = glm::dvec2(frame.to_light({0, centre_y, 0}));
-      const double slack = 1 - std::cos(pi / columns) * std::cos(pi / (2 * rows));  // what the facets cut off
       const double crease_radius = std::sqrt(std::max(0.0, 1 - centre_y * centre_y));
       for (size_t i = 0; i < j.truth.facing.size(); ++i) {
         if (!on_floor(i) || !j.counted(i)) continue;
@@ -245,12 +245,12 @@ TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
             // On the floor the crease is a circle, too.
             const double from_crease =
                 std::abs(std::hypot(j.receivers.position[i].x, j.receivers.position[i].z) - crease_radius);
-            off_crease += from_crease > j.reach() / std::abs(frame.forward.y) + 2 * slack;
+            off_crease += from_crease > j.reach() / std::abs(frame.forward.y) + 2 * facet;
           }
           // The closed form: the sphere's shadow in the light's plane is a circle.
           const double off = std::abs(glm::length(place - centre) - 1);
           outside_the_circle += centre_y >= 1 && tap.exact_lit != tap.texel_lit &&
-                                off > slack + j.frame.texel_m(glm::dvec3(0)) * std::sqrt(0.5);
+                                off > facet + j.frame.texel_m(glm::dvec3(0)) * std::sqrt(0.5);
           const float deep = static_cast<float>(0.3 / (frame.far_m - frame.near_m));
           const bool lit = !(j.probe.reference[i] - deep > tap.depth);
           panning_in_light += j.kernel == 1 && j.truth.lit[i] && tap_cause(tap, lit) == Cause::peter_panning;

@@ -66,7 +66,9 @@ TEST(TapPattern, CastanosWeightsAreItsKernelBlended) {
     const TapPattern p = tap_pattern(filter("castano", size));
     double sum = 0;
     for (double k : kernel) sum += k;
-    const auto at = [&](int i) { return i < 0 || i >= size ? 0 : kernel[static_cast<size_t>(i)] / sum; };
+    const auto at = [&, size = size, &kernel = kernel](int i) {
+      return i < 0 || i >= size ? 0 : kernel[static_cast<size_t>(i)] / sum;
+    };
     for (double s : {0.0, 0.25, 0.75})
       for (int texel = 0; texel <= size; ++texel)
         EXPECT_NEAR(p.axis_weight(texel, s, size), (1 - s) * at(texel) + s * at(texel - 1), 1e-15) << size;

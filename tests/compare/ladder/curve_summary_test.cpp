@@ -56,7 +56,7 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   make_shadow(s, 2, 0x1p-3f);
   make_shadow(s, 3, 0x1p-2f);
   const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("constant"));
-  BiasCurve c = summarise(counts, test_scale(), {0, 0, {0, 0x1p-6, 0x1p-4, 0x1p-3, 1}});
+  BiasCurve c = summarise(counts, test_scale(), {{0, 0}, {0, 0x1p-6, 0x1p-4, 0x1p-3, 1}});
   EXPECT_EQ(c.parameter, "bias.constant");
   EXPECT_EQ(c.made, "one pass");
   EXPECT_EQ(c.bias_depth, (std::vector<double>{0, 0x1p-6, 0x1p-4, 0x1p-3, 1}));
@@ -100,7 +100,7 @@ TEST(Summarise, HasNoWindowWhereTheCausesOverlap) {
   make_acne(s, 0, 0x1p-3f);
   make_shadow(s, 1, 0x1p-4f);
   const BiasCurve c =
-      summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")), test_scale(), {0, 0, {}});
+      summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")), test_scale(), {{0, 0}, {}});
   EXPECT_FALSE(c.window_min_depth);
   EXPECT_FALSE(c.window_max_depth);
   EXPECT_EQ(c.best_error, 0.25);
@@ -112,8 +112,8 @@ TEST(Summarise, HasNoWindowWhereNoSlopeReaches) {
   s.probe.n_dot_l[0] = 1;  // 1 - N.L = 0, so no slope gives this receiver a bias
   const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("slope"));
   EXPECT_EQ(counts.acne_free_from(0), infinity_f);
-  EXPECT_FALSE(summarise(counts, test_scale(), {0, 0, {}}).window_min_depth);
-  EXPECT_TRUE(summarise(counts, test_scale(), {0.25, 0, {}}).window_min_depth);
+  EXPECT_FALSE(summarise(counts, test_scale(), {{0, 0}, {}}).window_min_depth);
+  EXPECT_TRUE(summarise(counts, test_scale(), {{0.25, 0}, {}}).window_min_depth);
   make_shadow(s, 0, 0x1p-3f);
   EXPECT_EQ(BiasCounts(s.evidence(), s.stored_map(), bias_part("slope")).peter_panning_free_to(0), infinity_f);
 }
@@ -126,9 +126,9 @@ TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
       for (int i = 0; i < n; ++i) make_acne(s, static_cast<size_t>(i), 0x1p-4f);
       const double share = static_cast<double>(n) / of;
       const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("constant"));
-      EXPECT_EQ(summarise(counts, test_scale(), {share, 0, {}}).window_min_depth, 0) << n << " of " << of;
+      EXPECT_EQ(summarise(counts, test_scale(), {{share, 0}, {}}).window_min_depth, 0) << n << " of " << of;
       if (n > 0) {
-        EXPECT_GT(summarise(counts, test_scale(), {std::nextafter(share, 0), 0, {}}).window_min_depth, 0) << n;
+        EXPECT_GT(summarise(counts, test_scale(), {{std::nextafter(share, 0), 0}, {}}).window_min_depth, 0) << n;
       }
     }
   }
@@ -145,7 +145,7 @@ TEST(Summarise, SaysNaNWhereThereAreNoReceivers) {
     EXPECT_EQ(counts.receivers(), 0);
     EXPECT_EQ(counts.wrong_taps(0.5f), 0);
     EXPECT_EQ(counts.best().wrong_taps, 0);
-    const BiasCurve c = summarise(counts, test_scale(), {0.001, 0.001, {0, 0.5}});
+    const BiasCurve c = summarise(counts, test_scale(), {{0.001, 0.001}, {0, 0.5}});
     for (const auto& series :
          {c.error, c.wrong, c.acne, c.peter_panning, c.aliasing_dark, c.aliasing_light, c.coverage}) {
       ASSERT_EQ(series.size(), 2);
@@ -165,7 +165,8 @@ TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
   const auto curve = [&](BiasUnit unit) {
     const BiasScale scale = test_scale(unit);
     for (float& of_receiver : s.probe.bias_unit.pixels) of_receiver = static_cast<float>(scale.depth_per_unit);
-    return summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")), scale, {0, 0, {0, 0x1p-4, 0.2}});
+    return summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")), scale,
+                     {{0, 0}, {0, 0x1p-4, 0.2}});
   };
   const BiasCurve depth = curve(BiasUnit::depth);
   for (const BiasUnit unit : {BiasUnit::m, BiasUnit::texel}) {
@@ -181,7 +182,7 @@ TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
   }
   s.probe.bias_unit[0] /= 2;  // this receiver needs twice the parameter
   const BiasCurve apart = summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")),
-                                    test_scale(BiasUnit::texel), {0, 0, {}});
+                                    test_scale(BiasUnit::texel), {{0, 0}, {}});
   EXPECT_NEAR(*apart.acne_free_bias_depth / (2 * *depth.acne_free_bias_depth), 1, 0x1p-22);
 }
 

@@ -186,7 +186,7 @@ TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
       EXPECT_GT(stored_acne(s, varied, std::nextafter(from, 0.0f)), 0) << seed << " from " << from;
     }
     // The record has both ends for all bounds. It has no value if no bias is enough.
-    const BiasCurve curve = summarise(counts, {}, {1, 1, {}});
+    const BiasCurve curve = summarise(counts, {}, {{1, 1}, {}});
     const auto expected = [](float x) { return x < infinity_f ? std::optional<double>(x) : std::nullopt; };
     EXPECT_EQ(curve.acne_free_bias_depth, expected(counts.acne_free_from(0)));
     EXPECT_EQ(curve.acne_free_bias_stored_depth, expected(from));

@@ -68,7 +68,9 @@ template <class MakePair>
 void expect_lit_thresholds(int count, const MakePair& make) {
   std::mt19937_64 random(20240607);
   for (int i = 0; i < count; ++i) {
-    const auto [d, z] = make(random);
+    const auto pair = make(random);
+    const auto d = pair.first;
+    const auto z = pair.second;
     const float b = lit_threshold(d, z);
     ASSERT_TRUE(is_least(b, [&](float bias) { return lit(d, z, bias); }))
         << std::hexfloat << d << " against " << z << ": " << b;

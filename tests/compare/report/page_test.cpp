@@ -383,7 +383,7 @@ TEST_F(ReportWithPhase, OpensWithTheDiagramAndThePointsOnIt) {
   EXPECT_NE(points["tip"].get<std::string>().find("Point 0: "), std::string::npos) << points["tip"];
   EXPECT_NE(points["tip"].get<std::string>().find("Point 1: "), std::string::npos) << points["tip"];
   EXPECT_EQ(points["links"], json({"#p0", "#p1"}));
-  EXPECT_EQ(points["selected"], json({0}));
+  EXPECT_EQ(points["selected"], json::array({0}));
   EXPECT_NE(saw_["keys"]["first"].get<std::string>().find("; points 0, 1."), std::string::npos) << saw_["keys"];
   EXPECT_EQ(points["rows"], 3) << "the table for readers without JavaScript";
   EXPECT_EQ(saw_["command"],
