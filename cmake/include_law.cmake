@@ -4,7 +4,7 @@
 # tested by tests/project/include_law_test.cmake. A new module or a new guarded library is one entry below.
 cmake_minimum_required(VERSION 3.25)
 
-set(modules base scenes technique gl raytrace compare measure app tests)
+set(modules base scenes technique gl raytrace frames compare measure app tests)
 # The rooms of the folders that have some. A file of these folders stands in one of the rooms; app/main.cpp alone stands
 # beside them.
 set(rooms_compare results store ladder judge report)
@@ -17,6 +17,7 @@ set(may_include_scenes base)
 set(may_include_technique base scenes)
 set(may_include_gl base scenes technique)
 set(may_include_raytrace base scenes technique)
+set(may_include_frames base scenes technique raytrace)
 set(may_include_compare/results base scenes technique)
 set(may_include_compare/store base technique compare/results)
 set(may_include_compare/ladder base scenes technique compare/results)
@@ -24,12 +25,12 @@ set(may_include_compare/judge base scenes technique compare/results compare/ladd
 set(may_include_compare/report base scenes technique compare/results compare/ladder compare/judge)
 set(may_include_measure base scenes technique gl raytrace compare/results compare/ladder compare/judge)
 set(may_include_app/definition base scenes technique compare/results compare/ladder compare/judge)
-set(may_include_app/pictures base scenes technique compare measure)
+set(may_include_app/pictures base scenes technique frames compare measure)
 set(may_include_app/advise base scenes technique compare measure app/definition)
-set(may_include_app/sweep base scenes technique raytrace compare measure app/definition app/pictures app/advise)
-set(may_include_app/verbs base scenes technique gl raytrace compare measure app)
+set(may_include_app/sweep base scenes technique raytrace frames compare measure app/definition app/pictures app/advise)
+set(may_include_app/verbs base scenes technique gl raytrace frames compare measure app)
 set(may_include_app ${may_include_app/verbs})
-set(may_include_tests base scenes technique gl raytrace compare measure app)
+set(may_include_tests base scenes technique gl raytrace frames compare measure app)
 
 # Libraries whose types stay inside one folder and that folder's own tests (tests/<folder>/), by the beginning of their
 # headers' paths.

@@ -10,6 +10,7 @@
 #include "base/address_space.h"
 #include "base/error.h"
 #include "raytrace/vertex_rounding.h"
+#include "scenes/nearest_in_triangle.h"
 
 namespace noonmark {
 namespace {
@@ -209,6 +210,59 @@ double EmbreeScene::occluder_distance(const ShadowRay& start) const {
     tnear = std::max(std::nextafter(ray.ray.tfar, std::numeric_limits<float>::infinity()),
                      ray.ray.tfar + near_distance_ * 0x1p-12f);
   }
+}
+
+namespace {
+
+// A query for the nearest triangle. Embree calls visit() for each triangle whose box is within the query's radius. The
+// distance is computed in double; the radius is a float, so it is rounded up.
+struct NearestQuery {
+  const Scene& scene;
+  const std::vector<uint32_t>& kept;
+  glm::dvec3 p;
+  double equal_m;
+  const std::function<bool(uint32_t)>& preferred;
+  double least = std::numeric_limits<double>::infinity(), least_preferred = least;
+  EmbreeScene::Nearest any{}, wanted{};
+
+  bool visit(uint32_t primitive, float& radius) {
+    const glm::uvec3 t = scene.triangles[primitive];
+    const glm::dvec3 point = nearest_of_triangle(p, scene.positions[t.x], scene.positions[t.y], scene.positions[t.z]);
+    const double distance = glm::length(point - p);
+    if (distance < least_preferred && preferred(primitive)) {
+      least_preferred = distance;
+      wanted = {primitive, point};
+    }
+    if (!(distance < least)) return false;
+    least = distance;
+    any = {primitive, point};
+    radius = std::nextafter(static_cast<float>(least + equal_m), std::numeric_limits<float>::infinity());
+    return true;
+  }
+};
+
+}  // namespace
+
+EmbreeScene::Nearest EmbreeScene::nearest(glm::dvec3 p, double equal_m,
+                                          const std::function<bool(uint32_t)>& preferred) const {
+  NearestQuery asked{scene_, kept_, p, equal_m, preferred};
+  RTCPointQuery query{};
+  const glm::vec3 at(p);
+  query.x = at.x;
+  query.y = at.y;
+  query.z = at.z;
+  query.radius = std::numeric_limits<float>::infinity();
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(
+      embree_.get(), &query, &context,
+      [](RTCPointQueryFunctionArguments* arguments) {
+        NearestQuery& to = *static_cast<NearestQuery*>(arguments->userPtr);
+        const uint32_t hit = arguments->primID;
+        return to.visit(to.kept.empty() ? hit : to.kept[hit], arguments->query->radius);
+      },
+      &asked);
+  return asked.least_preferred <= asked.least + equal_m ? asked.wanted : asked.any;
 }
 
 bool EmbreeScene::is_occluder(const ShadowRay& ray, uint32_t primitive, float distance) const {

@@ -86,6 +86,14 @@ class EmbreeScene {
   // whatever the triangle is. It decides nearer hits in double.
   double near_distance() const { return near_distance_; }
 
+  // The point of all triangles that is nearest to p. Of points that are at most `equal_m` further away, one on a
+  // triangle that is preferred; of these the nearest. no_primitive in an empty scene.
+  struct Nearest {
+    uint32_t primitive = no_primitive;
+    glm::dvec3 point{0};
+  };
+  Nearest nearest(glm::dvec3 p, double equal_m, const std::function<bool(uint32_t)>& preferred) const;
+
   // Distance (in units of the direction's length) to the occluder nearest to the receiver; infinity without one.
   double occluder_distance(const ShadowRay& ray) const;
 

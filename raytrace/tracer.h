@@ -19,6 +19,7 @@
 #include "raytrace/placement_tracer.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
+#include "scenes/view_matrix.h"
 #include "technique/bias.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
@@ -45,6 +46,15 @@ struct SeenReceivers {
   Image<uint8_t> ambiguous;  // 1: `seen` changes when the start of the ray moves by the float error
 };
 
+// Receivers on the surfaces nearest to given points.
+struct OnSurface {
+  ReceiverImage receivers;  // no_primitive where no point was given, and in an empty scene
+  Image<float> moved_m;     // distance from the given point to its receiver
+};
+
+// Places at which Tracer::edge_within looks.
+inline constexpr int edge_rings = 4, edge_spokes = 16;
+
 class Tracer {
  public:
   // use_cells: false asks rays for everything that cells could answer (raytrace/light_cells.h). The answers are the same.
@@ -63,6 +73,22 @@ class Tracer {
   // front only, so their backs hide nothing. Whether the receiver lies within the picture is not asked. The camera has
   // a near plane.
   SeenReceivers seen_by(const ReceiverImage& receivers, const Camera& camera) const;
+
+  // What a camera sees at each pixel's centre, by one ray: the first triangle between near and far, without the backs of
+  // single-sided triangles. An index into Scene::triangles, or no_primitive.
+  Image<uint32_t> seen_primitives(const ViewMatrix& view, int width, int height) const;
+
+  // Puts points that another renderer gives onto the scene: each receiver is the nearest point of all triangles, and of
+  // those that are equally near within the rounding of a float position, on one that shows the camera a side. present:
+  // 1 where there is a point. view: the camera, whose rays say which side of a triangle is seen.
+  OnSurface on_surface(const Image<glm::dvec3>& points, const Image<uint8_t>& present, const ViewMatrix& view) const;
+
+  // Whether a true shadow edge lies within radius_m of each receiver in the mask, measured across the light's rays: V(P, x)
+  // (raytrace/own_surface.h) differs from R1 at one of edge_rings x edge_spokes places x on rings about P. An edge that is
+  // straight over the outermost ring is found if it is nearer than cos(pi / edge_spokes) = 0.98 of the radius. Other
+  // pixels: 0.
+  Image<uint8_t> edge_within(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
+                             const Image<uint8_t>& mask, const Image<float>& radius_m) const;
 
   // map: format, wrap, cull and depth_clamp are read; the resolution is the frame's. bias: the one that the probe was
   // taken with. A part that moves the lookup costs one more ray for each tap; a polygon offset is in the exact map.

@@ -6,29 +6,11 @@
 #include <cmath>
 
 #include "scenes/camera_frame.h"
+#include "scenes/nearest_in_triangle.h"
+#include "scenes/view_matrix.h"
 
 namespace noonmark {
 namespace {
-
-// The point of the triangle nearest to p (p in its plane). Ericson, Real-Time Collision Detection, 5.1.5.
-glm::dvec3 nearest_in_triangle(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return a;
-  const glm::dvec3 bp = p - b;
-  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
-  const glm::dvec3 cp = p - c;
-  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
-  return p;  // inside: not a + v ab + w ac, which would move it by rounding
-}
 
 // What all pixels that show a triangle share.
 struct SeenTriangle {
@@ -49,27 +31,10 @@ struct SeenTriangle {
   }
 };
 
-}  // namespace
-
-std::vector<uint32_t> unseen_backs(const Scene& scene, const Camera& camera) {
-  std::vector<uint32_t> bits((scene.single_sided.size() + 31) / 32);
-  bool any = false;
-  for (size_t t = 0; t < scene.single_sided.size(); ++t) {
-    if (!scene.single_sided[t]) continue;
-    const glm::uvec3 corner = scene.triangles[t];
-    const glm::dvec3 a = scene.positions[corner.x], b = scene.positions[corner.y], c = scene.positions[corner.z];
-    const glm::dvec3 to_viewer =
-        camera.projection == Projection::perspective ? camera.eye_m - a : camera.eye_m - camera.target_m;
-    if (glm::dot(glm::cross(b - a, c - a), to_viewer) > 0) continue;
-    bits[t / 32] |= 1u << (t % 32);
-    any = true;
-  }
-  return any ? bits : std::vector<uint32_t>();
-}
-
-ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const Image<uint32_t>& primitives) {
+// view: has pixel_ray().
+template <class View>
+ReceiverImage resolve(const Scene& scene, const View& view, const Image<uint32_t>& primitives) {
   const int width = primitives.width, height = primitives.height;
-  const CameraFrame frame = make_camera_frame(camera, width, height);
   ReceiverImage receivers{Image<glm::vec3>(width, height, glm::vec3(0)), Image<glm::vec3>(width, height, glm::vec3(0)),
                           primitives};
   tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
@@ -80,7 +45,7 @@ ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const 
         if (primitive == no_primitive) continue;
         if (primitive != seen.primitive) seen = SeenTriangle(scene, primitive);
         const auto& [a, b, c, cross, normal, area, area2, size, of] = seen;
-        const Ray ray = frame.pixel_ray(x, y, width, height);
+        const Ray ray = view.pixel_ray(x, y, width, height);
         const double slope = glm::dot(cross, ray.direction);
         if (!(area > 0)) {  // no normal, so nothing to light: a sliver that the rasteriser still drew
           receivers.primitive.at(x, y) = no_primitive;
@@ -100,6 +65,32 @@ ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const 
     }
   });
   return receivers;
+}
+
+}  // namespace
+
+std::vector<uint32_t> unseen_backs(const Scene& scene, const Camera& camera) {
+  std::vector<uint32_t> bits((scene.single_sided.size() + 31) / 32);
+  bool any = false;
+  for (size_t t = 0; t < scene.single_sided.size(); ++t) {
+    if (!scene.single_sided[t]) continue;
+    const glm::uvec3 corner = scene.triangles[t];
+    const glm::dvec3 a = scene.positions[corner.x], b = scene.positions[corner.y], c = scene.positions[corner.z];
+    const glm::dvec3 to_viewer =
+        camera.projection == Projection::perspective ? camera.eye_m - a : camera.eye_m - camera.target_m;
+    if (glm::dot(glm::cross(b - a, c - a), to_viewer) > 0) continue;
+    bits[t / 32] |= 1u << (t % 32);
+    any = true;
+  }
+  return any ? bits : std::vector<uint32_t>();
+}
+
+ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const Image<uint32_t>& primitives) {
+  return resolve(scene, make_camera_frame(camera, primitives.width, primitives.height), primitives);
+}
+
+ReceiverImage resolve_receivers(const Scene& scene, const ViewMatrix& view, const Image<uint32_t>& primitives) {
+  return resolve(scene, view, primitives);
 }
 
 }  // namespace noonmark

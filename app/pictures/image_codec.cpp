@@ -75,7 +75,7 @@ void encode(const ImageToEncode& image, Output& bytes) {
   if (!output->close()) throw std::runtime_error(output->geterror());
 }
 
-// Thrown with the reason, as DecodeGrey gives it.
+// Thrown with the reason, as DecodeImage gives it.
 struct Refused : std::runtime_error {
   using runtime_error::runtime_error;
 };
@@ -94,8 +94,6 @@ Refused undecodable(const std::string& why, const char* format) {
   return Refused("cannot be decoded: " + line + "; write it again");
 }
 
-std::string text_of(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
-
 // Integers are divided in double and rounded once: 85 of 255 is the float that is nearest to 1/3, as in the lookup.
 template <class T>
 std::vector<float> read_as(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const char* format,
@@ -108,7 +106,14 @@ std::vector<float> read_as(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
   return result;
 }
 
-std::vector<float> decode(const GreyToDecode& file) {
+// The file's pixels, and what DecodedPixels refers to.
+struct Decoded {
+  OIIO::ImageSpec spec;
+  std::vector<float> values;
+  StoredAs stored_as = StoredAs::float32;
+};
+
+Decoded decode(const ImageToDecode& file) {
   OIIO::Filesystem::IOMemReader bytes(const_cast<void*>(file.bytes), file.count);
   OIIO::Filesystem::IOProxy* const source = &bytes;
   OIIO::ImageSpec as_they_are;
@@ -118,37 +123,23 @@ std::vector<float> decode(const GreyToDecode& file) {
   const std::unique_ptr<OIIO::ImageInput> input =
       OIIO::ImageInput::open(name_inside(file.format), &as_they_are, &bytes);
   if (!input) throw undecodable(OIIO::geterror(), file.format);
-  const OIIO::ImageSpec spec = input->spec();
-  if (spec.width != file.width || spec.height != file.height)
-    throw Refused("has " + text_of(spec.width, spec.height) + " pixels, but the point's picture has " +
-                  text_of(file.width, file.height) +
-                  "; write it in that size, or set view.width_px and view.height_px to its size");
+  Decoded result;
+  const OIIO::ImageSpec& spec = result.spec = input->spec();
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
       spec.height != spec.full_height)
     throw Refused("has a data window that is not its display window; write the whole picture");
-  const int channels = spec.nchannels;
-  const bool has_alpha = channels > 1 && spec.alpha_channel == channels - 1;
-  const int colours = has_alpha ? channels - 1 : channels;
-  if (spec.deep || spec.depth > 1 || (colours != 1 && colours != 3))
-    throw Refused("has " + std::to_string(channels) + (spec.deep ? " deep" : "") +
-                  " channels; write visibility as one grey channel (or three equal ones)");
-  const std::vector<float> values = spec.format == OIIO::TypeDesc::UINT8
-                                        ? read_as<uint8_t>(*input, spec, file.format, OIIO::TypeDesc::UINT8, 255)
-                                    : spec.format == OIIO::TypeDesc::UINT16
-                                        ? read_as<uint16_t>(*input, spec, file.format, OIIO::TypeDesc::UINT16, 65535)
-                                        : read_as<float>(*input, spec, file.format, OIIO::TypeDesc::FLOAT, 1);
-  if (channels == 1) return values;
-  std::vector<float> grey(values.size() / static_cast<size_t>(channels));
-  for (size_t i = 0; i < grey.size(); ++i) {
-    const float* const rgb = &values[i * static_cast<size_t>(channels)];
-    if (has_alpha && rgb[colours] != 1)
-      throw Refused("has an alpha channel that is not 1 everywhere; remove the alpha channel");
-    const bool equal =
-        colours == 1 || (rgb[0] == rgb[1] && rgb[0] == rgb[2]) || (rgb[0] != rgb[0] && rgb[1] != rgb[1]);  // both NaN
-    if (!equal) throw Refused("has colours; write visibility as one grey channel (or three equal ones)");
-    grey[i] = rgb[0];
+  if (spec.deep || spec.depth > 1) throw Refused("has deep pixels; write a flat picture");
+  if (spec.format == OIIO::TypeDesc::UINT8) {
+    result.stored_as = StoredAs::uint8;
+    result.values = read_as<uint8_t>(*input, spec, file.format, OIIO::TypeDesc::UINT8, 255);
+  } else if (spec.format == OIIO::TypeDesc::UINT16) {
+    result.stored_as = StoredAs::uint16;
+    result.values = read_as<uint16_t>(*input, spec, file.format, OIIO::TypeDesc::UINT16, 65535);
+  } else {
+    if (spec.format == OIIO::TypeDesc::HALF) result.stored_as = StoredAs::half;
+    result.values = read_as<float>(*input, spec, file.format, OIIO::TypeDesc::FLOAT, 1);
   }
-  return grey;
+  return result;
 }
 
 }  // namespace
@@ -163,15 +154,20 @@ extern "C" void noonmark_encode_image(const noonmark::ImageToEncode& image) {
   }
 }
 
-extern "C" void noonmark_decode_grey(const noonmark::GreyToDecode& file, void* context,
-                                     void (*done)(void*, const float*, const char*)) {
-  std::vector<float> pixels;
+extern "C" void noonmark_decode_image(const noonmark::ImageToDecode& file, void* context,
+                                      void (*done)(void*, const noonmark::DecodedPixels*, const char*)) {
+  noonmark::Decoded decoded;
+  std::vector<const char*> names;
   std::string why;
   try {
-    pixels = noonmark::decode(file);
+    decoded = noonmark::decode(file);
+    for (const std::string& name : decoded.spec.channelnames) names.push_back(name.c_str());
   } catch (const std::exception& thrown) {
     why = thrown.what();
     if (why.empty()) why = "cannot be decoded; write it again";
   }
-  done(context, why.empty() ? pixels.data() : nullptr, why.c_str());
+  const noonmark::DecodedPixels pixels{decoded.spec.width,   decoded.spec.height,        decoded.spec.nchannels,
+                                       names.data(),         decoded.spec.alpha_channel, decoded.stored_as,
+                                       decoded.values.data()};
+  done(context, why.empty() ? &pixels : nullptr, why.c_str());
 }

@@ -26,21 +26,31 @@ struct ImageToEncode {
 // Throws nothing.
 using EncodeImage = void(const ImageToEncode& image);
 
-struct GreyToDecode {
+struct ImageToDecode {
   const char* format;  // "png" or "exr"
   const void* bytes;   // of the whole file
   size_t count;
-  int width, height;  // the picture must have this size
 };
 
-// Calls done once: with the pixels, row 0 on top, width * height of them, or with null and the reason why there are
-// none, as the end of a sentence that begins with the file's name. Integers become [0,1], without sRGB's transfer
-// function. Throws nothing.
-using DecodeGrey = void(const GreyToDecode& file, void* context,
-                        void (*done)(void* context, const float* pixels, const char* why));
+// How the file stores its values. Others become floats.
+enum class StoredAs { uint8, uint16, half, float32 };
+
+struct DecodedPixels {
+  int width, height;
+  int channels;                      // interleaved
+  const char* const* channel_names;  // as the file names them; a PNG's are "R", "G", "B", "A" or "Y"
+  int alpha_channel;                 // -1: none
+  StoredAs stored_as;
+  const float* values;  // row 0 on top; integers become [0,1], without sRGB's transfer function
+};
+
+// Calls done once: with the pixels, or with null and the reason why there are none, as the end of a sentence that begins
+// with the file's name. Throws nothing.
+using DecodeImage = void(const ImageToDecode& file, void* context,
+                         void (*done)(void* context, const DecodedPixels* pixels, const char* why));
 
 inline constexpr const char* image_module_file = "noonmark_images.so";
 inline constexpr const char* image_module_function = "noonmark_encode_image";  // an EncodeImage
-inline constexpr const char* image_module_decoder = "noonmark_decode_grey";    // a DecodeGrey
+inline constexpr const char* image_module_decoder = "noonmark_decode_image";   // a DecodeImage
 
 }  // namespace noonmark

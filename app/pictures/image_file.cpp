@@ -11,6 +11,7 @@
 
 #include "app/pictures/animated_png.h"
 #include "app/pictures/image_codec.h"
+#include "app/pictures/npy.h"
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -47,8 +48,8 @@ EncodeImage& encoder() {
   return *function;
 }
 
-DecodeGrey& decoder() {
-  static DecodeGrey* const function = load<DecodeGrey>(image_module_decoder);
+DecodeImage& decoder() {
+  static DecodeImage* const function = load<DecodeImage>(image_module_decoder);
   return *function;
 }
 
@@ -132,31 +133,76 @@ auto rows_of(const Image<Color>& picture) {
 
 void require_image_files() { encoder(); }
 
-Image<float> read_grey(const std::string& path, int width, int height) {
-  Image<float> picture(width, height);
+ReadImage read_image(const std::string& path) {
   constexpr uint64_t of_a_pixel = 64, of_the_head = uint64_t{16} << 20;  // more than any picture of three floats
-  const std::string bytes = read_file(path, of_the_head + of_a_pixel * picture.size());
+  const std::string bytes = read_file(path, of_the_head + of_a_pixel * most_image_pixels);
+  if (is_npy(bytes)) return read_npy(path, bytes);
   const char* const format = bytes.starts_with("\x89PNG\r\n\x1a\n")  ? "png"
                              : bytes.starts_with("\x76\x2f\x31\x01") ? "exr"
                                                                      : nullptr;
   if (!format)
-    throw Error(ErrorKind::file, fmt::format("{}: is neither a PNG nor an EXR file; write one of these", path));
+    throw Error(ErrorKind::file,
+                fmt::format("{}: is neither a PNG nor an EXR nor an NPY file; write one of these", path));
   struct Result {
-    Image<float>& picture;
+    ReadImage image;
     std::string why;
-  } result{picture, ""};
-  DecodeGrey& decode = decoder();
+  } result;
+  result.image.path = path;
+  DecodeImage& decode = decoder();
   const Quiet quiet;
-  decode({format, bytes.data(), bytes.size(), width, height}, &result,
-         [](void* context, const float* pixels, const char* why) {
+  decode({format, bytes.data(), bytes.size()}, &result,
+         [](void* context, const DecodedPixels* pixels, const char* why) {
            Result& into = *static_cast<Result*>(context);
-           if (pixels)
-             std::copy_n(pixels, into.picture.size(), into.picture.pixels.begin());
-           else
+           if (!pixels) {
              into.why = why;
+             return;
+           }
+           ReadImage& image = into.image;
+           image.width = pixels->width;
+           image.height = pixels->height;
+           image.channels.assign(pixels->channel_names, pixels->channel_names + pixels->channels);
+           if (pixels->alpha_channel >= 0) image.alpha = static_cast<size_t>(pixels->alpha_channel);
+           image.stored_as = pixels->stored_as;
+           image.values.assign(pixels->values, pixels->values + image.pixels() * image.channels.size());
          });
   if (!result.why.empty()) throw Error(ErrorKind::file, fmt::format("{}: {}", path, result.why));
-  return picture;
+  return std::move(result.image);
+}
+
+Image<float> read_grey(const std::string& path, int width, int height) {
+  const ReadImage image = read_image(path);
+  const auto refuse = [&](const std::string& why) { throw Error(ErrorKind::file, fmt::format("{}: {}", path, why)); };
+  if (image.width != width || image.height != height)
+    refuse(
+        fmt::format("has {} x {} pixels, but the point's picture has {} x {}; write it in that size, or set "
+                    "view.width_px and view.height_px to its size",
+                    image.width, image.height, width, height));
+  Image<float> grey(width, height);
+  grey.pixels = grey_values(image);
+  if (image.alpha)
+    for (size_t i = 0; i < image.pixels(); ++i)
+      if (image.at(i, *image.alpha) != 1)
+        refuse("has an alpha channel that is not 1 everywhere; remove the alpha channel");
+  return grey;
+}
+
+std::vector<float> grey_values(const ReadImage& image) {
+  const auto refuse = [&](const char* why) { throw Error(ErrorKind::file, fmt::format("{}: {}", image.path, why)); };
+  std::vector<size_t> colours;
+  for (size_t c = 0; c < image.channels.size(); ++c)
+    if (c != image.alpha) colours.push_back(c);
+  if (colours.size() != 1 && colours.size() != 3)
+    throw Error(ErrorKind::file,
+                fmt::format("{}: has {} channels; write visibility as one grey channel (or three equal ones)",
+                            image.path, image.channels.size()));
+  std::vector<float> grey(image.pixels());
+  for (size_t i = 0; i < grey.size(); ++i) {
+    grey[i] = image.at(i, colours[0]);
+    for (const size_t c : colours)
+      if (const float other = image.at(i, c); other != grey[i] && !(other != other && grey[i] != grey[i]))  // both NaN
+        refuse("has colours; write visibility as one grey channel (or three equal ones)");
+  }
+  return grey;
 }
 
 std::string write_png(const std::string& path, const Image<Color>& picture) {

@@ -2,11 +2,14 @@
 // another name beside its place and then renamed. Also reads grey pictures of other programs. Throws Error(file) if a
 // file cannot be written or read, Error(device) if OpenImageIO cannot be loaded.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/pictures/image_codec.h"
 #include "base/image.h"
 
 namespace noonmark {
@@ -39,8 +42,28 @@ struct LargeImage {
 };
 std::string write_exr(const std::string& path, const LargeImage& image);
 
-// Reads a PNG or EXR file with one grey channel, or three equal ones, of this size. Row 0 is on top. Values are taken as
-// they are (linear); the whole numbers of a PNG become [0,1]. Throws Error(file) if the file is something else.
+// A picture that another program made.
+struct ReadImage {
+  std::string path;  // as it was given
+  int width = 0, height = 0;
+  std::vector<std::string> channels;  // as the file names them
+  std::optional<size_t> alpha;        // the channel that is alpha
+  StoredAs stored_as = StoredAs::float32;
+  std::vector<float>
+      values;  // interleaved, row 0 on top, as they are (linear); the whole numbers of a PNG become [0,1]
+  float at(size_t pixel, size_t channel) const { return values[pixel * channels.size() + channel]; }
+  size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
+};
+
+// Reads a PNG or an EXR file, or the array of a NPY file (app/pictures/npy.h). Throws Error(file) if the file is something
+// else, or has more than most_image_pixels pixels.
+inline constexpr uint64_t most_image_pixels = uint64_t{1} << 28;
+ReadImage read_image(const std::string& path);
+
+// The values of the one channel beside alpha, or of three equal ones. Throws Error(file) if there are others.
+std::vector<float> grey_values(const ReadImage& image);
+
+// The same of a picture of this size, whose alpha channel, if there is one, must be 1 everywhere. Throws Error(file).
 Image<float> read_grey(const std::string& path, int width, int height);
 
 }  // namespace noonmark

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/definition/default_folder.h"
+#include "app/pictures/frame_pictures.h"
 #include "app/pictures/pictures.h"
 #include "base/error.h"
 
@@ -17,6 +18,11 @@ VerbOutputs outputs_of(std::string_view verb, const std::string& subject, const 
   const auto folder = [&](const std::string& by_default) { return out.empty() ? by_default : out; };
   if (verb == "map") return {folder(default_folder(subject, "map-")), {"phase.html", "phase.csv"}};
   if (verb == "inspect") return {folder(default_folder(subject, "inspect-")), {"view.png"}};
+  if (verb == "judge") {
+    VerbOutputs judge{folder(default_folder(subject, "judge-")), {"judge.json", "frame.exr"}};
+    for (const std::string_view name : frame_picture_names) judge.files.push_back(fmt::format("frame-{}.png", name));
+    return judge;
+  }
   if (verb != "render") throw std::logic_error(fmt::format("the outputs of {} are not listed", verb));
   VerbOutputs render{folder("out/render"), {"point.json", "ladder.exr", "map.exr"}};
   for (const std::string_view name : picture_names) render.files.push_back(fmt::format("point-{}.png", name));

@@ -96,7 +96,7 @@ void print_ladder(const Measurement& m, const char* clock) {
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
-        !metric.of_motion)  // printed otherwise
+        !metric.of_frames && !metric.of_motion)  // printed otherwise
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   print_placements(m);
   print_flicker(m);

@@ -267,7 +267,41 @@ constexpr Metric over_placements[] = {
      false, true},
 };
 
-// Mean, worst, best and 95th percentile over the placements of the texel grid of each of these.
+// Sizes are means over the counted receivers of the frame: those with a surface in the scene and in the frame that face the
+// light, and whose truth is not ambiguous.
+constexpr Metric of_given_frames[] = {
+    {"frame_error", "fraction",
+     "Mean |V - R0|: the visibility V of another renderer's frame compared with the truth, which is R1 for a light "
+     "without "
+     "a size.",
+     true, false, false, true},
+    {"frame_wrong", "fraction",
+     "Share of the counted receivers of another renderer's frame whose visibility is off by more than a half. A frame "
+     "can be "
+     "wrong nowhere and grey everywhere: frame_error stands beside it.",
+     true, false, false, true},
+    {"frame_penumbra", "fraction",
+     "The part of frame_error where the truth is between lit and shadowed, because the light has a size.", true, false,
+     false, true},
+    {"frame_edge", "fraction",
+     "The part of frame_error within the edge distance of a true shadow edge, outside penumbrae.", true, false, false,
+     true},
+    {"frame_acne", "fraction",
+     "The part of frame_error where the truth is lit, the frame is too dark, and no true shadow edge is near.", true,
+     false, false, true},
+    {"frame_contact", "fraction",
+     "The part of frame_error where the truth is dark, the frame is too light, no true shadow edge is near, and the "
+     "occluder "
+     "is nearer to the receiver than the contact distance.",
+     true, false, false, true},
+    {"frame_leak", "fraction",
+     "The part of frame_error where the truth is dark, the frame is too light, no true shadow edge is near, and the "
+     "occluder "
+     "is further away than the contact distance.",
+     true, false, false, true},
+};
+
+// Mean, worst and best over the placements of the texel grid of each of these.
 constexpr std::string_view placed[] = {"error",    "wrong",         "acne",           "peter_panning",
                                        "aliasing", "aliasing_dark", "aliasing_light", "aliasing_rms",
                                        "coverage", "coverage_dark", "coverage_light", "undecided"};
@@ -309,6 +343,7 @@ const MetricTable& table() {
              true, true});
     t.rows.insert(t.rows.end(), std::begin(over_placements), std::end(over_placements));
     t.rows.insert(t.rows.end(), std::begin(from_frame_to_frame), std::end(from_frame_to_frame));
+    t.rows.insert(t.rows.end(), std::begin(of_given_frames), std::end(of_given_frames));
     return t;
   }();
   return made;

@@ -14,7 +14,8 @@ struct Metric {
   bool plotted;                // whether a chart over the sweep makes sense
   bool of_placements = false;  // measured only with map.placements above 1
   bool of_motion = false;      // measured only with a [motion]
-  bool optional() const { return of_placements || of_motion; }
+  bool of_frames = false;      // measured only of another renderer's frame (frames/judge.h)
+  bool optional() const { return of_placements || of_motion || of_frames; }
 };
 
 std::span<const Metric> metrics_table();

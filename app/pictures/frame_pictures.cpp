@@ -1,0 +1,118 @@
+#include "app/pictures/frame_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "app/pictures/view_colors.h"
+
+namespace noonmark {
+namespace {
+
+class FramePainter {
+ public:
+  FramePainter(const FrameVerdict& verdict, const GivenFrame& frame) : v_(verdict), frame_(frame) {}
+
+  // Grey clay: ambient 0.15, the rest from the cosine and the visibility.
+  Image<Color> shaded(const std::function<float(size_t)>& visibility) const {
+    return paint([&](size_t i) {
+      if (!v_.truth.facing[i]) return facing_away;
+      const float value = visibility(i);
+      return std::isnan(value) ? named_color("background") : grey(0.15 + 0.75 * cosine(i) * value);
+    });
+  }
+
+  // Each wrong pixel in the colour of its class, by the size of its error, over the grey of right ones.
+  Image<Color> classes() const {
+    return paint([&](size_t i) {
+      if (!v_.truth.facing[i]) return named_color("attached");
+      if (!v_.counted[i]) return named_color("ambiguous");
+      const float shade = 0.72f + 0.28f * static_cast<float>(cosine(i));
+      const glm::vec3 right = shade * glm::vec3(named_color(v_.truth.lit[i] ? "lit" : "shadowed"));
+      for (const FrameClassRow& row : frame_classes)
+        if (row.what == v_.classes[i]) {
+          const glm::vec3 color(row.color[0], row.color[1], row.color[2]);
+          return Color(glm::mix(right, color, 0.25f + 0.75f * std::min(1.0f, v_.error[i])) + 0.5f);
+        }
+      return Color(right + 0.5f);
+    });
+  }
+
+  // Too dark in the colour of acne, too light in the colour of Peter Panning, grey where right.
+  Image<Color> difference() const {
+    const glm::vec3 dark(named_color("acne")), light(named_color("peter_panning")), right(named_color("lit"));
+    return paint([&](size_t i) {
+      if (!v_.counted[i]) return named_color("attached");
+      const bool too_dark = frame_.visibility[i] < v_.truth_at(i);
+      return Color(glm::mix(right, too_dark ? dark : light, std::min(1.0f, v_.error[i])) + 0.5f);
+    });
+  }
+
+ private:
+  Image<Color> paint(const std::function<Color(size_t)>& color) const {
+    Image<Color> picture(v_.error.width, v_.error.height, named_color("background"));
+    for (size_t i = 0; i < picture.size(); ++i)
+      if (v_.receivers.primitive[i] != no_primitive) picture[i] = color(i);
+    return picture;
+  }
+  double cosine(size_t i) const {
+    const glm::dvec3 p = v_.receivers.position[i], normal = v_.receivers.normal[i];
+    return std::max(0.0, glm::dot(normal, v_.light.direction_to_light(p)));
+  }
+
+  const FrameVerdict& v_;
+  const GivenFrame& frame_;
+};
+
+template <class T>
+Channel channel(std::string name, const Image<T>& source, const auto& value) {
+  Channel made{std::move(name), Image<float>(source.width, source.height)};
+  for (size_t i = 0; i < source.size(); ++i) made.values[i] = static_cast<float>(value(source[i], i));
+  return made;
+}
+
+}  // namespace
+
+std::vector<PictureRecord> write_frame_pictures(const FrameVerdict& verdict, const GivenFrame& frame,
+                                                const std::string& folder, const std::string& relative,
+                                                const std::string& stem) {
+  const FramePainter painter(verdict, frame);
+  std::vector<PictureRecord> records;
+  const auto write = [&](std::string_view name, const Image<Color>& picture, const char* caption) {
+    const std::string file = fmt::format("{}-{}.png", stem, name);
+    const std::string digest = write_png(folder + "/" + file, picture);
+    records.push_back({std::string(name), relative + "/" + file, caption, digest});
+  };
+  write("truth", painter.shaded([&](size_t i) { return verdict.truth_at(i); }),
+        "The true shadow, by rays; what faces away from the light is blue.");
+  write("frame", painter.shaded([&](size_t i) { return frame.visibility[i]; }),
+        "The frame's own visibility, shaded in the same way.");
+  write("classes", painter.classes(), "Why pixels differ, by their place; the colour's strength is the error's size.");
+  write("difference", painter.difference(), "Too dark in orange-red, too light in blue.");
+  return records;
+}
+
+ImageRecord write_frame_exr(const FrameVerdict& v, const GivenFrame& frame, const std::string& path,
+                            const std::string& relative_path) {
+  const auto same = [](auto value, size_t) { return value; };
+  std::vector<Channel> channels{{"V", frame.visibility}};
+  channels.push_back(channel("R1", v.truth.lit, same));
+  channels.push_back({"R0", v.truth.soft});
+  channels.push_back({"error", v.error});
+  channels.push_back(channel("class", v.classes, [](FrameClass what, size_t) { return static_cast<int>(what); }));
+  channels.push_back(channel("flags", v.truth.facing, [&](uint8_t facing, size_t i) {
+    return facing + 2 * v.counted[i] + (facing ? 4 * v.truth.ambiguous[i] : 0);
+  }));
+  channels.push_back(channel("primitive", v.receivers.primitive,
+                             [](uint32_t p, size_t) { return p == no_primitive ? -1.0 : static_cast<double>(p); }));
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto along = [axis](const glm::vec3& at, size_t) { return at[axis]; };
+    channels.push_back(channel(fmt::format("P.{}", "XYZ"[axis]), v.receivers.position, along));
+    channels.push_back(channel(fmt::format("N.{}", "XYZ"[axis]), v.receivers.normal, along));
+  }
+  return {relative_path, write_exr(path, channels)};
+}
+
+}  // namespace noonmark

@@ -1,0 +1,166 @@
+#include "app/pictures/given_frame.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <vector>
+
+#include "app/pictures/image_file.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "scenes/camera_fit.h"
+#include "scenes/library.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr uint64_t most_json_bytes = 1 << 20;
+
+[[noreturn]] void refuse_picture(const std::string& path, const std::string& why) {
+  throw Error(ErrorKind::file, fmt::format("{}: {}", path, why));
+}
+
+// IEC 61966-2-1.
+double linear_of_srgb(double value) {
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+// Alpha says whether there is a surface.
+bool has_surface(const ReadImage& image, size_t pixel) {
+  if (!image.alpha) return true;
+  const float alpha = image.at(pixel, *image.alpha);
+  if (alpha != 0 && alpha != 1)
+    refuse_picture(
+        image.path,
+        fmt::format("its alpha is {:g} at x = {}, y = {}, but a pixel has a surface (1) or none (0): write one "
+                    "sample at each pixel's centre, without multisampling",
+                    alpha, pixel % static_cast<size_t>(image.width), pixel / static_cast<size_t>(image.width)));
+  return alpha == 1;
+}
+
+Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
+  const ReadImage image = read_image(path);
+  Image<float> visibility(image.width, image.height);
+  visibility.pixels = grey_values(image);
+  for (size_t i = 0; i < visibility.size(); ++i) {
+    float& value = visibility[i];
+    if (value == -1 || !has_surface(image, i))
+      value = std::numeric_limits<float>::quiet_NaN();
+    else if (encoding == ValueEncoding::srgb)
+      value = static_cast<float>(linear_of_srgb(value));
+  }
+  return visibility;
+}
+
+// What the channels beside alpha hold, in the renderer's coordinates.
+Image<glm::dvec3> read_positions(const std::string& path) {
+  const ReadImage image = read_image(path);
+  std::vector<size_t> axes;
+  for (size_t c = 0; c < image.channels.size(); ++c)
+    if (c != image.alpha) axes.push_back(c);
+  if (axes.size() != 3)
+    refuse_picture(
+        path, fmt::format("has {} channels; write world positions as three channels (x, y, z)", image.channels.size()));
+  if (image.stored_as == StoredAs::uint8 || image.stored_as == StoredAs::uint16)
+    refuse_picture(path, "has whole numbers; write world positions as 32-bit floats");
+  Image<glm::dvec3> positions(image.width, image.height, glm::dvec3(none));
+  for (size_t i = 0; i < positions.size(); ++i)
+    if (has_surface(image, i)) positions[i] = {image.at(i, axes[0]), image.at(i, axes[1]), image.at(i, axes[2])};
+  return positions;
+}
+
+Image<glm::dvec3> positions_of_depths(const FrameFile& file, const std::string& path, const ViewMatrix& view) {
+  const ReadImage image = read_image(path);
+  if (image.stored_as != StoredAs::float32) refuse_picture(path, "write depths as 32-bit floats");
+  const std::vector<float> depths = grey_values(image);
+  Image<glm::dvec3> positions(image.width, image.height, glm::dvec3(none));
+  const glm::dmat4& m = view.clip_from_world();
+  const glm::dvec3 w_grows(m[0][3], m[1][3], m[2][3]);
+  if (file.depth_measure == DepthMeasure::view_z && !(glm::length(w_grows) > 0))
+    refuse_picture(path, "view_z is a measure of perspective cameras; give window depth, or positions");
+  const double far = file.convention.reversed ? 0 : 1;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double depth = depths[positions.index(x, y)];
+      if (std::isnan(depth)) continue;
+      if (file.depth_measure == DepthMeasure::window) {
+        if (depth == far) continue;
+        const double clip = file.convention.reversed ? 1 - 2 * depth : 2 * depth - 1;
+        positions.at(x, y) = view.world_at(x, y, clip, image.width, image.height);
+      } else if (depth > 0 && std::isfinite(depth)) {
+        // w of clip space is the depth along the view, except for a factor of the projection.
+        const Ray ray = view.pixel_ray(x, y, image.width, image.height);
+        const double at_start = glm::dot(w_grows, ray.origin) + m[3][3], wanted = depth * glm::length(w_grows);
+        positions.at(x, y) = ray.origin + (wanted - at_start) / glm::dot(w_grows, ray.direction) * ray.direction;
+      }
+    }
+  return positions;
+}
+
+bool has_nan(const Image<float>& values) {
+  for (const float value : values.pixels)
+    if (std::isnan(value)) return true;
+  return false;
+}
+
+void require_size(const Image<glm::dvec3>& positions, const Image<float>& visibility, const std::string& path) {
+  if (positions.width != visibility.width || positions.height != visibility.height)
+    refuse_picture(path, fmt::format("has {} x {} pixels, but the visibility has {} x {}; write both in one size",
+                                     positions.width, positions.height, visibility.width, visibility.height));
+}
+
+}  // namespace
+
+FrameFile read_frame_file(const std::string& path) { return parse_frame_file(path, read_file(path, most_json_bytes)); }
+
+std::string path_in(const FrameFile& file, const std::string& named) {
+  return (std::filesystem::path(file.path).parent_path() / named).lexically_normal().string();
+}
+
+GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
+  const std::string path = path_in(file, file.visibility);
+  Image<float> visibility = read_visibility(path, file.encoding);
+  const int width = visibility.width, height = visibility.height;
+  GivenFrame frame{.name = path,
+                   .visibility = std::move(visibility),
+                   .positions = {},
+                   .view = file.view(scene, width, height),
+                   .light = file.light.value_or(scene.light)};
+  if (file.positions) {
+    frame.receivers = GivenReceivers::positions;
+    const std::string of_positions = path_in(file, *file.positions);
+    frame.positions = read_positions(of_positions);
+    require_size(frame.positions, frame.visibility, of_positions);
+    for (glm::dvec3& p : frame.positions.pixels) p = glm::dvec3(file.world_from_frame * glm::dvec4(p, 1));
+  } else if (file.depth) {
+    frame.receivers = GivenReceivers::depth;
+    const std::string of_depth = path_in(file, *file.depth);
+    frame.positions = positions_of_depths(file, of_depth, frame.view);
+    require_size(frame.positions, frame.visibility, of_depth);
+  }
+  frame.marks_no_surface = frame.receivers != GivenReceivers::none || has_nan(frame.visibility);
+  return frame;
+}
+
+GivenFrame given_frame(const std::string& picture, ValueEncoding encoding, const Scene& scene,
+                       const Settings& settings) {
+  Image<float> visibility = read_visibility(picture, encoding);
+  ViewSettings view = settings.view;
+  view.width_px = visibility.width;
+  view.height_px = visibility.height;
+  GivenFrame frame{
+      .name = picture,
+      .visibility = std::move(visibility),
+      .positions = {},
+      .view =
+          ViewMatrix(make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px).clip_from_world()),
+      .light = effective_light(scene, settings)};
+  frame.marks_no_surface = has_nan(frame.visibility);
+  return frame;
+}
+
+}  // namespace noonmark

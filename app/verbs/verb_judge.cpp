@@ -1,0 +1,267 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/definition/share_text.h"
+#include "app/pictures/frame_pictures.h"
+#include "app/pictures/given_frame.h"
+#include "app/pictures/image_file.h"
+#include "app/sweep/results_folder.h"
+#include "app/sweep/verb_outputs.h"
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/option_values.h"
+#include "app/verbs/verbs.h"
+#include "base/build_facts.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "base/threads.h"
+#include "compare/judge/bounds.h"
+#include "compare/results/metrics.h"
+#include "frames/judge.h"
+#include "raytrace/tracer.h"
+#include "scenes/library.h"
+#include "technique/setting_json.h"
+
+namespace noonmark {
+namespace {
+
+struct JudgeOptions {
+  std::string subject;  // a frame.json, or a scene
+  std::string picture;  // of a scene: the visibility
+  bool srgb = false;
+  std::vector<std::string> accepted;
+  std::vector<std::string> most;  // "frame_acne=0.05%"
+  std::optional<double> edge_m, contact_m;
+  double edge_pixels = JudgeRules().edge_pixels;
+  bool edge_pixels_given = false;
+  ExperimentArguments arguments;
+};
+
+// "frame_acne=0.05%" as a bound.
+Bound bound_of(const std::string& text) {
+  const size_t equals = text.find('=');
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorKind::usage, fmt::format("--max {}: {}", text, why));
+  };
+  if (equals == text.npos || equals == 0) refuse("write NAME=VALUE, for example frame_acne=0.05%");
+  Bound bound;
+  bound.metric = text.substr(0, equals);
+  const std::string value = text.substr(equals + 1);
+  if (find_metric(bound.metric).unit == "fraction") {
+    bound.max = share_from(value);
+    if (!bound.max || *bound.max < 0 || *bound.max > 1)
+      refuse(fmt::format("'{}' is not a share: a number from 0 to 1, or a percentage such as 0.05%", value));
+  } else {
+    double number = 0;
+    const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (fault != std::errc{} || end != value.data() + value.size()) refuse(fmt::format("'{}' is not a number", value));
+    bound.max = number;
+  }
+  check_bound(bound);
+  return bound;
+}
+
+// What is judged: the scene, and the frame that shows it.
+struct Subject {
+  Scene scene;
+  GivenFrame frame;
+  JudgeRules rules;
+};
+
+Subject subject_of(const JudgeOptions& options) {
+  JudgeRules rules;
+  rules.accepted.insert(options.accepted.begin(), options.accepted.end());
+  const bool is_file = ends_with_any_case(options.subject, ".json");
+  if (is_file != options.picture.empty())
+    throw Error(ErrorKind::usage, is_file
+                                      ? "a frame.json names its picture itself; --picture is for a scene"
+                                      : fmt::format("{} is a scene: give the frame's visibility with --picture, or a "
+                                                    "frame.json in the scene's place",
+                                                    options.subject));
+  std::optional<Subject> subject;
+  if (is_file) {
+    if (options.srgb || !options.arguments.sets.empty())
+      throw Error(
+          ErrorKind::usage,
+          "a frame.json says camera, light and encoding itself; --set and --srgb are for a scene with --picture");
+    const FrameFile file = read_frame_file(options.subject);
+    if (!file.scene)
+      throw Error(ErrorKind::file, fmt::format("{}: names no scene; add the key 'scene'", options.subject));
+    SceneSettings settings;
+    settings.name = names_file(*file.scene) ? path_in(file, *file.scene) : *file.scene;
+    Scene scene = make_scene(settings);
+    GivenFrame frame = given_frame(file, scene);
+    subject.emplace(Subject{std::move(scene), std::move(frame), std::move(rules)});
+    subject->rules.edge_m = file.edge_m;
+    if (file.edge_pixels) subject->rules.edge_pixels = *file.edge_pixels;
+    subject->rules.contact_m = file.contact_m;
+  } else {
+    ExperimentArguments arguments = options.arguments;
+    arguments.sets.push_back("scene.name=" + options.subject);
+    const Settings settings = points(experiment_from("", arguments)).at(0);
+    Scene scene = make_scene(settings.scene);
+    GivenFrame frame =
+        given_frame(options.picture, options.srgb ? ValueEncoding::srgb : ValueEncoding::linear, scene, settings);
+    subject.emplace(Subject{std::move(scene), std::move(frame), std::move(rules)});
+    subject->rules.standard_error = settings.truth.standard_error;
+  }
+  if (options.edge_pixels_given) {
+    subject->rules.edge_m.reset();
+    subject->rules.edge_pixels = options.edge_pixels;
+  }
+  if (options.edge_m) subject->rules.edge_m = options.edge_m;
+  if (options.contact_m) subject->rules.contact_m = options.contact_m;
+  return std::move(*subject);
+}
+
+std::string_view state_text(const CheckResult& check) {
+  if (check.state == CheckState::passed) return "ok";
+  if (check.state == CheckState::not_checked) return "not checked";
+  return check.accepted ? "accepted" : "FAILED";
+}
+
+void print_verdict(const Subject& subject, const FrameVerdict& verdict) {
+  const auto value = [&](std::string_view name) { return verdict.metrics.at(std::string(name)); };
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(subject.frame.name),
+             value("receivers"), value("facing"), value("counted"));
+  if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
+  fmt::print("\n\n  the delivery\n");
+  for (const CheckResult& check : verdict.checks)
+    fmt::print("  {:<12}{:<13}{}\n", check.name, state_text(check), printable(check.says));
+  if (verdict.refused()) return;
+  fmt::print("\n  {:<14}{:>11.5f}%   mean |frame - truth|\n", "frame_error", 100 * value("frame_error"));
+  fmt::print("  {:<14}{:>11.5f}%   share of receivers that are off by more than a half\n\n", "frame_wrong",
+             100 * value("frame_wrong"));
+  fmt::print("  the error by place (edge: within {:.3g} m of a true edge; contact: occluder nearer than {:.3g} m)\n",
+             verdict.edge_m, verdict.contact_m);
+  for (const FrameClassRow& row : frame_classes)
+    fmt::print("  {:<14}{:>11.5f}%   {}\n", row.metric, 100 * value(row.metric), row.label);
+  if (verdict.worst.x >= 0)
+    fmt::print("\n  the largest error is {:.3f}, at x = {}, y = {} (row 0 on top)\n",
+               verdict.error.at(verdict.worst.x, verdict.worst.y), verdict.worst.x, verdict.worst.y);
+}
+
+std::string judge_json(const Subject& subject, const FrameVerdict& verdict, const std::vector<BoundResult>& bounds,
+                       const JudgeOptions& options, const std::string& out, int exit_code) {
+  using Json = nlohmann::ordered_json;
+  Json checks = Json::array(), judged = Json::array(), metrics = Json::object();
+  for (const CheckResult& check : verdict.checks)
+    checks.push_back({{"name", check.name}, {"state", state_text(check)}, {"says", check.says}});
+  if (!verdict.refused())
+    for (const auto& [name, value] : verdict.metrics) metrics[name] = number_json(value);
+  for (const BoundResult& bound : bounds)
+    judged.push_back({{"bound", bound_text(bound)}, {"held", bound.held}, {"found", number_json(bound.found)}});
+  const Json all{{"noonmark", build_facts().version},
+                 {"command", options.arguments.command},
+                 {"exit_code", exit_code},
+                 {"scene", subject.scene.name},
+                 {"frame", subject.frame.name},
+                 {"refused", verdict.refused()},
+                 {"checks", std::move(checks)},
+                 {"metrics", std::move(metrics)},
+                 {"edge_m", number_json(verdict.edge_m)},
+                 {"contact_m", number_json(verdict.contact_m)},
+                 {"worst", {{"x", verdict.worst.x}, {"y", verdict.worst.y}}},
+                 {"bounds", std::move(judged)},
+                 {"folder", out}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+int judge_one(const JudgeOptions& options) {
+  const VerbOutputs outputs = outputs_of("judge", options.subject, options.arguments.out);
+  retract(outputs);
+  std::vector<Bound> bounds;
+  for (const std::string& text : options.most) bounds.push_back(bound_of(text));
+  for (const std::string& name : options.accepted) require_check(name);
+  const Subject subject = subject_of(options);
+  const raytrace::Tracer tracer(subject.scene);
+  const FrameVerdict verdict = judge_frame(subject.scene, tracer, subject.frame, subject.rules);
+
+  PointRecord record;
+  record.metrics = verdict.metrics;
+  const std::vector<BoundResult> judged =
+      verdict.refused()
+          ? std::vector<BoundResult>()
+          : evaluate_bounds({&record, 1}, bounds, [&](const PointRecord&) { return options.arguments.command; });
+  const bool held = std::all_of(judged.begin(), judged.end(), [](const BoundResult& bound) { return bound.held; });
+  const int exit_code = verdict.refused() ? static_cast<int>(ErrorKind::file) : held ? 0 : 1;
+
+  make_output_folder(outputs.folder);
+  clear_abandoned_files(outputs.folder);
+  write_frame_pictures(verdict, subject.frame, outputs.folder, ".", "frame");
+  write_frame_exr(verdict, subject.frame, outputs.folder + "/frame.exr", "./frame.exr");
+  const std::string json = judge_json(subject, verdict, judged, options, outputs.folder, exit_code);
+  write_file_atomically(outputs.folder + "/judge.json", json);
+  if (options.arguments.json) {
+    fmt::print("{}", json);
+    return exit_code;
+  }
+  print_verdict(subject, verdict);
+  for (const BoundResult& bound : judged)
+    fmt::print("{}  {}: {}, found {}\n", &bound == &judged.front() ? "\n" : "", bound.held ? "held" : "BROKEN",
+               bound_text(bound), found_text(bound));
+  if (const std::string note = notes_line(subject.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
+  fmt::print("\n{0}/judge.json, {0}/frame.exr and {0}/frame-*.png are written\n", printable(outputs.folder));
+  if (verdict.refused())
+    fmt::print(
+        stderr,
+        "noonmark: {}: the frame is not what was declared, so its shadows are not judged; deliver it anew, or judge it "
+        "all the same with --accept NAME\n",
+        printable(subject.frame.name));
+  return exit_code;
+}
+
+RunVerb add_judge(CLI::App& verb) {
+  const auto options = std::make_shared<JudgeOptions>();
+  ExperimentArguments& arguments = options->arguments;
+  verb.add_option("frame", options->subject, "A frame.json, or a scene whose camera and light --set gives")
+      ->required()
+      ->check(not_empty())
+      ->type_name(value_kind::frame);
+  verb.add_option(
+          "--picture", options->picture,
+          "Of a scene: the visibility of the frame, 1 lit and 0 shadowed, -1, NaN or alpha 0 without a surface; the "
+          "top row first, one sample at each pixel's centre")
+      ->check(not_empty())
+      ->type_name(value_kind::picture);
+  verb.add_flag("--srgb", options->srgb, "The picture's values are encoded with sRGB's transfer function");
+  verb.add_option("--max", options->most, "A bound: the largest value of a metric, frame_acne=0.05% (repeatable)")
+      ->type_name("METRIC=VALUE");
+  verb.add_option("--accept", options->accepted, "Judge although this check of the delivery fails (repeatable)")
+      ->type_name("CHECK");
+  verb.add_option("--edge-pixels", options->edge_pixels,
+                  "How near to a true shadow edge an error belongs to the edge, in pixels at the receiver")
+      ->check(above_zero())
+      ->capture_default_str();
+  verb.add_option("--edge-m", options->edge_m, "The same in metres across the light's rays")->check(above_zero());
+  verb.add_option("--contact-m", options->contact_m,
+                  "How near an occluder is where light leaks at a contact (default: 1% of the scene's diagonal)")
+      ->check(above_zero());
+  add_sets(verb, arguments);
+  add_threads(verb, arguments);
+  add_json(verb, arguments, "Print what judge.json says");
+  add_out(verb, arguments, "Folder for the files",
+          folders_of({"shots/frame.json", "cube-room"},
+                     [](const std::string& frame) { return outputs_of("judge", frame, "").folder; }));
+  CLI::Option* const pixels = verb.get_option("--edge-pixels");
+  return [options, pixels](const std::string& command) {
+    options->arguments.command = command;
+    options->edge_pixels_given = pixels->count() > 0;
+    const ThreadLimit limit(options->arguments.threads);
+    return judge_one(*options);
+  };
+}
+
+}  // namespace
+
+Verb verb_judge() {
+  return {"judge", "Judge the shadows of another renderer's frame against the truth, without OpenGL", add_judge};
+}
+
+}  // namespace noonmark

@@ -1,0 +1,142 @@
+#include "frames/check_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace noonmark {
+namespace {
+
+// Of each pixel: the smallest and the largest value within `reach` pixels along both axes.
+struct Extremes {
+  Image<uint8_t> least, most;
+};
+Extremes extremes_within(const Image<uint8_t>& values, int reach) {
+  const int width = values.width, height = values.height;
+  const auto pass = [&](const Image<uint8_t>& from, bool along_x, bool largest) {
+    Image<uint8_t> to(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const int at = along_x ? x : y, last = (along_x ? width : height) - 1;
+        uint8_t best = from.at(x, y);
+        for (int i = std::max(0, at - reach); i <= std::min(last, at + reach); ++i) {
+          const uint8_t value = along_x ? from.at(i, y) : from.at(x, i);
+          best = largest ? std::max(best, value) : std::min(best, value);
+        }
+        to.at(x, y) = best;
+      }
+    return to;
+  };
+  return {pass(pass(values, true, false), false, false), pass(pass(values, true, true), false, true)};
+}
+
+Region region_of(const std::vector<double>& values) {
+  Region region{.count = values.size(),
+                .median = quantile(values, 0.5),
+                .low = quantile(values, 0.05),
+                .high = quantile(values, 0.95)};
+  for (const double value : values) region.mean += value / static_cast<double>(values.size());
+  return region;
+}
+
+}  // namespace
+
+Coverage coverage_of_frame(const GivenFrame& frame) {
+  Coverage covered(frame.visibility.width, frame.visibility.height, 0);
+  for (size_t i = 0; i < covered.size(); ++i)
+    covered[i] = !std::isnan(frame.visibility[i]) &&
+                 (frame.receivers == GivenReceivers::none || std::isfinite(frame.positions[i].x));
+  return covered;
+}
+
+Coverage coverage_of(const Image<uint32_t>& seen) {
+  Coverage covered(seen.width, seen.height, 0);
+  for (size_t i = 0; i < covered.size(); ++i) covered[i] = seen[i] != no_primitive;
+  return covered;
+}
+
+Coverage flipped(const Coverage& coverage, bool left_to_right, bool upside_down) {
+  Coverage result(coverage.width, coverage.height);
+  for (int y = 0; y < coverage.height; ++y)
+    for (int x = 0; x < coverage.width; ++x)
+      result.at(x, y) =
+          coverage.at(left_to_right ? coverage.width - 1 - x : x, upside_down ? coverage.height - 1 - y : y);
+  return result;
+}
+
+size_t differing(const Coverage& a, const Coverage& b) {
+  size_t count = 0;
+  for (size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+  return count;
+}
+
+size_t lost_surfaces(const Coverage& frame, const Coverage& scene) {
+  size_t count = 0;
+  for (size_t i = 0; i < frame.size(); ++i) count += scene[i] && !frame[i];
+  return count;
+}
+
+size_t outline_pixels(const Coverage& c) {
+  size_t count = 0;
+  for (int y = 0; y < c.height; ++y)
+    for (int x = 0; x < c.width; ++x) {
+      const auto differs = [&](int i, int j) {
+        return i >= 0 && j >= 0 && i < c.width && j < c.height && c.at(i, j) != c.at(x, y);
+      };
+      count += differs(x - 1, y) || differs(x + 1, y) || differs(x, y - 1) || differs(x, y + 1);
+    }
+  return count;
+}
+
+Shift best_shift(const raytrace::Tracer& tracer, const ViewMatrix& view, const Coverage& frame, const Coverage& scene) {
+  Shift best{{0, 0}, differing(frame, scene)};
+  for (int j = -2; j <= 2; ++j)
+    for (int i = -2; i <= 2; ++i) {
+      if (i == 0 && j == 0) continue;
+      const glm::dvec2 pixels = 0.5 * glm::dvec2(i, j);
+      glm::dmat4 moved(1);  // the picture moves by minus the shift; a pixel is 2 / width of clip space wide
+      moved[3][0] = -2 * pixels.x / frame.width;
+      moved[3][1] = 2 * pixels.y / frame.height;
+      const ViewMatrix shifted(moved * view.clip_from_world());
+      const size_t left = differing(frame, coverage_of(tracer.seen_primitives(shifted, frame.width, frame.height)));
+      if (left < best.differing) best = {pixels, left};
+    }
+  return best;
+}
+
+FrameStatistics frame_statistics(const GivenFrame& frame, const ReceiverTruth& truth, const Image<uint8_t>& counted) {
+  // 1: counted and dark, 2: counted and lit, 0: not counted
+  Image<uint8_t> state(counted.width, counted.height, 0);
+  for (size_t i = 0; i < state.size(); ++i) state[i] = counted[i] ? static_cast<uint8_t>(1 + truth.lit[i]) : 0;
+  const Extremes wide = extremes_within(state, FrameStatistics::deep_px),
+                 narrow = extremes_within(state, FrameStatistics::edge_px);
+  std::vector<double> deep[2], edge[2];
+  for (size_t i = 0; i < state.size(); ++i) {
+    if (!state[i]) continue;
+    const double value = frame.visibility[i];
+    const size_t lit = truth.lit[i];
+    if (wide.least[i] == state[i] && wide.most[i] == state[i]) deep[lit].push_back(value);
+    if (narrow.least[i] == 1 && narrow.most[i] == 2 && value > 0 && value < 1) edge[lit].push_back(value);
+  }
+  return {region_of(deep[1]), region_of(deep[0]), region_of(edge[1]), region_of(edge[0])};
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto at = std::min(values.size() - 1, static_cast<size_t>(share * static_cast<double>(values.size())));
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(at);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+bool is_half(double value) {
+  if (value == 0) return true;
+  int exponent = 0;
+  const double fraction = std::frexp(std::abs(value), &exponent);  // in [1/2, 1)
+  if (exponent > 16) return false;
+  const int bits = std::min(11, exponent + 24);  // fewer for subnormals
+  const double scaled = std::ldexp(fraction, bits);
+  return bits > 0 && scaled == std::floor(scaled);
+}
+
+}  // namespace noonmark

@@ -1,0 +1,34 @@
+// frames/: the frame of another renderer, judged: what is handed over, whether it is what it should be, and how wrong its
+// shadows are. May include base, scenes, technique and raytrace. Knows no shadow map of our own, no OpenGL, no image
+// file and no store: it takes plain images, so that it runs where there is no driver. Begin here, then frames/judge.h.
+//
+// What another renderer hands over. Conventions: scenes/scene.h.
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+#include "base/image.h"
+#include "scenes/scene.h"
+#include "scenes/view_matrix.h"
+
+namespace noonmark {
+
+// Where a receiver of the frame lies, best first: the renderer's own world positions, its depths, or nothing. With nothing
+// the receivers are those of rays through the pixels' centres.
+enum class GivenReceivers { positions, depth, none };
+
+struct GivenFrame {
+  std::string name;  // for messages: the file of the visibility
+  // Of each pixel, as it was delivered: 1 lit, 0 shadowed. NaN: no surface.
+  Image<float> visibility;
+  // True if the picture could say "no surface" (-1, NaN or alpha 0) and did so for at least one pixel, or if positions or
+  // depths say it. Then its coverage can be compared with the scene's.
+  bool marks_no_surface = false;
+  GivenReceivers receivers = GivenReceivers::none;
+  Image<glm::dvec3> positions;  // world, metres; NaN: no surface. Empty with GivenReceivers::none
+  ViewMatrix view;
+  Light light;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,354 @@
+#include "frames/frame_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/suggestion.h"
+#include "frames/frame_keys.h"
+#include "scenes/camera_fit.h"
+
+namespace noonmark {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = FrameKeyKind;
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> words;
+  for (;;) {
+    const size_t end = text.find(separator);
+    words.push_back(text.substr(0, end));
+    if (end == text.npos) return words;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::string full_name(const FrameKey& key) {
+  return key.object.empty() ? std::string(key.name) : fmt::format("{}.{}", key.object, key.name);
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw Error(ErrorKind::file, path + ": " + what);
+}
+
+bool is_number(const Json& value) { return value.is_number() && std::isfinite(value.get<double>()); }
+
+bool are_numbers(const Json& value, size_t count) {
+  return value.is_array() && value.size() == count && std::all_of(value.begin(), value.end(), is_number);
+}
+
+bool is_axis(const Json& value) {
+  if (!value.is_string()) return false;
+  std::string name = value.get<std::string>();
+  if (name.starts_with('-') || name.starts_with('+')) name.erase(0, 1);
+  return name == "x" || name == "y" || name == "z";
+}
+
+// What the value has to be; empty if it is.
+std::string wanted(const FrameKey& key, const Json& value) {
+  switch (key.kind) {
+    case Kind::object:
+      return value.is_object() ? "" : "an object";
+    case Kind::text:
+      return value.is_string() && !value.get<std::string>().empty() ? "" : "a text";
+    case Kind::choice: {
+      const std::vector<std::string_view> choices = split(key.choices, '|');
+      const bool known =
+          value.is_string() && std::find(choices.begin(), choices.end(), value.get<std::string>()) != choices.end();
+      return known ? "" : fmt::format("one of \"{}\"", fmt::join(choices, "\", \""));
+    }
+    case Kind::number:
+      return is_number(value) && value.get<double>() >= 0 ? "" : "a number of 0 or more";
+    case Kind::positive:
+      return is_number(value) && value.get<double>() > 0 ? "" : "a number above 0";
+    case Kind::flag:
+      return value.is_boolean() ? "" : "true or false";
+    case Kind::vector3:
+      return are_numbers(value, 3) ? "" : "three numbers";
+    case Kind::axes:
+      return value.is_array() && value.size() == 3 && std::all_of(value.begin(), value.end(), is_axis)
+                 ? ""
+                 : "three of \"x\", \"y\", \"z\", each with or without a minus";
+    case Kind::matrix:
+      return are_numbers(value, 16) ? "" : "16 numbers";
+    case Kind::version:
+      return value == 1 ? "" : "1, the version that this program reads";
+  }
+  return "";
+}
+
+void check_object(const std::string& path, const Json& object, std::string_view name) {
+  for (const auto& [member, value] : object.items()) {
+    std::vector<std::string_view> names;
+    const FrameKey* found = nullptr;
+    for (const FrameKey& key : frame_keys()) {
+      if (key.object != name) continue;
+      names.push_back(key.name);
+      if (key.name == member) found = &key;
+    }
+    if (!found)
+      refuse(path, fmt::format("there is no key '{}'{}{}", member, name.empty() ? "" : fmt::format(" in '{}'", name),
+                               did_you_mean(member, names)));
+    if (const std::string want = wanted(*found, value); !want.empty())
+      refuse(path, fmt::format("'{}' must be {}", full_name(*found), want));
+    if (found->kind == Kind::object) check_object(path, value, member);
+  }
+}
+
+// The members of a checked file.
+class Object {
+ public:
+  Object(const std::string& path, std::string name, const Json* json)
+      : path_(path), name_(std::move(name)), json_(json) {}
+
+  explicit operator bool() const { return json_ != nullptr; }
+  bool has(const char* key) const { return json_ && json_->contains(key); }
+  Object object(const char* key) const { return {path_, key, has(key) ? &json_->at(key) : nullptr}; }
+  std::optional<std::string> text(const char* key) const { return get<std::string>(key); }
+  std::optional<double> number(const char* key) const { return get<double>(key); }
+  bool flag(const char* key) const { return get<bool>(key).value_or(false); }
+  bool is(const char* key, std::string_view choice) const { return text(key).value_or("") == choice; }
+  std::optional<glm::dvec3> vector(const char* key) const {
+    if (!has(key)) return std::nullopt;
+    const Json& v = json_->at(key);
+    return glm::dvec3(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+  }
+  glm::dmat4 matrix(const char* key, bool by_rows) const {
+    glm::dmat4 m;
+    for (int i = 0; i < 16; ++i)
+      m[by_rows ? i % 4 : i / 4][by_rows ? i / 4 : i % 4] = json_->at(key)[static_cast<size_t>(i)];
+    return m;
+  }
+  void require(const char* key, const char* why) const {
+    if (!has(key)) refuse(path_, fmt::format("'{}' is missing: {}", name_.empty() ? key : name_ + "." + key, why));
+  }
+  [[noreturn]] void refuse_together(const char* what) const { refuse(path_, fmt::format("'{}': {}", name_, what)); }
+
+ private:
+  template <class T>
+  std::optional<T> get(const char* key) const {
+    return has(key) ? std::optional(json_->at(key).get<T>()) : std::nullopt;
+  }
+  const std::string& path_;
+  std::string name_;
+  const Json* json_;
+};
+
+glm::dmat4 world_from_frame(const std::string& path, const Object& file, const Json& json) {
+  const double scale = file.number("metres_per_unit").value_or(1);
+  glm::dmat4 m(0);
+  m[3][3] = 1;
+  std::array<bool, 3> used{};
+  for (int scene_axis = 0; scene_axis < 3; ++scene_axis) {
+    std::string name = file.has("axes") ? json.at("axes")[static_cast<size_t>(scene_axis)].get<std::string>()
+                                        : std::string(1, static_cast<char>('x' + scene_axis));
+    const double sign = name.starts_with('-') ? -1 : 1;
+    const int of_frame = name.back() - 'x';
+    used[static_cast<size_t>(of_frame)] = true;
+    m[of_frame][scene_axis] = sign * scale;
+  }
+  if (!(used[0] && used[1] && used[2])) refuse(path, "'axes' must name each of x, y and z once");
+  return m;
+}
+
+void read_camera(const Object& camera, FrameFile& file) {
+  if (!camera) return;
+  const bool by_matrix = camera.has("clip_from_world") || camera.has("view") || camera.has("projection");
+  if (by_matrix) {
+    if (camera.has("eye") || camera.has("target")) camera.refuse_together("give matrices, or eye and target, not both");
+    for (const char* key : {"order", "depth_range", "reversed"}) camera.require(key, "a matrix alone does not say it");
+    const bool by_rows = camera.is("order", "row");
+    if (camera.has("clip_from_world")) {
+      if (camera.has("view") || camera.has("projection"))
+        camera.refuse_together("give clip_from_world, or view and projection, not both");
+      file.clip_from_frame = camera.matrix("clip_from_world", by_rows);
+    } else {
+      camera.require("view", "with a projection there is a view");
+      camera.require("projection", "with a view there is a projection");
+      file.clip_from_frame = camera.matrix("projection", by_rows) * camera.matrix("view", by_rows);
+    }
+    file.convention = {camera.is("depth_range", "0..1"), camera.flag("reversed"), camera.is("y", "down")};
+    return;
+  }
+  camera.require("eye", "give eye and target, or matrices");
+  camera.require("target", "give eye and target, or matrices");
+  if (camera.has("fov_y_deg") == camera.has("height"))
+    camera.refuse_together("give fov_y_deg of a perspective camera, or height of an orthographic one");
+  const auto place = [&](const char* key) {
+    return glm::dvec3(file.world_from_frame * glm::dvec4(*camera.vector(key), 1));
+  };
+  const double scale = glm::length(glm::dvec3(file.world_from_frame[0]));
+  const auto length = [&](const char* key) {
+    const std::optional<double> given = camera.number(key);
+    return given ? std::optional(*given * scale) : std::nullopt;
+  };
+  Camera& c = file.camera.emplace();
+  c.eye_m = place("eye");
+  c.target_m = place("target");
+  if (camera.has("up")) c.up = glm::dmat3(file.world_from_frame) * *camera.vector("up");
+  c.projection = camera.has("height") ? Projection::orthographic : Projection::perspective;
+  c.fov_y_deg = camera.number("fov_y_deg").value_or(c.fov_y_deg);
+  c.height_m = length("height").value_or(c.height_m);
+  c.near_m = length("near");
+  c.far_m = length("far");
+  if (c.projection == Projection::perspective && !(c.fov_y_deg < 180))
+    camera.refuse_together("fov_y_deg must be below 180");
+}
+
+void read_light(const Object& light, FrameFile& file) {
+  if (!light) return;
+  light.require("kind", "it is directional, spot or point");
+  Light& l = file.light.emplace();
+  l.kind = light.is("kind", "directional") ? LightKind::directional
+           : light.is("kind", "spot")      ? LightKind::spot
+                                           : LightKind::point;
+  const double scale = glm::length(glm::dvec3(file.world_from_frame[0]));
+  const auto place = [&](const char* key) {
+    return glm::dvec3(file.world_from_frame * glm::dvec4(*light.vector(key), 1));
+  };
+  if (l.kind != LightKind::directional) light.require("position", "a spot or point light has a place");
+  l.position_m = light.has("position") ? place("position") : glm::dvec3(0);
+  if (l.kind != LightKind::point) {
+    if (light.has("direction") == light.has("target"))
+      light.refuse_together("give the direction in which the light travels, or a target, and not both");
+    if (light.has("target")) {
+      light.require("position", "the light aims from it at its target");
+      l.target_m = place("target");
+    } else {
+      const glm::dvec3 way = glm::dmat3(file.world_from_frame) * *light.vector("direction");
+      if (!(glm::length(way) > 0)) light.refuse_together("the direction has no length");
+      l.target_m = l.position_m + glm::normalize(way);
+    }
+  }
+  l.cone_deg = light.number("cone_deg").value_or(l.cone_deg);
+  l.angular_diameter_deg = light.number("angular_diameter_deg").value_or(0);
+  l.radius_m = light.number("radius").value_or(0) * scale;
+  l.shape = light.is("shape", "disc") ? LightShape::disc : LightShape::sphere;
+  if (l.kind == LightKind::spot) light.require("cone_deg", "beyond it nothing is lit");
+}
+
+void read_rules(const Object& edge, const Object& contact, double scale, FrameFile& file) {
+  if (edge) {
+    const int given = edge.has("pixels") + edge.has("texels") + edge.has("distance");
+    if (given != 1) edge.refuse_together("give one of pixels, texels and distance");
+    if (edge.has("texels")) {
+      edge.require("texel", "the width of a texel");
+      file.edge_m = *edge.number("texels") * *edge.number("texel") * scale;
+    }
+    if (edge.has("distance")) file.edge_m = *edge.number("distance") * scale;
+    file.edge_pixels = edge.number("pixels");
+  }
+  if (contact) {
+    contact.require("distance", "a length along the light's ray");
+    file.contact_m = *contact.number("distance") * scale;
+  }
+}
+
+}  // namespace
+
+FrameFile parse_frame_file(const std::string& path, std::string_view text) {
+  const Json json = [&] {
+    try {
+      return Json::parse(text);
+    } catch (const Json::exception& fault) {
+      const std::string why = fault.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+      refuse(path, "is not JSON: " + why.substr(why.find(']') + 2));
+    }
+  }();
+  if (!json.is_object()) refuse(path, "must be a JSON object");
+  check_object(path, json, "");
+  FrameFile file;
+  file.path = path;
+  const Object all(file.path, "", &json);
+  all.require("noonmark_frame", "it is 1");
+  all.require("visibility", "the picture that is judged");
+  file.scene = all.text("scene");
+  const Object visibility = all.object("visibility");
+  visibility.require("file", "the picture that is judged");
+  file.visibility = *visibility.text("file");
+  file.encoding = visibility.is("encoding", "srgb") ? ValueEncoding::srgb : ValueEncoding::linear;
+  file.world_from_frame = world_from_frame(path, all, json);
+  read_camera(all.object("camera"), file);
+  read_light(all.object("light"), file);
+  if (const Object positions = all.object("positions")) {
+    positions.require("file", "the picture of world positions");
+    file.positions = positions.text("file");
+  }
+  if (const Object depth = all.object("depth")) {
+    depth.require("file", "the picture of depths");
+    if (file.positions) refuse(path, "give positions or depth, not both");
+    file.depth = depth.text("file");
+    file.depth_measure = depth.is("measure", "view_z") ? DepthMeasure::view_z : DepthMeasure::window;
+  }
+  read_rules(all.object("edge"), all.object("contact"), all.number("metres_per_unit").value_or(1), file);
+  return file;
+}
+
+ViewMatrix FrameFile::view(const Scene& scene, int width, int height) const {
+  if (clip_from_frame)
+    return ViewMatrix(from_convention(*clip_from_frame, convention) * glm::inverse(world_from_frame));
+  Camera c = camera ? *camera : scene.camera;
+  if (!c.near_m || !c.far_m) {
+    const Camera fitted = with_fitted_depths(scene, c, width, height);
+    c.near_m = c.near_m ? c.near_m : fitted.near_m;
+    c.far_m = c.far_m ? c.far_m : fitted.far_m;
+  }
+  return ViewMatrix(make_camera_frame(c, width, height).clip_from_world());
+}
+
+std::string frame_schema() {
+  const auto form = [](const FrameKey& key) -> Json {
+    switch (key.kind) {
+      case Kind::object:
+        return {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+      case Kind::text:
+        return {{"type", "string"}, {"minLength", 1}};
+      case Kind::choice: {
+        Json words = Json::array();
+        for (const std::string_view choice : split(key.choices, '|')) words.push_back(choice);
+        return {{"enum", words}};
+      }
+      case Kind::number:
+        return {{"type", "number"}, {"minimum", 0}};
+      case Kind::positive:
+        return {{"type", "number"}, {"exclusiveMinimum", 0}};
+      case Kind::flag:
+        return {{"type", "boolean"}};
+      case Kind::vector3:
+        return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
+      case Kind::axes:
+        return {{"type", "array"},
+                {"items", {{"enum", {"x", "y", "z", "-x", "-y", "-z", "+x", "+y", "+z"}}}},
+                {"minItems", 3},
+                {"maxItems", 3}};
+      case Kind::matrix:
+        return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 16}, {"maxItems", 16}};
+      case Kind::version:
+        return {{"const", 1}};
+    }
+    return {};
+  };
+  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+              {"title", "frame.json of Noonmark: the frame of another renderer"},
+              {"type", "object"},
+              {"additionalProperties", false},
+              {"required", {"noonmark_frame", "visibility"}},
+              {"properties", Json::object()}};
+  for (const FrameKey& key : frame_keys()) {
+    Json& owner = key.object.empty() ? schema : schema["properties"][std::string(key.object)];
+    Json one = form(key);
+    one["description"] = key.help;
+    owner["properties"][std::string(key.name)] = std::move(one);
+    if (!key.object.empty() && key.name == "file") owner["required"].push_back("file");
+  }
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace noonmark

@@ -1,0 +1,52 @@
+// frame.json: what another renderer hands over, in numbers and paths. docs/reference/frame.md is its reference, and
+// frame_schema() its JSON schema.
+//
+//   const FrameFile file = parse_frame_file("shots/frame.json", text);
+//   const ViewMatrix view = file.view(scene, width, height);
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scenes/scene.h"
+#include "scenes/view_matrix.h"
+
+namespace noonmark {
+
+enum class ValueEncoding { linear, srgb };  // srgb: IEC 61966-2-1, as a PNG of a canvas has it
+enum class DepthMeasure {
+  window,  // what a depth buffer holds, from 0 to 1, in the camera's convention
+  view_z   // metres along the camera's view; perspective cameras only
+};
+
+struct FrameFile {
+  std::string path;  // of the JSON file, for messages. Paths below are as they stand in it, relative to its folder
+  std::optional<std::string> scene;
+  std::string visibility;
+  ValueEncoding encoding = ValueEncoding::linear;
+  std::optional<std::string> positions;
+  std::optional<std::string> depth;
+  DepthMeasure depth_measure = DepthMeasure::window;
+
+  // From the renderer's coordinates to the scene's: axes and unit. Positions, matrices and lights are in the renderer's.
+  glm::dmat4 world_from_frame{1};
+
+  std::optional<glm::dmat4> clip_from_frame;  // as given, of the convention below
+  ClipConvention convention;
+  std::optional<Camera> camera;  // given by eye and target, in the scene's coordinates
+  std::optional<Light> light;    // in the scene's coordinates; empty: the scene's
+
+  std::optional<double> edge_m, edge_pixels, contact_m;
+
+  // Of a scene that gives the camera where the file gives none.
+  ViewMatrix view(const Scene& scene, int width, int height) const;
+};
+
+// Throws Error(file) that names the key.
+FrameFile parse_frame_file(const std::string& path, std::string_view text);
+
+// The JSON schema (draft 7) of the file, as text.
+std::string frame_schema();
+
+}  // namespace noonmark

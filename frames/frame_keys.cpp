@@ -1,0 +1,79 @@
+#include "frames/frame_keys.h"
+
+namespace noonmark {
+namespace {
+
+using Kind = FrameKeyKind;
+
+constexpr FrameKey key_rows[] = {
+    {"", "noonmark_frame", Kind::version, "The version of this format: 1. Required."},
+    {"", "scene", Kind::text, "A built-in scene, or the path of a .gltf or .glb file, from this file's folder."},
+    {"", "visibility", Kind::object, "The picture that is judged. Required."},
+    {"visibility", "file", Kind::text,
+     "EXR (half or float), PNG (8 or 16 bits) or NPY (uint8, uint16, float16, float32, float64): 1 is lit, 0 shadowed; "
+     "-1, "
+     "NaN or alpha 0 is no surface. The top row comes first; a pixel's sample is at its centre. Required."},
+    {"visibility", "encoding", Kind::choice, "Whether the values are linear, or encoded with sRGB's transfer function.",
+     "linear|srgb"},
+    {"", "axes", Kind::axes,
+     "The scene's x, y and z (right-handed, Y up, as in glTF), each as an axis of the renderer with its sign: [\"x\", "
+     "\"z\", "
+     "\"-y\"] where the renderer has Z up. Handedness and up axis follow from it. Default: [\"x\", \"y\", \"z\"]."},
+    {"", "metres_per_unit", Kind::positive, "The length of the renderer's unit in metres. Default: 1."},
+    {"", "camera", Kind::object, "The camera of the picture. Default: the first camera of the scene's file."},
+    {"camera", "eye", Kind::vector3, "Where the camera is."},
+    {"camera", "target", Kind::vector3, "A point in the middle of the picture."},
+    {"camera", "up", Kind::vector3, "A direction that is up in the picture. Default: the scene's Y."},
+    {"camera", "fov_y_deg", Kind::positive, "Perspective: the whole vertical angle."},
+    {"camera", "height", Kind::positive, "Orthographic: the height that the picture shows."},
+    {"camera", "near", Kind::positive, "The near plane, along the view. Default: fitted to the scene."},
+    {"camera", "far", Kind::positive, "The far plane. Default: fitted to the scene."},
+    {"camera", "view", Kind::matrix, "4 x 4 matrix from the world to the camera's axes, as 16 numbers."},
+    {"camera", "projection", Kind::matrix, "4 x 4 matrix from the camera's axes to clip space."},
+    {"camera", "clip_from_world", Kind::matrix, "The product of both, in place of them."},
+    {"camera", "order", Kind::choice,
+     "Of the numbers of each matrix, which is multiplied with a column vector: column by column, or row by row. A "
+     "matrix "
+     "that is multiplied with a row vector and stands row by row has the same numbers as \"column\". Required with "
+     "matrices.",
+     "column|row"},
+    {"camera", "depth_range", Kind::choice, "Of clip space after the division. Required with matrices.", "0..1|-1..1"},
+    {"camera", "reversed", Kind::flag, "Whether the near plane has the largest depth. Required with matrices."},
+    {"camera", "y", Kind::choice, "Whether y of clip space grows upwards, or downwards as in Vulkan.", "up|down"},
+    {"", "light", Kind::object, "The light of the picture. Default: the light of the scene's file."},
+    {"light", "kind", Kind::choice, "Required, unless the light is the scene's.", "directional|spot|point"},
+    {"light", "direction", Kind::vector3, "Directional, spot: the way the light travels."},
+    {"light", "position", Kind::vector3, "Spot, point: where the light is."},
+    {"light", "target", Kind::vector3,
+     "Directional, spot: a point that the light from `position` aims at, in place of the "
+     "direction."},
+    {"light", "cone_deg", Kind::positive, "Spot: the whole angle of the cone."},
+    {"light", "angular_diameter_deg", Kind::number, "Directional: of a sun with a size. Default: 0, a hard shadow."},
+    {"light", "radius", Kind::number, "Spot, point: of a lamp with a size. Default: 0."},
+    {"light", "shape", Kind::choice, "Of a lamp with a size.", "sphere|disc"},
+    {"", "positions", Kind::object,
+     "The world position of every receiver: what the renderer itself shaded. The best choice."},
+    {"positions", "file", Kind::text,
+     "EXR with three 32-bit float channels (x, y, z), or NPY of height x width x 3; NaN where there is no surface. "
+     "Required."},
+    {"", "depth", Kind::object, "The depth of every receiver, in place of positions."},
+    {"depth", "file", Kind::text, "EXR with one 32-bit float channel, or NPY. Required."},
+    {"depth", "measure", Kind::choice,
+     "window: from 0 to 1, as a depth buffer of this camera has it, the far plane being no surface; view_z: distance "
+     "along the "
+     "view of a perspective camera.",
+     "window|view_z"},
+    {"", "edge", Kind::object, "How near to a true shadow edge an error is an error of the edge. Default: 2 pixels."},
+    {"edge", "pixels", Kind::positive, "In pixels of the picture, at the receiver."},
+    {"edge", "texels", Kind::positive, "In texels of the renderer's map; needs `texel`."},
+    {"edge", "texel", Kind::positive, "The width of a texel of a directional light's map: extent / resolution."},
+    {"edge", "distance", Kind::positive, "As a length, across the light's rays."},
+    {"", "contact", Kind::object, "How near an occluder is to the receiver where light leaks at a contact."},
+    {"contact", "distance", Kind::positive, "Along the light's ray. Default: 1% of the scene's diagonal."},
+};
+
+}  // namespace
+
+std::span<const FrameKey> frame_keys() { return key_rows; }
+
+}  // namespace noonmark

@@ -1,0 +1,192 @@
+#include "frames/judge.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+// The frame of the light alone. A map is laid about the scene, because a frame has one; nothing reads it.
+LightFrame light_frame_of(const Scene& scene, const Light& light) {
+  Settings settings;
+  settings.light = {.kind = light.kind == LightKind::directional ? LightChoice::directional
+                            : light.kind == LightKind::spot      ? LightChoice::spot
+                                                                 : LightChoice::point,
+                    .position_m = light.position_m,
+                    .target_m = light.target_m,
+                    .azimuth_deg = {},
+                    .elevation_deg = {},
+                    .angular_diameter_deg = light.angular_diameter_deg,
+                    .radius_m = light.radius_m,
+                    .shape = light.shape,
+                    .cone_deg = light.cone_deg};
+  settings.map.fit = MapFit::tight;
+  return make_light_frame(scene, settings);
+}
+
+double diagonal_m(const Scene& scene) {
+  if (scene.positions.empty()) return 0;
+  glm::vec3 low = scene.positions[0], high = low;
+  for (const glm::vec3& p : scene.positions) low = glm::min(low, p), high = glm::max(high, p);
+  return glm::length(glm::dvec3(high) - glm::dvec3(low));
+}
+
+void require_size(const GivenFrame& frame, int width, int height, const char* what) {
+  if (width != frame.visibility.width || height != frame.visibility.height)
+    throw Error(ErrorKind::file,
+                fmt::format("{}: the visibility has {} x {} pixels, but the {} {} x {}; write both in one size",
+                            frame.name, frame.visibility.width, frame.visibility.height, what, width, height));
+}
+
+raytrace::OnSurface find_receivers(const Scene& scene, const raytrace::Tracer& tracer, const GivenFrame& frame,
+                                   const Image<uint32_t>& seen) {
+  const int width = frame.visibility.width, height = frame.visibility.height;
+  if (frame.receivers == GivenReceivers::none)
+    return {resolve_receivers(scene, frame.view, seen), Image<float>(width, height, 0)};
+  require_size(frame, frame.positions.width, frame.positions.height, "receivers have");
+  Image<uint8_t> present(width, height, 0);
+  for (size_t i = 0; i < present.size(); ++i) {
+    const glm::dvec3 p = frame.positions[i];
+    present[i] = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  }
+  return tracer.on_surface(frame.positions, present, frame.view);
+}
+
+// The width of a pixel at each receiver, across the view.
+Image<float> pixel_width_m(const GivenFrame& frame, const ReceiverImage& receivers) {
+  const int width = receivers.width(), height = receivers.height();
+  Image<float> size(width, height, 0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const size_t i = size.index(x, y);
+      if (receivers.primitive[i] == no_primitive) continue;
+      const double depth = frame.view.pixel_of(receivers.position[i], width, height).z;
+      const glm::dvec3 here = frame.view.world_at(x, y, depth, width, height);
+      size[i] = static_cast<float>(std::max(glm::length(frame.view.world_at(x + 1, y, depth, width, height) - here),
+                                            glm::length(frame.view.world_at(x, y + 1, depth, width, height) - here)));
+    }
+  return size;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Sets counted and error.
+void compare_with_truth(const GivenFrame& frame, FrameVerdict& verdict) {
+  for (size_t i = 0; i < verdict.counted.size(); ++i) {
+    if (!verdict.truth.facing[i] || verdict.truth.ambiguous[i] || std::isnan(frame.visibility[i])) continue;
+    verdict.counted[i] = 1;
+    verdict.error[i] = std::abs(frame.visibility[i] - verdict.truth_at(i));
+  }
+}
+
+void classify(const raytrace::Tracer& tracer, const GivenFrame& frame, const JudgeRules& rules, FrameVerdict& verdict) {
+  const int width = verdict.error.width, height = verdict.error.height;
+  Image<uint8_t> hard(width, height, 0), falsely_lit(width, height, 0);
+  for (size_t i = 0; i < hard.size(); ++i) {
+    if (!(verdict.error[i] > 0)) continue;
+    const float truth = verdict.truth_at(i);
+    if (truth > 0 && truth < 1)
+      verdict.classes[i] = FrameClass::penumbra;
+    else
+      hard[i] = 1;
+  }
+  Image<float> reach(width, height, 0);
+  if (rules.edge_m)
+    std::fill(reach.pixels.begin(), reach.pixels.end(), static_cast<float>(*rules.edge_m));
+  else
+    for (size_t i = 0; const float pixel : pixel_width_m(frame, verdict.receivers).pixels)
+      reach[i++] = static_cast<float>(rules.edge_pixels) * pixel;
+  std::vector<double> used;
+  for (size_t i = 0; i < reach.size(); ++i)
+    if (verdict.counted[i]) used.push_back(reach[i]);
+  verdict.edge_m = median(std::move(used));
+  const Image<uint8_t> near_edge = tracer.edge_within(verdict.receivers, verdict.truth, verdict.light, hard, reach);
+  for (size_t i = 0; i < hard.size(); ++i) {
+    if (!hard[i]) continue;
+    if (near_edge[i])
+      verdict.classes[i] = FrameClass::edge;
+    else if (verdict.truth_at(i) > 0)
+      verdict.classes[i] = FrameClass::acne;
+    else
+      falsely_lit[i] = 1;
+  }
+  const Image<float> occluder_m = tracer.occluder_distance(verdict.receivers, verdict.light, falsely_lit);
+  for (size_t i = 0; i < hard.size(); ++i)
+    if (falsely_lit[i]) verdict.classes[i] = occluder_m[i] < verdict.contact_m ? FrameClass::contact : FrameClass::leak;
+}
+
+void measure(FrameVerdict& verdict) {
+  double error = 0, wrong = 0, counted = 0, receivers = 0, facing = 0, ambiguous = 0, largest = -1;
+  std::array<double, frame_classes.size() + 1> sizes{};
+  for (size_t i = 0; i < verdict.error.size(); ++i) {
+    receivers += verdict.receivers.primitive[i] != no_primitive;
+    facing += verdict.truth.facing[i];
+    ambiguous += verdict.truth.facing[i] && verdict.truth.ambiguous[i];
+    if (!verdict.counted[i]) continue;
+    const double size = verdict.error[i];
+    counted += 1;
+    error += size;
+    wrong += size > 0.5;
+    sizes[static_cast<size_t>(verdict.classes[i])] += size;
+    if (size > largest) {
+      largest = size;
+      const auto width = static_cast<size_t>(verdict.error.width);
+      verdict.worst = {static_cast<int>(i % width), static_cast<int>(i / width)};
+    }
+  }
+  verdict.metrics = {{"receivers", receivers},
+                     {"facing", facing},
+                     {"counted", counted},
+                     {"ambiguous", ambiguous / facing},
+                     {"frame_error", error / counted},
+                     {"frame_wrong", wrong / counted}};
+  for (const FrameClassRow& row : frame_classes)
+    verdict.metrics[std::string(row.metric)] = sizes[static_cast<size_t>(row.what)] / counted;
+}
+
+}  // namespace
+
+bool FrameVerdict::refused() const {
+  return std::any_of(checks.begin(), checks.end(),
+                     [](const CheckResult& check) { return check.state == CheckState::failed && !check.accepted; });
+}
+
+FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, const GivenFrame& frame,
+                         const JudgeRules& rules) {
+  for (const std::string& name : rules.accepted) require_check(name);
+  const int width = frame.visibility.width, height = frame.visibility.height;
+  const Image<uint32_t> seen = tracer.seen_primitives(frame.view, width, height);
+  raytrace::OnSurface found = find_receivers(scene, tracer, frame, seen);
+  FrameVerdict verdict{.receivers = std::move(found.receivers),
+                       .light = light_frame_of(scene, frame.light),
+                       .truth = {},
+                       .counted = Image<uint8_t>(width, height, 0),
+                       .error = Image<float>(width, height, 0),
+                       .classes = Image<FrameClass>(width, height, FrameClass::none),
+                       .checks = {},
+                       .metrics = {}};
+  verdict.truth = tracer.receiver_truth(verdict.receivers, verdict.light, {frame.light, rules.standard_error});
+  verdict.contact_m = rules.contact_m.value_or(JudgeRules::contact_share * diagonal_m(scene));
+  compare_with_truth(frame, verdict);
+  verdict.checks = check_frame({tracer, frame, seen, found.moved_m, verdict.truth, verdict.counted});
+  for (CheckResult& check : verdict.checks) check.accepted = rules.accepted.contains(std::string(check.name));
+  classify(tracer, frame, rules, verdict);
+  measure(verdict);
+  return verdict;
+}
+
+}  // namespace noonmark

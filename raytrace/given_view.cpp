@@ -1,0 +1,164 @@
+// What the camera of another renderer sees, and the surfaces on which its receivers lie.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "raytrace/own_surface.h"
+#include "raytrace/shadow_start.h"
+#include "raytrace/traced_scene.h"
+#include "raytrace/tracer.h"
+
+namespace noonmark::raytrace {
+namespace {
+
+struct Corners {
+  glm::dvec3 a, b, c;
+  Corners(const Scene& scene, uint32_t triangle)
+      : a(scene.positions[scene.triangles[triangle].x]),
+        b(scene.positions[scene.triangles[triangle].y]),
+        c(scene.positions[scene.triangles[triangle].z]) {}
+  glm::dvec3 cross() const { return glm::cross(b - a, c - a); }
+};
+
+bool single_sided(const Scene& scene, uint32_t triangle) {
+  return !scene.single_sided.empty() && scene.single_sided[triangle];
+}
+
+// The first triangle on a ray of the camera that has a side to show.
+class FirstSeen {
+ public:
+  FirstSeen(const TracedScene& traced, const Ray& ray)
+      : traced_(traced), ray_(ray), cast_{glm::vec3(ray.origin), glm::vec3(ray.direction)} {}
+
+  uint32_t operator()() {
+    const uint32_t first = traced_.embree.first_hit(cast_);
+    if (first == no_primitive || shows(first)) return first;
+    std::vector<uint32_t> met;
+    traced_.embree.all_hits(cast_, met);
+    uint32_t nearest = no_primitive;
+    double least = std::numeric_limits<double>::infinity();
+    for (const uint32_t triangle : met)
+      if (const double at = distance(triangle); shows(triangle) && at >= 0 && at < least) {
+        least = at;
+        nearest = triangle;
+      }
+    return nearest;
+  }
+
+ private:
+  // Of triangles that coincide the rays know the first: it is seen if one of them is.
+  bool shows(uint32_t triangle) const {
+    return !single_sided(traced_.scene, triangle) ||
+           glm::dot(Corners(traced_.scene, triangle).cross(), ray_.direction) < 0;
+  }
+  double distance(uint32_t triangle) const {
+    const Corners t(traced_.scene, triangle);
+    return glm::dot(t.cross(), t.a - ray_.origin) / glm::dot(t.cross(), ray_.direction);
+  }
+
+  const TracedScene& traced_;
+  const Ray ray_;
+  const LightRay cast_;
+};
+
+}  // namespace
+
+Image<uint32_t> Tracer::seen_primitives(const ViewMatrix& view, int width, int height) const {
+  Image<uint32_t> seen(width, height, no_primitive);
+  tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
+    for (int y = rows.begin(); y != rows.end(); ++y)
+      for (int x = 0; x < width; ++x) {
+        const Ray ray = view.pixel_ray(x, y, width, height);
+        const uint32_t hit = FirstSeen(*traced_, ray)();
+        if (hit == no_primitive) continue;
+        const Corners t(traced_->scene, hit);
+        const double along = glm::dot(t.cross(), t.a - ray.origin) / glm::dot(t.cross(), ray.direction);
+        if (view.pixel_of(ray.origin + along * ray.direction, width, height).z <= 1) seen.at(x, y) = hit;
+      }
+  });
+  return seen;
+}
+
+OnSurface Tracer::on_surface(const Image<glm::dvec3>& points, const Image<uint8_t>& present,
+                             const ViewMatrix& view) const {
+  const int width = points.width, height = points.height;
+  OnSurface found{{Image<glm::vec3>(width, height, glm::vec3(0)), Image<glm::vec3>(width, height, glm::vec3(0)),
+                   Image<uint32_t>(width, height, no_primitive)},
+                  Image<float>(width, height, 0)};
+  tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
+    for (int y = rows.begin(); y != rows.end(); ++y)
+      for (int x = 0; x < width; ++x) {
+        const size_t i = points.index(x, y);
+        if (!present[i]) continue;
+        const glm::dvec3 p = points[i], way = view.pixel_ray(x, y, width, height).direction;
+        // A back that the camera does not see is taken only where nothing else is as near. What rounding of a float
+        // position can move counts as equally near.
+        const EmbreeScene::Nearest near = traced_->embree.nearest(p, 0x1p-22 * glm::length(p), [&](uint32_t triangle) {
+          return !single_sided(traced_->scene, triangle) ||
+                 glm::dot(Corners(traced_->scene, triangle).cross(), way) < 0;
+        });
+        if (near.primitive == no_primitive) continue;
+        const Corners t(traced_->scene, near.primitive);
+        const glm::dvec3 cross = t.cross();
+        const double area = glm::length(cross);
+        if (!(area > 0)) continue;
+        found.receivers.primitive[i] = near.primitive;
+        found.receivers.position[i] = glm::vec3(near.point);
+        found.receivers.normal[i] = glm::vec3(cross / (glm::dot(cross, way) > 0 ? -area : area));
+        found.moved_m[i] = static_cast<float>(glm::length(near.point - p));
+      }
+  });
+  return found;
+}
+
+Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTruth& truth, const LightFrame& frame,
+                                   const Image<uint8_t>& mask, const Image<float>& radius_m) const {
+  std::optional<ReceiverImage> made;
+  const ReceiverImage& receivers = on_first(given, made);
+  const std::shared_ptr<LightSide> light = traced_->lit_by(frame);
+  const LightView& view = light->view();
+  LightCells* const cells = use_cells_ ? light->cells(receivers) : nullptr;
+  const OwnSurface surface(traced_->embree, traced_->adjacency, view, light->silhouettes(), cells);
+  Image<uint8_t> near(receivers.width(), receivers.height(), 0);
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, mask.size(), 256), [&](const tbb::blocked_range<size_t>& pixels) {
+    Silhouettes::Nearby nearby;
+    for (size_t i = pixels.begin(); i != pixels.end(); ++i) {
+      if (!mask[i]) continue;
+      const glm::dvec3 p = receivers.position[i];
+      const SurfacePoint point = surface.point(frame.to_light(p), receivers.primitive[i], truth.lit[i] != 0);
+      glm::dvec3 right, up;
+      frame.light().axes_across(frame, p, right, up);
+      std::array<glm::dvec3, edge_spokes> ring_places;
+      const auto places_on = [&](int ring) {
+        for (int spoke = 0; spoke < edge_spokes; ++spoke) {
+          const double turn = 2 * std::numbers::pi * (spoke + (ring % 2) / 2.0) / edge_spokes;
+          const double reach = static_cast<double>(radius_m[i]) * ring / edge_rings;
+          const glm::dvec3 at = p + reach * (std::cos(turn) * right + std::sin(turn) * up);
+          ring_places[static_cast<size_t>(spoke)] = view.place_of(frame.to_light(at));
+        }
+      };
+      places_on(edge_rings);
+      // The rectangle around the outermost ring holds all places. A receiver that is lit and has no silhouette there is
+      // lit at all of them (OwnSurface::lit_at without a crossing). A dark one may come out of its occluder without one.
+      light->silhouettes().list_nearby(ring_places, nearby);
+      if (point.lit && nearby.none()) continue;
+      for (int ring = edge_rings; ring > 0 && !near[i]; --ring) {
+        if (ring < edge_rings) places_on(ring);
+        std::array<uint32_t, edge_spokes> hits;
+        view.first_hits(traced_->embree, edge_spokes, ring_places.data(), hits.data());
+        for (size_t spoke = 0; spoke < edge_spokes && !near[i]; ++spoke)
+          near[i] = surface.lit_at(point, ring_places[spoke], hits[spoke], nearby).lit != point.lit;
+      }
+    }
+  });
+  return near;
+}
+
+}  // namespace noonmark::raytrace
