@@ -62,7 +62,7 @@ Outcome positions(const CheckEvidence& e, const FrameStatistics&) {
     return not_checked(
         "no positions or depths were given: the receivers are those of rays through the pixels' centres");
   const int width = e.frame.visibility.width, height = e.frame.visibility.height;
-  std::vector<double> off_x, off_y, moved, size;
+  std::vector<double> off_x, off_y, off, moved, size;
   size_t half = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -72,6 +72,7 @@ Outcome positions(const CheckEvidence& e, const FrameStatistics&) {
       const glm::dvec3 at = e.frame.view.pixel_of(p, width, height);
       off_x.push_back(at.x - (x + 0.5));
       off_y.push_back(at.y - (y + 0.5));
+      off.push_back(std::hypot(off_x.back(), off_y.back()));
       moved.push_back(e.moved_m[i]);
       size.push_back(glm::length(p));
       half += is_half(p.x) && is_half(p.y) && is_half(p.z);
@@ -79,14 +80,14 @@ Outcome positions(const CheckEvidence& e, const FrameStatistics&) {
   if (moved.empty()) return failed("no pixel has a position; write the world position of every pixel with a surface");
   const auto count = static_cast<double>(moved.size());
   const double median_size = quantile(size, 0.5), median_moved = quantile(moved, 0.5);
-  // A half float has 11 bits, so its rounding is up to 2^-12 of the value; a scene whose every place is one by chance has
-  // none of that rounding.
+  // A half float has 11 bits. Positions that are halves by chance, as on a grid of powers of two, have no rounding that moves
+  // them in the picture.
   if (e.frame.receivers == GivenReceivers::positions && static_cast<double>(half) == count &&
-      median_moved > 0x1p-16 * median_size)
-    return failed(fmt::format(
-        "every position is a half float, and half of them lie more than {:.2g} m off the scene: write the positions as "
-        "32-bit floats",
-        median_moved));
+      quantile(off, 0.95) > 0.01)
+    return failed(
+        fmt::format("every position is a half float, which puts one of twenty more than {:.2g} pixels beside its "
+                    "place: write the positions as 32-bit floats",
+                    quantile(off, 0.95)));
   const double dx = quantile(off_x, 0.5), dy = quantile(off_y, 0.5);
   if (std::hypot(dx, dy) > 0.1)
     return failed(
@@ -129,13 +130,18 @@ Outcome coverage(const CheckEvidence& e, const FrameStatistics&) {
   const std::string found = fmt::format(
       "{} of {} pixels have a surface in the frame or in the scene alone, and the scene's outline has {} pixels",
       differ, of_scene.size(), outline);
-  // A flip must explain nine tenths of what differs. A shift must explain three tenths: the row that it brings in at the
-  // border of the picture stays.
+  // The flip that explains most must explain nine tenths. A shift must explain three tenths: the row that it brings in at
+  // the border of the picture stays.
+  size_t least = differ;
+  const char* flip = "";
   for (const auto& [flip_x, flip_y, says] : {std::tuple{true, false, "flipped left to right"},
                                              {false, true, "flipped upside down"},
                                              {true, true, "turned by 180 degrees"}})
-    if (differing(flipped(of_frame, flip_x, flip_y), of_scene) * 10 < differ)
-      return failed(fmt::format("{}: the picture is {}", found, says));
+    if (const size_t left = differing(flipped(of_frame, flip_x, flip_y), of_scene); left < least) {
+      least = left;
+      flip = says;
+    }
+  if (least * 10 < differ) return failed(fmt::format("{}: the picture is {}", found, flip));
   const Shift shift = best_shift(e.tracer, e.frame.view, of_frame, of_scene);
   if (shift.differing * 10 < differ * 7 && shift.pixels != glm::dvec2(0)) {
     const bool halves = shift.pixels.x != std::round(shift.pixels.x) || shift.pixels.y != std::round(shift.pixels.y);
@@ -143,7 +149,7 @@ Outcome coverage(const CheckEvidence& e, const FrameStatistics&) {
         "{}: a shift of ({:+g}, {:+g}) pixels (x to the right, y down) leaves {} of them, so {}", found, shift.pixels.x,
         shift.pixels.y, shift.differing,
         halves ? "it is one of these two: samples are not at the pixels' centres, or multisampling was resolved"
-               : "check_rows or columns are missing or doubled"));
+               : "rows or columns are missing or doubled"));
   }
   const size_t lost = lost_surfaces(of_frame, of_scene);
   if (lost * 10 > differ * 9)
@@ -165,17 +171,26 @@ std::string deep_text(const FrameStatistics& s) {
                      s.deep_lit.median);
 }
 
+// What one mistake makes of the values is one failure: the checks below it are not made.
+bool is_inverted(const FrameStatistics& s) {
+  return s.deep_dark.count >= enough && s.deep_lit.count >= enough && s.deep_dark.median > 0.5 &&
+         s.deep_lit.median < 0.5;
+}
+bool is_shaded(const FrameStatistics& s) { return s.deep_lit.count >= enough && s.deep_lit.high < 0.95; }
+constexpr const char* because_inverted = "light and shadow are exchanged";
+
 Outcome inverted(const CheckEvidence&, const FrameStatistics& s) {
   if (s.deep_dark.count < enough || s.deep_lit.count < enough)
     return not_checked("the picture has too few pixels deep in true light, or deep in true shadow");
-  if (s.deep_dark.median > 0.5 && s.deep_lit.median < 0.5)
+  if (is_inverted(s))
     return failed(fmt::format("{}: light and shadow are exchanged; write 1 where the light reaches", deep_text(s)));
   return passed(deep_text(s));
 }
 
 Outcome shaded(const CheckEvidence&, const FrameStatistics& s) {
   if (s.deep_lit.count < enough) return not_checked("the picture has too few pixels deep in true light");
-  if (s.deep_lit.high < 0.95)
+  if (is_inverted(s)) return not_checked(because_inverted);
+  if (is_shaded(s))
     return failed(
         fmt::format("deep in true light hardly a pixel reaches 1 (95% are below {:.3f}, the median is {:.3f}): this "
                     "is a shaded frame or one with ambient light, not the visibility of the light",
@@ -185,6 +200,8 @@ Outcome shaded(const CheckEvidence&, const FrameStatistics& s) {
 
 Outcome intensity(const CheckEvidence&, const FrameStatistics& s) {
   if (s.deep_dark.count < enough) return not_checked("the picture has too few pixels deep in true shadow");
+  if (is_inverted(s)) return not_checked(because_inverted);
+  if (is_shaded(s)) return not_checked("the frame is shaded");
   if (s.deep_dark.low > 0.02 && s.deep_dark.median < 0.95)
     return failed(
         fmt::format("deep in true shadow hardly a pixel is 0 (95% are above {:.3f}, the median is {:.3f}): the "
@@ -195,6 +212,7 @@ Outcome intensity(const CheckEvidence&, const FrameStatistics& s) {
 
 Outcome match(const CheckEvidence&, const FrameStatistics& s) {
   if (s.deep_dark.count < enough) return not_checked("the picture has too few pixels deep in true shadow");
+  if (is_inverted(s)) return not_checked(because_inverted);
   if (s.deep_dark.median >= 0.95 && s.deep_lit.median > 0.5)
     return failed(
         fmt::format("{}: most of the true shadow is lit, so the light, the scene or the camera is another one, or "

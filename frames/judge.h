@@ -47,13 +47,13 @@ inline constexpr std::array<FrameClassRow, 5> frame_classes{{
 
 struct JudgeRules {
   // The edge distance, across the light's rays: metres, or pixels of the frame at the receiver.
-  std::optional<double> edge_m;
+  std::optional<double> edge_m = {};
   double edge_pixels = 2;
   // The contact distance along the light's ray, in metres; empty: contact_share of the scene's diagonal.
-  std::optional<double> contact_m;
+  std::optional<double> contact_m = {};
   static constexpr double contact_share = 0.01;
-  double standard_error = 0.01;    // of the truth at each receiver, for a light with a size
-  std::set<std::string> accepted;  // names of checks whose failure does not refuse the frame
+  double standard_error = 0.01;         // of the truth at each receiver, for a light with a size
+  std::set<std::string> accepted = {};  // names of checks whose failure does not refuse the frame
 };
 
 struct FrameVerdict {

@@ -30,7 +30,7 @@ double linear_of_srgb(double value) {
 }
 
 // Alpha says whether there is a surface.
-bool has_surface(const ReadImage& image, size_t pixel) {
+bool has_surface(const DecodedImage& image, size_t pixel) {
   if (!image.alpha) return true;
   const float alpha = image.at(pixel, *image.alpha);
   if (alpha != 0 && alpha != 1)
@@ -43,7 +43,7 @@ bool has_surface(const ReadImage& image, size_t pixel) {
 }
 
 Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
-  const ReadImage image = read_image(path);
+  const DecodedImage image = read_image(path);
   Image<float> visibility(image.width, image.height);
   visibility.pixels = grey_values(image);
   for (size_t i = 0; i < visibility.size(); ++i) {
@@ -58,7 +58,7 @@ Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
 
 // What the channels beside alpha hold, in the renderer's coordinates.
 Image<glm::dvec3> read_positions(const std::string& path) {
-  const ReadImage image = read_image(path);
+  const DecodedImage image = read_image(path);
   std::vector<size_t> axes;
   for (size_t c = 0; c < image.channels.size(); ++c)
     if (c != image.alpha) axes.push_back(c);
@@ -74,7 +74,7 @@ Image<glm::dvec3> read_positions(const std::string& path) {
 }
 
 Image<glm::dvec3> positions_of_depths(const FrameFile& file, const std::string& path, const ViewMatrix& view) {
-  const ReadImage image = read_image(path);
+  const DecodedImage image = read_image(path);
   if (image.stored_as != StoredAs::float32) refuse_picture(path, "write depths as 32-bit floats");
   const std::vector<float> depths = grey_values(image);
   Image<glm::dvec3> positions(image.width, image.height, glm::dvec3(none));

@@ -133,7 +133,7 @@ auto rows_of(const Image<Color>& picture) {
 
 void require_image_files() { encoder(); }
 
-ReadImage read_image(const std::string& path) {
+DecodedImage read_image(const std::string& path) {
   constexpr uint64_t of_a_pixel = 64, of_the_head = uint64_t{16} << 20;  // more than any picture of three floats
   const std::string bytes = read_file(path, of_the_head + of_a_pixel * most_image_pixels);
   if (is_npy(bytes)) return read_npy(path, bytes);
@@ -144,7 +144,7 @@ ReadImage read_image(const std::string& path) {
     throw Error(ErrorKind::file,
                 fmt::format("{}: is neither a PNG nor an EXR nor an NPY file; write one of these", path));
   struct Result {
-    ReadImage image;
+    DecodedImage image;
     std::string why;
   } result;
   result.image.path = path;
@@ -157,7 +157,7 @@ ReadImage read_image(const std::string& path) {
              into.why = why;
              return;
            }
-           ReadImage& image = into.image;
+           DecodedImage& image = into.image;
            image.width = pixels->width;
            image.height = pixels->height;
            image.channels.assign(pixels->channel_names, pixels->channel_names + pixels->channels);
@@ -170,7 +170,7 @@ ReadImage read_image(const std::string& path) {
 }
 
 Image<float> read_grey(const std::string& path, int width, int height) {
-  const ReadImage image = read_image(path);
+  const DecodedImage image = read_image(path);
   const auto refuse = [&](const std::string& why) { throw Error(ErrorKind::file, fmt::format("{}: {}", path, why)); };
   if (image.width != width || image.height != height)
     refuse(
@@ -186,7 +186,7 @@ Image<float> read_grey(const std::string& path, int width, int height) {
   return grey;
 }
 
-std::vector<float> grey_values(const ReadImage& image) {
+std::vector<float> grey_values(const DecodedImage& image) {
   const auto refuse = [&](const char* why) { throw Error(ErrorKind::file, fmt::format("{}: {}", image.path, why)); };
   std::vector<size_t> colours;
   for (size_t c = 0; c < image.channels.size(); ++c)

@@ -43,7 +43,7 @@ struct LargeImage {
 std::string write_exr(const std::string& path, const LargeImage& image);
 
 // A picture that another program made.
-struct ReadImage {
+struct DecodedImage {
   std::string path;  // as it was given
   int width = 0, height = 0;
   std::vector<std::string> channels;  // as the file names them
@@ -58,10 +58,10 @@ struct ReadImage {
 // Reads a PNG or an EXR file, or the array of a NPY file (app/pictures/npy.h). Throws Error(file) if the file is something
 // else, or has more than most_image_pixels pixels.
 inline constexpr uint64_t most_image_pixels = uint64_t{1} << 28;
-ReadImage read_image(const std::string& path);
+DecodedImage read_image(const std::string& path);
 
 // The values of the one channel beside alpha, or of three equal ones. Throws Error(file) if there are others.
-std::vector<float> grey_values(const ReadImage& image);
+std::vector<float> grey_values(const DecodedImage& image);
 
 // The same of a picture of this size, whose alpha channel, if there is one, must be 1 everywhere. Throws Error(file).
 Image<float> read_grey(const std::string& path, int width, int height);

@@ -38,7 +38,7 @@ float half_value(uint16_t bits) {
 
 bool is_npy(std::string_view bytes) { return bytes.starts_with(magic); }
 
-ReadImage read_npy(const std::string& path, std::string_view bytes) {
+DecodedImage read_npy(const std::string& path, std::string_view bytes) {
   const auto refuse = [&](const std::string& why) { throw Error(ErrorKind::file, fmt::format("{}: {}", path, why)); };
   const size_t length_bytes = bytes.size() > 6 && bytes[6] == 1 ? 2 : 4;
   if (bytes.size() < 8 + length_bytes) refuse("is an NPY file without a header; write it again");
@@ -64,7 +64,7 @@ ReadImage read_npy(const std::string& path, std::string_view bytes) {
   if (sizes.size() != 3 || sizes[0] == 0 || sizes[1] == 0 || sizes[2] == 0 || sizes[2] > 64 ||
       sizes[0] * sizes[1] > most_image_pixels)
     refuse(fmt::format("has the shape ({}); write height x width, or height x width x channels", shape));
-  ReadImage image;
+  DecodedImage image;
   image.path = path;
   image.height = static_cast<int>(sizes[0]);
   image.width = static_cast<int>(sizes[1]);

@@ -11,6 +11,6 @@ namespace noonmark {
 bool is_npy(std::string_view bytes);
 
 // The whole numbers become [0,1]. Channels are named "0", "1" ...; none of them is alpha. Throws Error(file).
-ReadImage read_npy(const std::string& path, std::string_view bytes);
+DecodedImage read_npy(const std::string& path, std::string_view bytes);
 
 }  // namespace noonmark

@@ -1,6 +1,6 @@
 # Completion of noonmark's command line for bash. Everything that is offered comes from the program: verbs, their options and
-# the kinds of their values from its help (app/verbs/option_values.h has the words for the kinds), settings, scenes and parts
-# from its lists. It is installed where bash-completion finds it; otherwise source this file.
+# the kinds of their values from its help (app/verbs/option_values.h has the words for the kinds), settings, metrics, scenes and
+# parts from its lists. It is installed where bash-completion finds it; otherwise source this file.
 
 # These read a help on standard input. The verbs: "  run   Measure ...".
 _noonmark_verbs() { awk '/^[A-Z]/ { on = /^Subcommands:/ } on && /^  [a-z]/ { print $1 }'; }
@@ -35,6 +35,11 @@ _noonmark_settings() {
       print name "=" $0
       name = ""
     }'
+}
+
+# The metrics, each with "=".
+_noonmark_metrics() {
+  "$1" settings 2>/dev/null | awk '/^Metrics/ { on = 1; next } on && /^[a-z][a-z_0-9]* / { print $1 "=" }'
 }
 
 # The parts of the experiments among these words, as bash must read them.
@@ -118,11 +123,16 @@ _noonmark() {
   fi
   for kind in "${kinds[@]}"; do
     case $kind in
+      METRIC=VALUE)
+        mapfile -t choices < <(_noonmark_metrics "$program")
+        compopt -o nospace 2>/dev/null
+        ;;
       FILE.*) endings+=("${kind#FILE.}") ;;
       FOLDER) mapfile -t files < <(compgen -d -- "$word") ;;
       SCENE) mapfile -t choices < <(_noonmark_scenes "$program") ;;
       PART) mapfile -t choices < <(_noonmark_parts "$program" "${words[@]}") ;;
       VERB) mapfile -t choices < <("$program" --help 2>/dev/null | _noonmark_verbs) ;;
+      [a-z]*) choices+=("$kind") ;;
     esac
   done
   ((${#endings[@]} == 0)) || mapfile -t files < <(_noonmark_files "$word" "${endings[@]}")

@@ -1,13 +1,17 @@
 #include "app/verbs/option_values.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "app/definition/share_text.h"
+#include "base/suggestion.h"
 
 namespace noonmark {
 namespace {
@@ -48,6 +52,16 @@ CLI::Validator above_zero() {
     return value && *value > 0 && std::isfinite(*value) ? "" : fmt::format("'{}' is not a number above 0", text);
   });
 }
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  return validator([words = std::move(words)](std::string& text) -> std::string {
+    if (std::find(words.begin(), words.end(), text) != words.end()) return "";
+    const std::vector<std::string_view> names(words.begin(), words.end());
+    return fmt::format("'{}' is none of {}{}", text, fmt::join(words, ", "), did_you_mean(text, names));
+  });
+}
+
+std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, "|")); }
 
 CLI::Validator as_share() {
   return validator([](std::string& text) -> std::string {

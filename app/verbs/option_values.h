@@ -9,11 +9,12 @@
 #include <CLI/CLI.hpp>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace noonmark {
 
 // Completion (app/shell/completion.bash) reads these words in the help and offers values by them; of FILE.toml the files
-// with this ending, and nothing for a number. A value of several kinds has their words, separated by "|".
+// with this ending, and nothing for a number. A word in lower case is itself a value. A value of several kinds has their words, separated by "|".
 namespace value_kind {
 inline constexpr const char* experiment = "FILE.toml";
 inline constexpr const char* scene = "SCENE|FILE.gltf|FILE.glb";  // a built-in scene, or a model
@@ -26,12 +27,17 @@ inline constexpr const char* setting = "NAME=VALUE";  // a setting and its value
 inline constexpr const char* part = "PART";           // a part of the experiment on the command line
 inline constexpr const char* verb = "VERB";
 inline constexpr const char* share = "SHARE";  // a number from 0 to 1, or a percentage
+inline constexpr const char* number = "NUMBER";
+inline constexpr const char* metric = "METRIC=VALUE";  // a metric and its bound
 }  // namespace value_kind
 
 // For CLI::Option::check. They return the mistake in the text, or an empty string.
 CLI::Validator not_empty();
 CLI::Validator whole_number(long least, long most = std::numeric_limits<long>::max());
 CLI::Validator above_zero();
+// One of these words; a wrong one suggests the nearest. joined(): the words as the option's kind, "one|other".
+CLI::Validator one_of(std::vector<std::string> words);
+std::string joined(const std::vector<std::string>& words);
 
 // For CLI::Option::transform: a share as "0.005" or "0.5%" becomes its number (app/definition/share_text.h).
 CLI::Validator as_share();

@@ -178,7 +178,6 @@ int judge_one(const JudgeOptions& options) {
   retract(outputs);
   std::vector<Bound> bounds;
   for (const std::string& text : options.most) bounds.push_back(bound_of(text));
-  for (const std::string& name : options.accepted) require_check(name);
   const Subject subject = subject_of(options);
   const raytrace::Tracer tracer(subject.scene);
   const FrameVerdict verdict = judge_frame(subject.scene, tracer, subject.frame, subject.rules);
@@ -217,6 +216,12 @@ int judge_one(const JudgeOptions& options) {
   return exit_code;
 }
 
+std::vector<std::string> check_names() {
+  std::vector<std::string> names;
+  for (const FrameCheck& check : frame_checks()) names.emplace_back(check.name);
+  return names;
+}
+
 RunVerb add_judge(CLI::App& verb) {
   const auto options = std::make_shared<JudgeOptions>();
   ExperimentArguments& arguments = options->arguments;
@@ -232,17 +237,26 @@ RunVerb add_judge(CLI::App& verb) {
       ->type_name(value_kind::picture);
   verb.add_flag("--srgb", options->srgb, "The picture's values are encoded with sRGB's transfer function");
   verb.add_option("--max", options->most, "A bound: the largest value of a metric, frame_acne=0.05% (repeatable)")
-      ->type_name("METRIC=VALUE");
+      ->expected(1)
+      ->take_all()
+      ->type_name(value_kind::metric);
   verb.add_option("--accept", options->accepted, "Judge although this check of the delivery fails (repeatable)")
-      ->type_name("CHECK");
+      ->expected(1)
+      ->take_all()
+      ->check(one_of(check_names()))
+      ->type_name(joined(check_names()));
   verb.add_option("--edge-pixels", options->edge_pixels,
                   "How near to a true shadow edge an error belongs to the edge, in pixels at the receiver")
       ->check(above_zero())
+      ->type_name(value_kind::number)
       ->capture_default_str();
-  verb.add_option("--edge-m", options->edge_m, "The same in metres across the light's rays")->check(above_zero());
+  verb.add_option("--edge-m", options->edge_m, "The same in metres across the light's rays")
+      ->check(above_zero())
+      ->type_name(value_kind::number);
   verb.add_option("--contact-m", options->contact_m,
-                  "How near an occluder is where light leaks at a contact (default: 1% of the scene's diagonal)")
-      ->check(above_zero());
+                  "How near an occluder is where light leaks at a contact; without it 1% of the scene's diagonal")
+      ->check(above_zero())
+      ->type_name(value_kind::number);
   add_sets(verb, arguments);
   add_threads(verb, arguments);
   add_json(verb, arguments, "Print what judge.json says");

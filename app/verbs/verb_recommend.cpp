@@ -212,7 +212,7 @@ void add_search_options(CLI::App& verb, RecommendOptions& options) {
                   "The most texels written and texture instructions a frame (the metric texel_work). The most accurate "
                   "settings are sought")
       ->check(above_zero())
-      ->type_name("NUMBER");
+      ->type_name(value_kind::number);
   verb.add_option("--views", options.views,
                   "Number of views without an [over]: the view that is given, and up to 4 turned ones")
       ->check(whole_number(1, 5))

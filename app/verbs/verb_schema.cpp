@@ -1,14 +1,24 @@
 #include <fmt/format.h>
 
+#include <memory>
+#include <string>
+
 #include "app/definition/experiment_schema.h"
+#include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
+#include "frames/frame_file.h"
 
 namespace noonmark {
 namespace {
 
-RunVerb add_schema(CLI::App&) {
-  return [](const std::string&) {
-    fmt::print("{}", experiment_schema());
+RunVerb add_schema(CLI::App& verb) {
+  const auto what = std::make_shared<std::string>("experiment");
+  verb.add_option("what", *what, "Which file: the experiment, or the frame.json of another renderer's frame")
+      ->check(one_of({"experiment", "frame"}))
+      ->type_name("experiment|frame")
+      ->capture_default_str();
+  return [what](const std::string&) {
+    fmt::print("{}", *what == "frame" ? frame_schema() : experiment_schema());
     return 0;
   };
 }

@@ -165,7 +165,7 @@ TEST_F(GivenPicture, ThatCannotBeJudgedEndsWithOneError) {
     }
   }
   write("notes.png", "no picture");
-  refused("notes.png", {"is neither a PNG nor an EXR file"});
+  refused("notes.png", {"is neither a PNG nor an EXR"});
   refused("nowhere.exr", {"cannot be read", "check the path"});
   EXPECT_EQ(render(""), 2);
   EXPECT_TRUE(says("--picture")) << output_;

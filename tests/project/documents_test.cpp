@@ -1,4 +1,5 @@
 // Everything that documents and comments refer to must exist: files of this repository, chapters, settings.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "frames/frame_keys.h"
 #include "technique/settings.h"
 #include "tests/support/source_dir.h"
 
@@ -136,6 +138,7 @@ TEST(Documents, EverySettingThatIsNamedIsThere) {
     groups.insert(std::string(row.name.substr(0, row.name.find('.'))));
     names.insert(std::string(row.name));
   }
+  for (const FrameKey& key : frame_keys()) names.insert(fmt::format("{}.{}", key.object, key.name));
   const std::set<std::string> endings = {".h", ".cpp", ".exr", ".glsl"};
   for (const fs::path& file : documents())
     for (const std::string& word : in_backticks(text_of(file))) {

@@ -1,5 +1,5 @@
 // The tables of docs/reference that are made from rows of the program: settings, metrics, quantities of the curve,
-// built-in scenes, parts of a bias, filters. scripts/reference-tables runs this test with NOONMARK_WRITE_REFERENCE set,
+// built-in scenes, parts of a bias, filters, keys and checks of a frame. scripts/reference-tables runs this test with NOONMARK_WRITE_REFERENCE set,
 // and then the test writes them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,6 +14,8 @@
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
 #include "compare/results/record_fields.h"
+#include "frames/checks.h"
+#include "frames/frame_keys.h"
 #include "scenes/builtin.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
@@ -98,6 +100,29 @@ TableLines filters_table_lines() {
       reads += fmt::format("{}`{}`", reads.empty() ? "" : ", ", read.parameter->setting);
     lines.push_back(fmt::format("| `{}` | {} | {} | {} |", filter.name, reads, cell(filter.help), cell(filter.law)));
   }
+  return lines;
+}
+
+TableLines frame_keys_table_lines() {
+  TableLines lines = {"| key | takes | meaning |", "|---|---|---|"};
+  for (const FrameKey& key : frame_keys()) {
+    constexpr std::string_view takes[] = {
+        // in the order of FrameKeyKind
+        "object",  "text",          "",           "number from 0 on", "number above 0",
+        "boolean", "three numbers", "three axes", "16 numbers",       "1"};
+    const std::string_view choices = key.choices;
+    std::string kind(takes[static_cast<size_t>(key.kind)]);
+    for (const char c : choices) kind += c == '|' ? " | " : std::string(1, c);
+    lines.push_back(fmt::format("| `{}{}{}` | {} | {} |", key.object, key.object.empty() ? "" : ".", key.name,
+                                cell(kind), cell(key.help)));
+  }
+  return lines;
+}
+
+TableLines frame_checks_table_lines() {
+  TableLines lines = {"| check | what holds |", "|---|---|"};
+  for (const FrameCheck& check : frame_checks())
+    lines.push_back(fmt::format("| `{}` | {} |", check.name, cell(check.asks)));
   return lines;
 }
 
@@ -190,6 +215,13 @@ TEST(ReferenceTables, PartsOfABiasAreThoseOfTheRows) {
 }
 TEST(ReferenceTables, FiltersAreThoseOfTheRows) {
   expect_from_rows("techniques", "filters", filters_table_lines(), nothing);
+}
+
+TEST(ReferenceTables, KeysOfAFrameAreThoseOfTheRows) {
+  expect_from_rows("frame", "keys", frame_keys_table_lines(), nothing);
+}
+TEST(ReferenceTables, ChecksOfAFrameAreThoseOfTheRows) {
+  expect_from_rows("frame", "checks", frame_checks_table_lines(), nothing);
 }
 
 TEST(Reference, NamesEveryTechnique) {

@@ -1,0 +1,228 @@
+// Each wrong delivery is made from a good frame, and is named.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "base/error.h"
+#include "frames/check_statistics.h"
+#include "tests/frames/good_frame.h"
+
+namespace noonmark::test {
+namespace {
+
+constexpr int width = 480, height = 270;
+
+const Delivered& good() {
+  static const Delivered made = good_frame("cube-room", width, height);
+  return made;
+}
+
+Image<float> flipped_picture(const Image<float>& v, bool x_too, bool y_too) {
+  Image<float> result = v;
+  for (int y = 0; y < v.height; ++y)
+    for (int x = 0; x < v.width; ++x) result.at(x, y) = v.at(x_too ? v.width - 1 - x : x, y_too ? v.height - 1 - y : y);
+  return result;
+}
+
+// Rows moved down; the first row stays.
+Image<float> a_row_down(const Image<float>& v) {
+  Image<float> result = v;
+  for (int y = 1; y < v.height; ++y)
+    for (int x = 0; x < v.width; ++x) result.at(x, y) = v.at(x, y - 1);
+  return result;
+}
+
+Image<float> each_value(const Image<float>& v, const std::function<float(float)>& f) {
+  Image<float> result = v;
+  for (float& value : result.pixels)
+    if (!std::isnan(value)) value = f(value);
+  return result;
+}
+
+float srgb(float v) {
+  return v <= 0.0031308f ? 12.92f * v : 1.055f * static_cast<float>(std::pow(v, 1 / 2.4)) - 0.055f;
+}
+
+// A frame of the same scene through another camera, delivered as one of the first.
+GivenFrame with_picture_through(const glm::dmat4& moved) {
+  const Delivered& base = good();
+  GivenFrame seen = base.frame;
+  seen.view = ViewMatrix(moved * base.frame.view.clip_from_world());
+  seen.visibility = Image<float>(width, height, 0);
+  const FrameVerdict black = judge_frame(*base.scene, *base.tracer, seen, {});
+  for (size_t i = 0; i < black.error.size(); ++i)
+    seen.visibility[i] =
+        black.receivers.primitive[i] == no_primitive ? no_surface : static_cast<float>(black.truth.lit[i]);
+  seen.visibility = blurred(seen.visibility, black.truth.facing, 1);
+  seen.view = base.frame.view;
+  return seen;
+}
+
+glm::dmat4 shifted_by(double x_px, double y_px) {
+  glm::dmat4 m(1);
+  m[3][0] = 2 * x_px / width;
+  m[3][1] = -2 * y_px / height;
+  return m;
+}
+
+void expect_named(const GivenFrame& frame, std::string_view check, std::string_view words) {
+  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
+  EXPECT_TRUE(verdict.refused());
+  const CheckResult& found = check_named(verdict, check);
+  EXPECT_EQ(found.state, CheckState::failed) << found.says;
+  EXPECT_NE(found.says.find(words), std::string::npos) << found.says;
+  const FrameVerdict accepted = judge_frame(
+      *good().scene, *good().tracer, frame,
+      {.accepted = {"values", "coverage", "inverted", "shaded", "intensity", "match", "encoding", "positions"}});
+  EXPECT_FALSE(accepted.refused());
+  EXPECT_TRUE(check_named(accepted, check).accepted) << "and the report says so";
+}
+
+GivenFrame with(const Image<float>& visibility) {
+  GivenFrame frame = good().frame;
+  frame.visibility = visibility;
+  return frame;
+}
+
+TEST(Checks, AGoodFramePassesAll) {
+  for (const char* scene : {"cube-room", "spot-room", "point-room", "wall"}) {
+    const Delivered frame = good_frame(scene, width, height);
+    const FrameVerdict verdict = frame.judged();
+    for (const CheckResult& check : verdict.checks)
+      EXPECT_NE(check.state, CheckState::failed) << scene << ": " << check.name << ": " << check.says;
+    EXPECT_FALSE(verdict.refused());
+  }
+}
+
+// Acne over half of the picture is a bad shadow, not a bad delivery.
+TEST(Checks, BadShadowsAreNoBadDelivery) {
+  Delivered bad = good_frame("cube-room", width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (float& v = bad.frame.visibility.at(x, y); (x / 3 + y / 2) % 2 == 0 && !std::isnan(v)) v = 0;
+  EXPECT_FALSE(bad.judged().refused());
+  EXPECT_GT(bad.judged().metrics.at("frame_acne"), 0.3);
+}
+
+TEST(Checks, FlipsAreNamed) {
+  expect_named(with(flipped_picture(good().frame.visibility, true, false)), "coverage", "flipped left to right");
+  expect_named(with(flipped_picture(good().frame.visibility, false, true)), "coverage", "flipped upside down");
+  expect_named(with(flipped_picture(good().frame.visibility, true, true)), "coverage", "turned by 180 degrees");
+}
+
+TEST(Checks, ARowOffIsNamed) { expect_named(with(a_row_down(good().frame.visibility)), "coverage", "rows or columns"); }
+
+TEST(Checks, HalfAPixelIsNamedAsOneOfTwo) {
+  expect_named(with_picture_through(shifted_by(-0.5, -0.5)), "coverage", "(+0.5, +0.5)");
+  expect_named(with_picture_through(shifted_by(-0.5, -0.5)), "coverage", "one of these two");
+}
+
+TEST(Checks, AnotherCameraIsNamed) {
+  glm::dmat4 zoomed(1);
+  zoomed[0][0] = zoomed[1][1] = 1.05;
+  expect_named(with_picture_through(zoomed), "coverage", "the camera or the scene is another one");
+}
+
+TEST(Checks, ExchangedLightAndShadowIsNamed) {
+  expect_named(with(each_value(good().frame.visibility, [](float v) { return 1 - v; })), "inverted", "exchanged");
+}
+
+TEST(Checks, AShadedFrameIsNamed) {
+  expect_named(with(each_value(good().frame.visibility, [](float v) { return 0.1f + 0.45f * v; })), "shaded",
+               "shaded frame");
+}
+
+TEST(Checks, AnIntensityBelowOneIsNamed) {
+  expect_named(with(each_value(good().frame.visibility, [](float v) { return 0.5f + 0.5f * v; })), "intensity",
+               "intensity");
+}
+
+TEST(Checks, AFrameWithoutShadowsIsNamed) {
+  expect_named(with(each_value(good().frame.visibility, [](float) { return 1.0f; })), "match", "no shadows");
+}
+
+TEST(Checks, AnotherLightIsNamed) {
+  GivenFrame frame = good().frame;
+  frame.light.position_m = {-frame.light.position_m.x, frame.light.position_m.y, -frame.light.position_m.z};
+  expect_named(frame, "match", "the light");
+}
+
+TEST(Checks, SrgbIsNamed) { expect_named(with(each_value(good().frame.visibility, srgb)), "encoding", "sRGB"); }
+
+TEST(Checks, ValuesOutsideAreNamed) {
+  GivenFrame frame = good().frame;
+  frame.visibility.at(7, 260) = 1.5f;
+  expect_named(frame, "values", "x = 7, y = 260");
+}
+
+// Four samples of each pixel, of which -1 is one that saw no surface.
+TEST(Checks, ResolvedMultisamplingIsNamed) {
+  GivenFrame frame = good().frame;
+  Image<float> sum(width, height, 0);
+  for (const auto& [x, y] : {std::pair(-0.125, -0.375), {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}}) {
+    const GivenFrame sample = with_picture_through(shifted_by(x, y));
+    for (size_t i = 0; i < sum.size(); ++i) sum[i] += std::isnan(sample.visibility[i]) ? -1 : sample.visibility[i];
+  }
+  for (size_t i = 0; i < sum.size(); ++i) frame.visibility[i] = sum[i] == -4 ? no_surface : sum[i] / 4;
+  expect_named(frame, "values", "multisampling");
+}
+
+Image<glm::dvec3> positions_of(const Delivered& from) {
+  Image<glm::dvec3> positions(width, height, glm::dvec3(no_surface));
+  for (size_t i = 0; i < positions.size(); ++i)
+    if (from.receivers.primitive[i] != no_primitive) positions[i] = from.receivers.position[i];
+  return positions;
+}
+
+GivenFrame with_positions(const std::function<glm::dvec3(glm::dvec3)>& f) {
+  GivenFrame frame = good().frame;
+  frame.receivers = GivenReceivers::positions;
+  frame.positions = positions_of(good());
+  for (glm::dvec3& p : frame.positions.pixels)
+    if (!std::isnan(p.x)) p = f(p);
+  return frame;
+}
+
+// Rounded to a half float: 11 bits, and multiples of 2^-24 where the value is small.
+double as_half(double value) {
+  int exponent = 0;
+  std::frexp(value, &exponent);
+  const int last = std::max(exponent - 11, -24);
+  return std::ldexp(std::round(std::ldexp(value, -last)), last);
+}
+
+TEST(Checks, GivenPositionsPass) {
+  const GivenFrame frame = with_positions([](glm::dvec3 p) { return p; });
+  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
+  EXPECT_EQ(check_named(verdict, "positions").state, CheckState::passed) << check_named(verdict, "positions").says;
+  EXPECT_EQ(verdict.receivers.primitive.pixels, good().receivers.primitive.pixels);
+}
+
+TEST(Checks, HalfFloatPositionsAreNamed) {
+  expect_named(with_positions([](glm::dvec3 p) { return glm::dvec3(as_half(p.x), as_half(p.y), as_half(p.z)); }),
+               "positions", "half float");
+}
+
+TEST(Checks, PositionsInAnotherUnitAreNamed) {
+  expect_named(with_positions([](glm::dvec3 p) { return 100.0 * p; }), "positions", "");
+}
+
+TEST(Checks, HalfIsKnownByItsBits) {
+  for (const double value : {0.0, 1.0, 1 + 0x1p-10, 65504.0, 0x1p-24, -0.333251953125})
+    EXPECT_TRUE(is_half(value)) << value;
+  for (const double value : {1 + 0x1p-11, 65536.0 * 2, 0x1p-25, 1.0 / 3}) EXPECT_FALSE(is_half(value)) << value;
+}
+
+TEST(Checks, AnUnknownNameSuggestsOne) {
+  try {
+    require_check("coverge");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("'coverage'"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace noonmark::test

@@ -1,0 +1,140 @@
+// The numbers of a frame: classes by place, each planted where it must be found.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "tests/frames/good_frame.h"
+
+namespace noonmark::test {
+namespace {
+
+// A plate of one metre's height above a floor: each pixel of the floor knows its distance from the shadow's edge.
+const Delivered& plate() {
+  static const Delivered made = good_frame("plate", 320, 180, 0);
+  return made;
+}
+
+std::vector<size_t> counted_with(const FrameVerdict& verdict, bool lit) {
+  std::vector<size_t> pixels;
+  for (size_t i = 0; i < verdict.counted.size(); ++i)
+    if (verdict.counted[i] && (verdict.truth.lit[i] != 0) == lit) pixels.push_back(i);
+  return pixels;
+}
+
+double sum_of_classes(const FrameVerdict& verdict) {
+  double sum = 0;
+  for (const FrameClassRow& row : frame_classes) sum += verdict.metrics.at(std::string(row.metric));
+  return sum;
+}
+
+TEST(Judge, TheTruthItselfHasNoError) {
+  const FrameVerdict verdict = plate().judged();
+  EXPECT_EQ(verdict.metrics.at("frame_error"), 0);
+  EXPECT_EQ(verdict.metrics.at("frame_wrong"), 0);
+  EXPECT_GT(verdict.metrics.at("counted"), 10000);
+  EXPECT_EQ(sum_of_classes(verdict), 0);
+}
+
+TEST(Judge, ABlackFrameIsWrongWhereverTheTruthIsLit) {
+  Delivered black = good_frame("plate", 320, 180, 0);
+  for (float& v : black.frame.visibility.pixels)
+    if (!std::isnan(v)) v = 0;
+  const FrameVerdict verdict = black.judged();
+  const double lit = static_cast<double>(counted_with(verdict, true).size());
+  EXPECT_DOUBLE_EQ(verdict.metrics.at("frame_error"), lit / verdict.metrics.at("counted"));
+  EXPECT_DOUBLE_EQ(verdict.metrics.at("frame_wrong"), verdict.metrics.at("frame_error"));
+  EXPECT_NEAR(sum_of_classes(verdict), verdict.metrics.at("frame_error"), 1e-12);
+  EXPECT_EQ(verdict.metrics.at("frame_contact") + verdict.metrics.at("frame_leak"), 0);
+}
+
+// Grey everywhere: the mean error is a tenth, and nothing is wrong by more than a half.
+TEST(Judge, GreyIsAnErrorThatIsNowhereWrong) {
+  Delivered grey = good_frame("plate", 320, 180, 0);
+  for (float& v : grey.frame.visibility.pixels)
+    if (!std::isnan(v)) v = v > 0.5f ? 0.9f : 0.1f;
+  const FrameVerdict verdict = grey.judged();
+  EXPECT_NEAR(verdict.metrics.at("frame_error"), 0.1, 1e-6);
+  EXPECT_EQ(verdict.metrics.at("frame_wrong"), 0);
+  EXPECT_NEAR(sum_of_classes(verdict), 0.1, 1e-6);
+}
+
+TEST(Judge, AnEdgeIsNearWithinItsDistanceAndNotBeyond) {
+  Delivered black = good_frame("plate", 320, 180, 0);
+  for (float& v : black.frame.visibility.pixels)
+    if (!std::isnan(v)) v = 0;
+  constexpr double reach = 0.05;
+  const FrameVerdict verdict = black.judged({.edge_m = reach});
+  // The other receivers of the floor tell where an edge is: between a lit and a dark one there is one.
+  const auto on_floor = [&](size_t i) { return std::abs(verdict.receivers.position[i].y) < 1e-4f; };
+  const auto place = [&](size_t i) { return glm::dvec2(verdict.light.to_light(verdict.receivers.position[i])); };
+  int near = 0, far = 0;
+  const std::vector<size_t> lit = counted_with(verdict, true), dark = counted_with(verdict, false);
+  for (size_t k = 0; k < lit.size(); k += 5) {
+    if (!on_floor(lit[k])) continue;
+    double nearest = 1e9;
+    for (const size_t j : dark)
+      if (on_floor(j)) nearest = std::min(nearest, glm::length(place(lit[k]) - place(j)));
+    if (nearest < 0.9 * reach) {
+      EXPECT_EQ(verdict.classes[lit[k]], FrameClass::edge) << nearest;
+      ++near;
+    } else if (nearest > 2 * reach) {
+      far += verdict.classes[lit[k]] == FrameClass::acne;
+      EXPECT_NE(verdict.classes[lit[k]], FrameClass::leak);
+    }
+  }
+  EXPECT_GT(near, 20);
+  EXPECT_GT(far, 200);
+}
+
+// All of the shadow is lit: the occluder is half a metre and more above the floor.
+TEST(Judge, ALeakIsAContactWhereItsOccluderIsNear) {
+  Delivered leaking = good_frame("plate", 320, 180, 0);
+  for (float& v : leaking.frame.visibility.pixels)
+    if (!std::isnan(v)) v = 1;
+  const FrameVerdict far = leaking.judged({.edge_m = 0.01, .contact_m = 0.01}),
+                     near = leaking.judged({.edge_m = 0.01, .contact_m = 100});
+  EXPECT_GT(far.metrics.at("frame_leak"), 0.9 * far.metrics.at("frame_error"));
+  EXPECT_EQ(far.metrics.at("frame_contact"), 0);
+  EXPECT_DOUBLE_EQ(near.metrics.at("frame_contact"), far.metrics.at("frame_leak"));
+  EXPECT_EQ(near.metrics.at("frame_leak"), 0);
+}
+
+TEST(Judge, APenumbraIsItsOwnClass) {
+  Delivered soft = good_frame("plate", 160, 90, 0);
+  soft.frame.light.angular_diameter_deg = 5;
+  const FrameVerdict verdict = soft.judged({.accepted = {"encoding"}});
+  EXPECT_GT(verdict.metrics.at("frame_penumbra"), 0);
+  for (size_t i = 0; i < verdict.classes.size(); ++i) {
+    const float truth = verdict.truth_at(i);
+    if (verdict.error[i] > 0) {
+      EXPECT_EQ(verdict.classes[i] == FrameClass::penumbra, truth > 0 && truth < 1);
+    }
+  }
+  EXPECT_NEAR(sum_of_classes(verdict), verdict.metrics.at("frame_error"), 1e-9);
+}
+
+TEST(Judge, PixelsThatTheFrameLeavesOutAreNotCounted) {
+  Delivered holed = good_frame("plate", 160, 90, 0);
+  const double all = holed.judged().metrics.at("counted");
+  int holes = 0;
+  const FrameVerdict before = holed.judged();
+  for (int x = 60; x < 80; ++x)
+    if (const size_t i = holed.frame.visibility.index(x, 60); before.counted[i]) {
+      holed.frame.visibility[i] = no_surface;
+      ++holes;
+    }
+  ASSERT_GT(holes, 10);
+  holed.frame.marks_no_surface = true;
+  EXPECT_EQ(holed.judged({.accepted = {"coverage"}}).metrics.at("counted"), all - holes);
+}
+
+TEST(Judge, SizesMustAgree) {
+  Delivered other = good_frame("plate", 160, 90, 0);
+  other.frame.receivers = GivenReceivers::positions;
+  other.frame.positions = Image<glm::dvec3>(80, 45, glm::dvec3(0));
+  EXPECT_THROW(other.judged(), Error);
+}
+
+}  // namespace
+}  // namespace noonmark::test

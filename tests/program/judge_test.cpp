@@ -1,0 +1,165 @@
+// noonmark judge: another renderer's frame, as files. Here the "other renderer" is Noonmark's own map, so its error is
+// known from the ladder.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/pictures/image_file.h"
+#include "measure/workbench.h"
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+constexpr int frame_width = 320, frame_height = 180;
+
+class JudgeVerb : public Program {
+ protected:
+  JudgeVerb() {
+    Workbench bench(gl::DebugMode::fatal);
+    Settings settings;
+    settings.view.width_px = frame_width;
+    settings.view.height_px = frame_height;
+    settings.bias["constant"] = 0.01;
+    const Measurement m = bench.measure(settings, {});
+    visibility_ = m.ladder.shown();
+    error_ = m.record.metrics.at("error");
+    positions_ = m.receivers.position;
+    primitive_ = m.receivers.primitive;
+    for (size_t i = 0; i < visibility_.size(); ++i)
+      if (primitive_[i] == no_primitive) visibility_[i] = -1;
+    camera_ = m.camera;
+    light_ = m.scene.light;
+  }
+
+  // frame.json beside the pictures. positions: whether they are handed over.
+  nlohmann::json frame(bool positions) {
+    write_exr((folder_ / "V.exr").string(), {{"Y", visibility_}});
+    nlohmann::json json{{"noonmark_frame", 1}, {"scene", "cube-room"}, {"visibility", {{"file", "V.exr"}}}};
+    const glm::dmat4 m = make_camera_frame(camera_, frame_width, frame_height).clip_from_world();
+    std::vector<double> numbers;
+    for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
+    json["camera"] = {{"clip_from_world", numbers}, {"order", "column"}, {"depth_range", "-1..1"}, {"reversed", false}};
+    const glm::dvec3 way = light_.target_m - light_.position_m;
+    json["light"] = {{"kind", "directional"}, {"direction", {way.x, way.y, way.z}}};
+    if (positions) {
+      std::vector<Channel> channels;
+      for (int axis = 0; axis < 3; ++axis) {
+        Image<float> values(frame_width, frame_height, std::numeric_limits<float>::quiet_NaN());
+        for (size_t i = 0; i < values.size(); ++i)
+          if (primitive_[i] != no_primitive) values[i] = positions_[i][axis];
+        channels.push_back({std::string(1, static_cast<char>('X' + axis)), values});
+      }
+      write_exr((folder_ / "P.exr").string(), channels);
+      json["positions"] = {{"file", "P.exr"}};
+    }
+    return json;
+  }
+  nlohmann::json said() const { return nlohmann::json::parse(read_file((folder_ / "out/judge.json").string())); }
+
+  Image<float> visibility_;
+  Image<glm::vec3> positions_;
+  Image<uint32_t> primitive_;
+  double error_ = 0;
+  Camera camera_;
+  Light light_;
+};
+
+TEST_F(JudgeVerb, FindsTheErrorOfTheLadder) {
+  write("frame.json", frame(true).dump());
+  ASSERT_EQ(run({"judge", "frame.json", "--out", "out"}), 0) << output_;
+  EXPECT_NEAR(said()["metrics"]["frame_error"], error_, 1e-9) << "the receivers are the same to the last bit";
+  EXPECT_FALSE(said()["refused"]);
+  for (const char* file :
+       {"frame.exr", "frame-truth.png", "frame-frame.png", "frame-classes.png", "frame-difference.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+  for (const char* ours : {"peter_panning", "aliasing", "precision"})
+    EXPECT_FALSE(says(ours)) << "a cause of Noonmark's own technique: " << ours;
+
+  write("frame.json", frame(false).dump());
+  ASSERT_EQ(run({"judge", "frame.json", "--out", "out"}), 0) << output_;
+  EXPECT_NEAR(said()["metrics"]["frame_error"], error_, 1e-4) << "receivers by rays";
+}
+
+TEST_F(JudgeVerb, TakesCameraAndLightFromTheSettings) {
+  frame(false);
+  ASSERT_EQ(run({"judge", "cube-room", "--picture", "V.exr", "--out", "out"}), 0) << output_;
+  EXPECT_NEAR(said()["metrics"]["frame_error"], error_, 1e-4);
+}
+
+TEST_F(JudgeVerb, ABrokenBoundIsExitCodeOne) {
+  write("frame.json", frame(true).dump());
+  ASSERT_EQ(run({"judge", "frame.json", "--out", "out", "--max", "frame_acne=0.05%"}), 0) << output_;
+  EXPECT_TRUE(says("held")) << output_;
+  // A stripe of acne of at least 0.05% of the receivers, on a lit floor.
+  int drawn = 0;
+  for (int y = frame_height - 12; y < frame_height && drawn < 60; ++y)
+    for (int x = 40; x < 50; ++x)
+      if (float& v = visibility_.at(x, y); v == 1) {
+        v = 0;
+        ++drawn;
+      }
+  ASSERT_GE(drawn, 60);
+  frame(true);
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--max", "frame_acne=0.05%"}), 1) << output_;
+  EXPECT_TRUE(says("BROKEN")) << output_;
+  EXPECT_EQ(said()["exit_code"], 1);
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--max", "frame_acnee=0.05%"}), 2) << output_;
+  EXPECT_TRUE(says("did you mean 'frame_acne'")) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out/judge.json")) << "of an earlier run";
+}
+
+TEST_F(JudgeVerb, AWrongDeliveryIsExitCodeThree) {
+  for (size_t i = 0; i < visibility_.size(); ++i)
+    if (visibility_[i] >= 0) visibility_[i] = 1 - visibility_[i];
+  write("frame.json", frame(true).dump());
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
+  EXPECT_TRUE(says("inverted")) << output_;
+  EXPECT_FALSE(says("frame_error")) << "no number is printed";
+  EXPECT_TRUE(said()["metrics"].empty());
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "inverted"}), 0) << output_;
+  EXPECT_TRUE(says("accepted")) << output_;
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "invertd"}), 2) << output_;
+}
+
+TEST_F(JudgeVerb, NeedsNoOpenGL) {
+  write("frame.json", frame(true).dump());
+  const auto no_driver = [] { setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1); };
+  EXPECT_EQ(run({"render", "--out", "render"}, no_driver), 4) << "the driver is gone: " << output_;
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}, no_driver), 0) << output_;
+}
+
+// One array of numpy, by its bytes.
+TEST_F(JudgeVerb, ReadsNpy) {
+  frame(false);
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (180, 320), }";
+  header.resize(118 - 1, ' ');
+  header += '\n';
+  std::string bytes = std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header;
+  bytes.append(reinterpret_cast<const char*>(visibility_.pixels.data()), visibility_.size() * sizeof(float));
+  write("V.npy", bytes);
+  ASSERT_EQ(run({"judge", "cube-room", "--picture", "V.npy", "--out", "out"}), 0) << output_;
+  const double by_npy = said()["metrics"]["frame_error"];
+  ASSERT_EQ(run({"judge", "cube-room", "--picture", "V.exr", "--out", "out"}), 0) << output_;
+  EXPECT_EQ(said()["metrics"]["frame_error"], by_npy);
+  write("V.npy", bytes.substr(0, bytes.size() - 4));
+  EXPECT_EQ(run({"judge", "cube-room", "--picture", "V.npy", "--out", "out"}), 3) << output_;
+  EXPECT_TRUE(says("bytes of data")) << output_;
+}
+
+TEST_F(JudgeVerb, AFrameThatIsNotThereIsOneError) {
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
+  nlohmann::json json = frame(true);
+  json["positions"]["file"] = "Q.exr";
+  write("frame.json", json.dump());
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
+  EXPECT_TRUE(says("Q.exr")) << output_;
+  EXPECT_EQ(run({"judge", "cube-room", "--out", "out"}), 2) << output_;
+  EXPECT_TRUE(says("--picture")) << output_;
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance
