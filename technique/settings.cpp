@@ -122,6 +122,7 @@ Stages stages_of_group(std::string_view group) {
   if (group == "map") return {Stage::map, Stage::lookup};
   if (group == "bias" || group == "filter") return {Stage::lookup};
   if (group == "truth") return {Stage::truth};
+  if (group == "given") return {};  // no stage: frames are judged in place of the measurement (app/sweep/frame_run.h)
   throw std::logic_error("no stage reads the group of settings '" + std::string(group) + "'");
 }
 
@@ -356,6 +357,8 @@ std::vector<Setting> make_table() {
            "Largest standard error of R0 at a receiver, for a light with a size. A smaller value takes more rays.",
            MEMBER(truth.standard_error))
           .idle(without_size_of_light),
+      text("given.frame", "Which frame of another renderer is judged; only [[frame]] of an experiment gives it.",
+           MEMBER(given.frame)),
   };
   // The rows of the parts of the bias and of the filters' parameters stand after the other settings of their group.
   const auto after = [&](std::string_view name, const auto& parameters, auto row_of) {

@@ -115,6 +115,11 @@ struct FilterSettings {
   std::vector<double> values_ = defaults();  // in the order of filter_parameters() (technique/filters.h)
 };
 
+// Which frame of another renderer a point judges. Only [[frame]] of an experiment gives it.
+struct GivenSettings {
+  std::string frame = "none";
+};
+
 struct TruthSettings {
   double standard_error = 0.01;  // standard error of R0 at each receiver, for a light with a size
 };
@@ -127,6 +132,7 @@ struct Settings {
   BiasSettings bias;
   FilterSettings filter;
   TruthSettings truth;
+  GivenSettings given;
 };
 
 // The stages of a measurement (measure/stages.h), in their order.

@@ -182,7 +182,12 @@ std::vector<Settings> points(const Experiment& experiment) {
       const std::vector<size_t> at = digits(part, index);
       for (size_t i = 0; i < at.size(); ++i)
         find_setting(part.swept[i].name).set(settings, part.swept[i].values[at[i]]);
-      at_point(experiment, static_cast<int64_t>(all.size()), [&] { validate(settings); });
+      at_point(experiment, static_cast<int64_t>(all.size()), [&] {
+        validate(settings);
+        if (experiment.frames.empty() && settings.given.frame != GivenSettings().frame)
+          throw Error(ErrorKind::usage,
+                      "given.frame names no [[frame]] of the experiment; remove it, or add the frame");
+      });
       all.push_back(std::move(settings));
     }
   };
@@ -193,6 +198,12 @@ std::vector<Settings> points(const Experiment& experiment) {
 }
 
 std::string reproduce_command(const Experiment& experiment, const PointRecord& point) {
+  if (!experiment.frames.empty()) {
+    const FrameRequest& frame = experiment.frames.at(static_cast<size_t>(point.id));
+    std::string judge = "noonmark judge " + shell_quoted(frame.file);
+    for (const std::string& name : frame.accepted) judge += " --accept " + shell_quoted(name);
+    return judge;
+  }
   std::string command = "noonmark render " + shell_quoted(experiment.path);
   const auto add = [&](const std::string& name) {
     const auto setting = point.settings.find(name);

@@ -45,6 +45,13 @@ struct PhaseRequest {
   int width_px = 640;  // of its picture, at most that of the view; its height follows from the view's
 };
 
+// The frame of another renderer that an experiment judges (frames/frame_file.h).
+struct FrameRequest {
+  std::string name;                   // different for each
+  std::string file;                   // frame.json; a relative path starts at the working directory
+  std::vector<std::string> accepted;  // names of checks
+};
+
 struct Experiment {
   std::string path;  // as given
   std::string title;
@@ -59,6 +66,7 @@ struct Experiment {
   bool curve_enabled = true;
   CurveOptions curve;
   PhaseRequest phase;
+  std::vector<FrameRequest> frames;     // then each is a point, given.frame is swept, and nothing else is measured
   std::optional<bool> times;            // the key `times`; empty: as time_asked_for() says
   std::string pictures = "first";       // which points get pictures: first | all | none | worst | extremes
   std::vector<std::string> overridden;  // settings given by apply_override, in order

@@ -19,6 +19,7 @@
 #include "base/file.h"
 #include "base/shell_words.h"
 #include "compare/results/quantities.h"
+#include "frames/checks.h"
 #include "scenes/builtin.h"
 #include "scenes/library.h"
 #include "technique/placements.h"
@@ -65,6 +66,8 @@ class Reader : private SettingsReader {
         read_phase(table(*item.node, "[phase]"));
       else if (item.key == "let")
         promises_.read_let(table(*item.node, "[let]"));
+      else if (!in_part_ && item.key == "frame")
+        frames_ = item.node;
       else if (item.key == "bound")
         bounds_ = item.node;
       else if (item.key == "law")
@@ -75,6 +78,7 @@ class Reader : private SettingsReader {
       else
         unknown(item, "key", root_keys(), in_part_ ? "part." : "");
     }
+    if (frames_) read_frames(root, *frames_);
     if (in_part_ && experiment_.part.empty()) fail(root, "a [[part]] needs a name");
     if (parts_) {
       for (const toml::node* inside :
@@ -100,6 +104,57 @@ class Reader : private SettingsReader {
     std::vector<std::string_view> names = groups();
     for (std::string_view key : key_names("root", in_part_)) names.push_back(key);
     return names;
+  }
+
+  // ---- [[frame]]
+
+  void read_frames(const toml::table& root, const toml::node& node) {
+    for (const Item& item : items(root))
+      if (item.key != "title" && item.key != "pictures" && item.key != "plot" && item.key != "frame" &&
+          item.key != "bound")
+        fail(*item.node,
+             fmt::format("a file with frames has title, pictures, plot and bounds beside them, and no {}; each "
+                         "frame.json says scene, camera and light",
+                         item.key));
+    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "frames are written as [[frame]], one for each");
+    Swept names{"given.frame", {}};
+    for (const toml::node& element : *node.as_array()) {
+      const FrameRequest frame = read_frame(*element.as_table());
+      if (std::find(names.values.begin(), names.values.end(), frame.name) != names.values.end())
+        fail(element, fmt::format("two frames have the name '{}'", frame.name));
+      names.values.push_back(frame.name);
+      experiment_.frames.push_back(frame);
+    }
+    experiment_.sweep_location = location_text(node.source());
+    sweep_order_.emplace_back(true, 0, 0, experiment_.swept.size());
+    experiment_.swept.push_back(std::move(names));
+    experiment_.curve_enabled = false;
+    experiment_.accuracy = "frame_error";
+  }
+  FrameRequest read_frame(const toml::table& table) {
+    FrameRequest frame;
+    for (const Item& item : items(table)) {
+      if (item.key == "file") {
+        const std::string named = string(*item.node, "frame.file");
+        const std::filesystem::path file(named);
+        frame.file = (file.is_absolute() ? file : std::filesystem::path(path()).parent_path() / file)
+                         .lexically_normal()
+                         .string();
+        if (frame.name.empty()) frame.name = named;
+      } else if (item.key == "name") {
+        frame.name = string(*item.node, "frame.name");
+      } else if (item.key == "accept") {
+        for (const toml::node* one : list(*item.node, "frame.accept")) {
+          frame.accepted.push_back(string(*one, "frame.accept"));
+          at(one->source(), [&] { require_check(frame.accepted.back()); });
+        }
+      } else {
+        unknown(item, "key", key_names("frame"), "frame.");
+      }
+    }
+    if (frame.file.empty()) fail(table, "a [[frame]] needs a file");
+    if (frame.name.empty() || frame.name == GivenSettings().frame) fail(table, "a [[frame]] needs another name");
+    return frame;
   }
 
   // ---- [[part]]
@@ -286,6 +341,7 @@ class Reader : private SettingsReader {
   const toml::node* times_ = nullptr;
   const toml::node* parts_ = nullptr;
   const toml::node* laws_ = nullptr;
+  const toml::node* frames_ = nullptr;
   const toml::table *sweep_ = nullptr, *over_ = nullptr;
   const toml::node* bounds_ = nullptr;
   // Whether it is a choice, line, column, index into experiment_.swept. Conditions come first, because scene, view and

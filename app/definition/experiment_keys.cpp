@@ -39,6 +39,7 @@ const std::vector<ExperimentKey>& root_keys() {
       {"curve", Kind::table, "The error against the bias."},
       {"phase", Kind::table, "The phase diagram: texel size against bias."},
       {"let", Kind::formulas, "Definitions for the formulas of laws."},
+      of_file("frame", Kind::tables, "The frame of another renderer; check judges it."),
       {"bound", Kind::tables, "A limit of a metric; check judges it."},
       {"law", Kind::tables, "What one number must be, given others; check judges it."},
       of_part("name", Kind::text, "The part's name; different for every part."),
@@ -100,6 +101,14 @@ const std::vector<ExperimentKey>& phase_keys() {
   return keys;
 }
 
+const std::vector<ExperimentKey>& frame_table_keys() {
+  static const std::vector<ExperimentKey> keys = {
+      required({"file", Kind::text, "The path of its frame.json, from this file's folder."}),
+      {"name", Kind::text, "What the report calls it; without one, the path of the file."},
+      {"accept", Kind::names, "Checks of the delivery whose failure does not stop it."}};
+  return keys;
+}
+
 const std::vector<ExperimentKey>& bound_keys() {
   static const std::vector<ExperimentKey> keys = {
       required({"metric", Kind::pattern, "A metric, a quantity of the curve, or a pattern of names (aliasing*)."}),
@@ -145,8 +154,9 @@ struct NamedKeys {
   const std::vector<ExperimentKey>& (*keys)();
 };
 constexpr NamedKeys tables[] = {{"root", root_keys},   {"plot", plot_keys},   {"answer", answer_keys},
-                                {"curve", curve_keys}, {"phase", phase_keys}, {"bound", bound_keys},
-                                {"atlas", atlas_keys}, {"law", law_keys},     {"range", range_keys}};
+                                {"curve", curve_keys}, {"phase", phase_keys}, {"frame", frame_table_keys},
+                                {"bound", bound_keys}, {"atlas", atlas_keys}, {"law", law_keys},
+                                {"range", range_keys}};
 
 }  // namespace
 

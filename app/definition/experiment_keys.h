@@ -14,6 +14,7 @@ struct ExperimentKey {
   // What stands behind the key.
   enum class Kind {
     text,        // a string
+    names,       // a list of strings
     choice,      // one of `choices`
     flag,        // true or false
     number,      // finite, at least `least`
@@ -44,7 +45,7 @@ struct ExperimentKey {
   bool required = false;
 };
 
-// table: "root" (the file and a part), "plot", "answer", "atlas", "curve", "phase", "bound", "law",
+// table: "root" (the file and a part), "plot", "answer", "atlas", "curve", "phase", "frame", "bound", "law",
 // "range".
 std::span<const ExperimentKey> experiment_keys(std::string_view table);
 

@@ -117,6 +117,9 @@ Json form_of(const ExperimentKey& key) {
     case Kind::text:
       form = {{"type", "string"}};
       break;
+    case Kind::names:
+      form = {{"type", "array"}, {"items", {{"type", "string"}}}, {"uniqueItems", true}};
+      break;
     case Kind::choice:
       form["enum"] = key.choices;
       break;
@@ -232,7 +235,7 @@ std::string experiment_schema() {
   definitions["quantity"] = {{"enum", quantities}};
   definitions["sweep"] = closed(settings_tables(swept_form, true));
   definitions["conditions"] = closed(settings_tables(condition_form, true));
-  for (const char* table : {"plot", "answer", "atlas", "curve", "phase", "bound", "law", "range"})
+  for (const char* table : {"plot", "answer", "atlas", "curve", "phase", "frame", "bound", "law", "range"})
     definitions[table] = table_of(table);
   definitions["bound"].update(needs({"max", "min"}, "anyOf"));
   definitions["atlas"]["dependencies"] = {{"thread", {"answer"}}, {"answer", {"thread"}}};

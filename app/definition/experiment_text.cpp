@@ -45,16 +45,27 @@ class Writer {
                         printable(e.path));
     line("title", toml_string(e.title));
     line("pictures", toml_string(e.pictures));
-    line("times", times_measured(e) ? "true" : "false");
+    if (e.frames.empty()) line("times", times_measured(e) ? "true" : "false");
     if (!e.plot.empty()) {
       header("[plot]");
       line("metrics", names(e.plot));
     }
-    header("[answer]");
-    line("cost", toml_string(e.cost));
-    line("accuracy", toml_string(e.accuracy));
+    if (e.frames.empty()) {
+      header("[answer]");
+      line("cost", toml_string(e.cost));
+      line("accuracy", toml_string(e.accuracy));
+    }
     if (e.atlas) write_atlas(*e.atlas);
-    if (e.parts.empty()) points_of(e, "");
+    for (const FrameRequest& frame : e.frames) {
+      header("[[frame]]");
+      line("file", toml_string(from_folder(frame.file)));
+      line("name", toml_string(frame.name));
+      if (!frame.accepted.empty()) line("accept", names(frame.accepted));
+    }
+    if (!e.frames.empty())
+      for (const Bound& bound : e.bounds) write_bound(bound, "");
+    else if (e.parts.empty())
+      points_of(e, "");
     for (const Experiment& part : e.parts) {
       header("[[part]]");
       line("name", toml_string(part.part));

@@ -117,6 +117,14 @@ void require_size(const Image<glm::dvec3>& positions, const Image<float>& visibi
 
 FrameFile read_frame_file(const std::string& path) { return parse_frame_file(path, read_file(path, most_json_bytes)); }
 
+JudgeRules rules_of(const FrameFile& file) {
+  JudgeRules rules;
+  rules.edge_m = file.edge_m;
+  rules.edge_pixels = file.edge_pixels.value_or(rules.edge_pixels);
+  rules.contact_m = file.contact_m;
+  return rules;
+}
+
 std::string path_in(const FrameFile& file, const std::string& named) {
   return (std::filesystem::path(file.path).parent_path() / named).lexically_normal().string();
 }

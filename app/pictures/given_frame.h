@@ -8,12 +8,16 @@
 
 #include "frames/frame.h"
 #include "frames/frame_file.h"
+#include "frames/judge.h"
 #include "technique/settings.h"
 
 namespace noonmark {
 
 // Throws Error(file).
 FrameFile read_frame_file(const std::string& path);
+
+// Where an error belongs to an edge or a contact, as the file says.
+JudgeRules rules_of(const FrameFile& file);
 
 // A path that stands in the file, as seen from the working directory. Built-in names of scenes stay.
 std::string path_in(const FrameFile& file, const std::string& named);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/definition/definition.h"
+#include "app/sweep/frame_run.h"
 #include "app/sweep/stop_on_signal.h"
 #include "app/sweep/sweep_run.h"
 #include "base/text.h"
@@ -24,6 +25,7 @@ std::string stopped_text(const SweepOutcome& outcome) {
 }
 
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options) {
+  if (!experiment.frames.empty()) return run_frames(experiment, folder, options);
   if (options.shard)
     definition_text(experiment);  // an experiment that no file can say is refused before it is measured
   SweepRun run(experiment, folder, options);

@@ -75,8 +75,6 @@ struct Subject {
 };
 
 Subject subject_of(const JudgeOptions& options) {
-  JudgeRules rules;
-  rules.accepted.insert(options.accepted.begin(), options.accepted.end());
   const bool is_file = ends_with_any_case(options.subject, ".json");
   if (is_file != options.picture.empty())
     throw Error(ErrorKind::usage, is_file
@@ -97,10 +95,7 @@ Subject subject_of(const JudgeOptions& options) {
     settings.name = names_file(*file.scene) ? path_in(file, *file.scene) : *file.scene;
     Scene scene = make_scene(settings);
     GivenFrame frame = given_frame(file, scene);
-    subject.emplace(Subject{std::move(scene), std::move(frame), std::move(rules)});
-    subject->rules.edge_m = file.edge_m;
-    if (file.edge_pixels) subject->rules.edge_pixels = *file.edge_pixels;
-    subject->rules.contact_m = file.contact_m;
+    subject.emplace(Subject{std::move(scene), std::move(frame), rules_of(file)});
   } else {
     ExperimentArguments arguments = options.arguments;
     arguments.sets.push_back("scene.name=" + options.subject);
@@ -108,9 +103,10 @@ Subject subject_of(const JudgeOptions& options) {
     Scene scene = make_scene(settings.scene);
     GivenFrame frame =
         given_frame(options.picture, options.srgb ? ValueEncoding::srgb : ValueEncoding::linear, scene, settings);
-    subject.emplace(Subject{std::move(scene), std::move(frame), std::move(rules)});
+    subject.emplace(Subject{std::move(scene), std::move(frame), {}});
     subject->rules.standard_error = settings.truth.standard_error;
   }
+  subject->rules.accepted.insert(options.accepted.begin(), options.accepted.end());
   if (options.edge_pixels_given) {
     subject->rules.edge_m.reset();
     subject->rules.edge_pixels = options.edge_pixels;

@@ -108,14 +108,20 @@ std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points
 
 std::vector<Metric> metrics_of(std::span<const PointRecord> points) {
   std::vector<Metric> metrics(metrics_table().begin(), metrics_table().end());
-  for (const RungCause* cause : brought_causes(points)) metrics.push_back({cause->name, "fraction", cause->help, true});
+  const auto has_row = [](const RungCause* cause) {
+    return std::any_of(metrics_table().begin(), metrics_table().end(),
+                       [&](const Metric& row) { return row.name == cause->name; });
+  };
+  for (const RungCause* cause : brought_causes(points))
+    if (!has_row(cause)) metrics.push_back({cause->name, "fraction", cause->help, true});
   return metrics;
 }
 
 bool is_free_name(std::string_view name) {
   if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != name.npos) return false;
   const auto is_this = [&](const auto& row) { return row.name == name; };
-  return std::none_of(metrics_table().begin(), metrics_table().end(), is_this) &&
+  const auto is_taken = [&](const Metric& row) { return row.name == name && !row.of_frames; };
+  return std::none_of(metrics_table().begin(), metrics_table().end(), is_taken) &&
          std::none_of(curve_quantities().begin(), curve_quantities().end(), is_this);
 }
 

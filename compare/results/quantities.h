@@ -41,7 +41,7 @@ std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points
 // metrics_table(), followed by the metrics of brought_causes(points), whose texts the rows refer to.
 std::vector<Metric> metrics_of(std::span<const PointRecord> points);
 // Whether a cause can have this name, as a metric and as a column: lower-case letters, digits and _, and no metric of
-// the table or quantity of the curve.
+// the table or quantity of the curve, except for the classes of given frames (Metric::of_frames), which are causes too.
 bool is_free_name(std::string_view name);
 // The name of the rung that is judged: "R5", or that of the rung on top of it.
 std::string_view judged_rung(const PointRecord& point);
