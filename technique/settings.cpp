@@ -122,7 +122,7 @@ Stages stages_of_group(std::string_view group) {
   if (group == "map") return {Stage::map, Stage::lookup};
   if (group == "bias" || group == "filter") return {Stage::lookup};
   if (group == "truth") return {Stage::truth};
-  if (group == "given") return {};  // no stage: frames are judged in place of the measurement (app/sweep/frame_run.h)
+  if (group == "given") return {Stage::scene};  // another frame is another scene (app/sweep/frame_run.h)
   throw std::logic_error("no stage reads the group of settings '" + std::string(group) + "'");
 }
 

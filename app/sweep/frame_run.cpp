@@ -21,6 +21,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
 #include "compare/store/store.h"
 #include "frames/judge.h"
 #include "raytrace/tracer.h"
@@ -58,7 +59,7 @@ std::vector<RungCause> classes_as_causes() {
   std::vector<RungCause> causes;
   for (const FrameClassRow& row : frame_classes)
     causes.push_back({std::string(row.metric), std::string(row.label), std::string(find_metric(row.metric).help),
-                      row.color, "the frame"});
+                      row.color, std::string(frame_rung)});
   return causes;
 }
 
@@ -161,6 +162,7 @@ class FrameRun {
         notes_.push_back(check.accepted ? fmt::format("{} (accepted)", says) : says);
       }
     store_->add(record);
+    outcome_.scenes.push_back(names_file(scene_.name()) ? scene_.digest() : "");
     ++outcome_.measured;
   }
 

@@ -271,8 +271,12 @@ Markup answer_section(const Results& results) {
   for (const PointRecord& point : results.points) all.push_back(&point);
   Markup causes = cause_sentence(all);
   if (!causes.empty())
-    causes = item("note", prose("Largest causes of error over {}, with the bias as rendered: {}.",
-                                all.size() == 1 ? "this point" : "all points", causes));
+    causes = item("note", judges_frames(results.points)
+                              ? prose("Where most of the error is: {}.", causes)
+                              : prose("Largest causes of error over {}, with the bias as rendered: {}.",
+                                      all.size() == 1 ? "this point" : "all points", causes));
+  if (judges_frames(results.points))  // nothing is set here, so nothing is recommended
+    return section("answer", title, findings(causes + items) + bounds_section(results));
   items = window_items(results) + causes + items;
   const Markup what_breaks = div(css("breaks"), element("h3", "What breaks"), findings(items));
   return section("answer", title,

@@ -47,7 +47,7 @@ Markup row(const IndexEntry& entry) {
 
 std::string worst_numbers(const Results& results) {
   std::string out;
-  for (const char* metric : {"error", "acne", "peter_panning"}) {
+  for (const char* metric : {"error", "acne", "peter_panning", "frame_error", "frame_wrong", "frame_acne"}) {
     double worst = -1;
     for (const PointRecord& point : results.points) {
       if (!point.metrics.contains(metric)) continue;
@@ -66,14 +66,14 @@ std::string broken_in_words(const Results& results) { return report::broken_word
 std::string picture_of_index(const Results& results) {
   const PointRecord* chosen = nullptr;
   const auto error = [](const PointRecord& point) {
-    const double value = metric_of(point, "error");
+    const double value = metric_of(point, error_metric({&point, 1}));
     return std::isfinite(value) ? value : -1;
   };
   for (const PointRecord& point : results.points)
     if (!point.pictures.empty() && (!chosen || error(point) > error(*chosen))) chosen = &point;
   if (!chosen) return "";
   for (const PictureRecord& picture : chosen->pictures)
-    if (picture.name == "map") return picture.path;
+    if (picture.name == "map" || picture.name == "frame") return picture.path;
   return chosen->pictures.front().path;
 }
 

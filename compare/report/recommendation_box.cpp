@@ -186,6 +186,13 @@ Markup answer_sentence(const Results& results, const ShownPoints& shown) {
   if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
     return prose("Nothing was measured: {}.", poor_view_note(results.points));
   const Markup broken = broken_sentence(results);
+  if (judges_frames(results.points)) {
+    const auto kept =
+        std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& one) { return one.held; });
+    return !broken.empty()          ? broken
+           : results.bounds.empty() ? Markup("No bound says what is good enough.")
+                                    : prose("{} of {} bounds hold.", kept, results.bounds.size());
+  }
   return (broken.empty() ? broken : broken + " ") + what_to_set(results, shown);
 }
 

@@ -259,7 +259,7 @@ Markup budget_row(const PointRecord& point, const CausesOfPoint& causes, const s
   return div(css("row"), Attribute("data-point", point.id), Attribute("title", causes.told),
              span(css("name"), point_link(point.id, name)),
              span(css("track"), span(css("bar"), Attribute("style", size), parts)),
-             span(css("value"), quantity(metric_of(point, "error"), "fraction"))) +
+             span(css("value"), quantity(metric_of(point, error_metric({&point, 1})), "fraction"))) +
          "\n";
 }
 
@@ -291,17 +291,26 @@ Markup budget_section(const Results& results, const ShownPoints& shown) {
     if (is_part(cause.name)) legend += legend_entry(cause.name, cause.label);
   for (size_t i = 0; i < of_points.size(); ++i)
     rows += budget_row(shown.results.points[i], of_points[i], differing, largest);
-  const Markup words = prose(
-      "The part of the error that each cause adds, {}, as a share of counted receivers. The number at the end is the "
-      "whole error, mean |{} − R1|. With a filter, causes can cancel in it, and displacement can cancel with the "
-      "others, so the bar can be longer.",
-      by_bias("with the bias as rendered",
-              "with the recommended bias (causes that no curve gives are those of the bias as rendered)"),
-      judged_rung(results.points.front()));
+  const bool frames = judges_frames(results.points);
+  const Markup of_frames =
+      "The part of the error at each place, as a share of counted receivers. The number at the end is the whole error, "
+      "mean "
+      "|frame − truth|. A place is no cause: a frame alone does not say what its map and its bias did.";
+  const Markup words =
+      frames ? of_frames
+             : prose(
+                   "The part of the error that each cause adds, {}, as a share of counted receivers. The number at the "
+                   "end is the "
+                   "whole error, mean |{} − R1|. With a filter, causes can cancel in it, and displacement can cancel "
+                   "with the "
+                   "others, so the bar can be longer.",
+                   by_bias("with the bias as rendered",
+                           "with the recommended bias (causes that no curve gives are those of the bias as rendered)"),
+                   judged_rung(results.points.front()));
   const Markup bars =
       div(css(results.points.size() > open_rows ? "budget many" : "budget"), budget_choice("size", "By size", true),
           budget_choice("share", "By share", false), "\n", div(css("rows"), "\n", rows));
-  return section("budget", "The error budget",
+  return section("budget", frames ? "The error by place" : "The error budget",
                  paragraph(words) + shown.note + div(css("legend"), legend) + "\n" + bars);
 }
 

@@ -141,7 +141,27 @@ std::string curve_parameter(const Results& results) {
   return parameter.empty() ? "bias" : parameter;
 }
 
+// Of frames: the error of each, and where it is.
+std::string frames_table(const Results& results) {
+  std::vector<std::string> heading = {"frame"}, metrics;
+  for (const Metric& row : metrics_of(results.points))
+    if (row.of_frames) {
+      metrics.emplace_back(row.name);
+      heading.push_back(markdown(std::string(row.name)));
+    }
+  std::string text = "\n## Frames\n\n";
+  add_heading(text, heading);
+  for (const PointRecord& point : results.points) {
+    const auto name = point.settings.find("given.frame");
+    std::vector<std::string> cells = {markdown(name == point.settings.end() ? "–" : name->second)};
+    for (const std::string& metric : metrics) cells.push_back(short_or_missing(quantity(point, metric), "fraction"));
+    add_row(text, cells);
+  }
+  return text;
+}
+
 std::string best_table(const Results& results) {
+  if (judges_frames(results.points)) return frames_table(results);
   std::vector<const PointRecord*> order;
   for (const PointRecord& point : results.points)
     if (std::isfinite(quantity(point, "error").value_or(std::numeric_limits<double>::infinity())))
@@ -223,9 +243,9 @@ std::string to_summary(const Results& results, const BaselineComparison* baselin
     text += fmt::format("\n![the worst pixel, enlarged]({})\n\n{}\n", picture.path, markdown(picture.text));
   // Points of different parts are not meant to be compared.
   if (!results.points.empty() && results.points.front().part.empty()) text += best_table(results);
-  text +=
-      fmt::format("\nMade by noonmark {} ({}) on {}; Embree {} ({}).\n", markdown(info.version), markdown(info.commit),
-                  markdown(info.gl_renderer), markdown(info.embree_version), markdown(info.embree_isa));
+  text += fmt::format("\nMade by noonmark {} ({}){}; Embree {} ({}).\n", markdown(info.version), markdown(info.commit),
+                      info.gl_renderer.empty() ? "" : " on " + markdown(info.gl_renderer),
+                      markdown(info.embree_version), markdown(info.embree_isa));
   return text;
 }
 

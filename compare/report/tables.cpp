@@ -195,7 +195,9 @@ Markup swept_terms(const Results& results) {
 
 }  // namespace
 
-Markup meaning_section(const Results& results) {
+namespace {
+
+Markup ladder_in_words(const Results& results) {
   Markup out = paragraph(prose(
       "For every pixel that sees a surface facing the light, a ladder of methods answers the same question: how lit is "
       "the surface? Each rung differs from the one before in one respect. R0: the light with its size. R1: one exact "
@@ -208,6 +210,29 @@ Markup meaning_section(const Results& results) {
         paragraph(prose("{}, a picture on top of the ladder, is judged in place of the rung below it. Its step is "
                         "the cause {}.",
                         cause->rung, metric_label(cause->name)));
+  return out;
+}
+
+Markup frames_in_words() {
+  return paragraph(
+      prose("Each point is a frame of another renderer. The truth at each of its receivers is one exact shadow ray, or "
+            "many for a "
+            "light with a size. The classes say where a pixel differs from it, the first that holds: {}, the truth is "
+            "between lit and "
+            "shadowed; {}, a true shadow edge is near; {}, the truth is lit and the frame is darker; {} and {}, the "
+            "truth is dark "
+            "and the frame is lighter, with the occluder near or far. Their sizes sum to the error. Fractions are "
+            "fractions of the "
+            "counted receivers, which have a surface in the scene and in the frame, face the light and have a truth "
+            "that is not "
+            "ambiguous.",
+            bold("penumbra"), bold("edge"), bold("acne"), bold("contact"), bold("leak")));
+}
+
+}  // namespace
+
+Markup meaning_section(const Results& results) {
+  Markup out = judges_frames(results.points) ? frames_in_words() : ladder_in_words(results);
   const std::vector<Metric> metrics = metrics_of(results.points);
   if (!metrics.empty())
     out += folded("glossary", false, prose("Each of the {} metrics in a sentence", metrics.size()),

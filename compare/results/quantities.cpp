@@ -106,8 +106,19 @@ std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points
   return causes;
 }
 
+bool judges_frames(std::span<const PointRecord> points) {
+  return !points.empty() && judged_rung(points.front()) == frame_rung;
+}
+
+std::string error_metric(std::span<const PointRecord> points) {
+  return judges_frames(points) ? "frame_error" : "error";
+}
+
 std::vector<Metric> metrics_of(std::span<const PointRecord> points) {
   std::vector<Metric> metrics(metrics_table().begin(), metrics_table().end());
+  // Of a frame, what no frame can have has no meaning for a reader.
+  if (judges_frames(points))
+    std::erase_if(metrics, [&](const Metric& row) { return !points.front().metrics.contains(std::string(row.name)); });
   const auto has_row = [](const RungCause* cause) {
     return std::any_of(metrics_table().begin(), metrics_table().end(),
                        [&](const Metric& row) { return row.name == cause->name; });

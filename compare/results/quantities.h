@@ -38,11 +38,18 @@ QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> p
 // The causes that rungs on top of R5 brought at any of these points: each name once, in the order in which the points
 // have them. The pointers are to the points' own.
 std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points);
-// metrics_table(), followed by the metrics of brought_causes(points), whose texts the rows refer to.
+// metrics_table(), of frames only the metrics that they have, followed by the metrics of brought_causes(points), whose texts
+// the rows refer to.
 std::vector<Metric> metrics_of(std::span<const PointRecord> points);
 // Whether a cause can have this name, as a metric and as a column: lower-case letters, digits and _, and no metric of
 // the table or quantity of the curve, except for the classes of given frames (Metric::of_frames), which are causes too.
 bool is_free_name(std::string_view name);
+// The rung of the causes of a point that is a frame of another renderer.
+inline constexpr std::string_view frame_rung = "the frame";
+// Whether the points are frames of another renderer (frames/judge.h). All points of a store are, or none.
+bool judges_frames(std::span<const PointRecord> points);
+// The metric that is the error of a point: "error", or of a frame "frame_error".
+std::string error_metric(std::span<const PointRecord> points);
 // The name of the rung that is judged: "R5", or that of the rung on top of it.
 std::string_view judged_rung(const PointRecord& point);
 

@@ -161,5 +161,96 @@ TEST_F(JudgeVerb, AFrameThatIsNotThereIsOneError) {
   EXPECT_TRUE(says("--picture")) << output_;
 }
 
+// A stripe of acne of at least 0.05% of the receivers, on a lit floor.
+class CheckFrames : public JudgeVerb {
+ protected:
+  void frames_with_stripe_in(int which) {
+    fs::create_directories(folder_ / "checks");
+    const Image<float> good = visibility_;
+    std::string experiment = "title = \"Three frames\"\n";
+    for (int n = 0; n < 3; ++n) {
+      visibility_ = good;
+      int drawn = 0;
+      for (int y = frame_height - 12; n == which && y < frame_height && drawn < 60; ++y)
+        for (int x = 40; x < 50; ++x)
+          if (float& v = visibility_.at(x, y); v == 1) {
+            v = 0;
+            ++drawn;
+          }
+      const std::string name = std::to_string(n);
+      nlohmann::json json = frame(true);
+      fs::rename(folder_ / "V.exr", folder_ / "checks" / (name + ".exr"));
+      fs::rename(folder_ / "P.exr", folder_ / "checks" / ("P" + name + ".exr"));
+      json["visibility"]["file"] = name + ".exr";
+      json["positions"]["file"] = "P" + name + ".exr";
+      write("checks/" + name + ".json", json.dump());
+      experiment += "[[frame]]\nfile = \"" + name + ".json\"\nname = \"frame " + name + "\"\n";
+    }
+    visibility_ = good;
+    write("checks/frames.toml", experiment + "[[bound]]\nmetric = \"frame_acne\"\nmax = \"0.05%\"\n");
+  }
+};
+
+TEST_F(CheckFrames, AFolderEndsWithOneWhenAStripeIsDrawnIntoOneFrame) {
+  frames_with_stripe_in(-1);
+  ASSERT_EQ(run({"check", "checks", "--out", "out"}), 0) << output_;
+  frames_with_stripe_in(1);
+  ASSERT_EQ(run({"check", "checks", "--out", "out"}), 1) << output_;
+  EXPECT_TRUE(says("given.frame = frame 1")) << output_;
+  EXPECT_TRUE(says("reproduce: noonmark judge checks/1.json")) << output_;
+  const std::string out = "out/";
+  EXPECT_NE(text(out + "junit.xml").find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(text(out + "summary.md").find("frame 1"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
+  const std::string page = text(out + "report.html");
+  std::string report = page.substr(page.find("<body"));  // what a reader sees: without the scripts
+  for (size_t at = report.find("<script"); at != report.npos; at = report.find("<script", at))
+    report.erase(at, report.find("</script>", at) - at);
+  ASSERT_NE(report.find("Acne (lit in truth"), std::string::npos);
+  for (const char* ours : {"Peter Panning", "Aliasing", "usable window"})
+    EXPECT_EQ(report.find(ours), std::string::npos) << ours;
+  EXPECT_EQ(run({"report", "out"}), 0) << output_;
+}
+
+TEST_F(CheckFrames, ABaselineIsCompared) {
+  frames_with_stripe_in(-1);
+  ASSERT_EQ(run({"check", "checks/frames.toml", "--baseline", "b.json", "--update-baseline", "--out", "out"}), 0)
+      << output_;
+  ASSERT_EQ(run({"check", "checks/frames.toml", "--baseline", "b.json", "--out", "out"}), 0) << output_;
+  frames_with_stripe_in(2);
+  EXPECT_EQ(run({"check", "checks/frames.toml", "--baseline", "b.json", "--out", "out"}), 1) << output_;
+}
+
+TEST_F(CheckFrames, AWrongDeliveryIsExitCodeThreeAndTheOthersAreReported) {
+  frames_with_stripe_in(-1);
+  for (float& v : visibility_.pixels)
+    if (v >= 0) v = 1 - v;
+  write_exr((folder_ / "checks/1.exr").string(), {{"Y", visibility_}});
+  EXPECT_EQ(run({"check", "checks/frames.toml", "--out", "out"}), 3) << output_;
+  EXPECT_TRUE(says("frame 1: inverted")) << output_;
+  EXPECT_NE(text("out/report.html").find("frame 2"), std::string::npos);
+  write("checks/accepted.toml", "[[frame]]\nfile = \"1.json\"\naccept = [\"inverted\"]\n" +
+                                    std::string("[[bound]]\nmetric = \"frame_error\"\nmax = 1\n"));
+  EXPECT_EQ(run({"check", "checks/accepted.toml", "--out", "accepted"}), 0) << output_;
+  EXPECT_NE(text("accepted/report.html").find("(accepted)"), std::string::npos);
+}
+
+TEST_F(CheckFrames, NothingElseIsMeasuredBesideFrames) {
+  frames_with_stripe_in(-1);
+  const std::string frames = text("checks/frames.toml");
+  for (const auto& [more, says_so] : std::vector<std::pair<std::string, std::string>>{
+           {"[map]\nresolution = 512\n", "no map"},
+           {"[sweep]\nmap.resolution = [1, 2]\n", "no sweep"},
+           {"[[frame]]\nfile = \"0.json\"\nname = \"frame 0\"\n", "two frames have the name"},
+           {"[[frame]]\nname = \"x\"\n", "needs a file"},
+           {"[[frame]]\nfile = \"0.json\"\naccept = [\"all\"]\n", "no check 'all'"}}) {
+    write("checks/more.toml", frames + more);
+    EXPECT_EQ(run({"check", "checks/more.toml", "--out", "more"}), 2) << more << output_;
+    EXPECT_TRUE(says(says_so)) << output_;
+  }
+  EXPECT_EQ(run({"render", "--set", "given.frame=x", "--out", "render"}), 2) << output_;
+  EXPECT_EQ(run({"check", "checks/frames.toml", "--shard", "1/2", "--out", "out"}), 2) << output_;
+}
+
 }  // namespace
 }  // namespace noonmark::acceptance

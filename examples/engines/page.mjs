@@ -1,0 +1,36 @@
+// What the pages of all adapters share: settings from the address, and pictures and frame.json to shoot.mjs.
+const query = new URLSearchParams(location.search);
+export const text = (name, otherwise) => query.get(name) ?? otherwise;
+export const number = (name, otherwise) => Number(query.get(name) ?? otherwise);
+export const vector = (name, otherwise) => (query.get(name) ?? otherwise).split(",").map(Number);
+export const width = number("width", 1280), height = number("height", 720);
+
+function send(name, body) {
+  return fetch("/save/" + name, { method: "POST", body });
+}
+// An NPY file of floats: height x width, or height x width x channels. The top row first.
+export async function save(name, floats, channels = 1) {
+  const shape = channels === 1 ? `(${height}, ${width})` : `(${height}, ${width}, ${channels})`;
+  let header = `{'descr': '<f4', 'fortran_order': False, 'shape': ${shape}, }`;
+  header = header.padEnd(Math.ceil((header.length + 11) / 64) * 64 - 11) + "\n";
+  const head = new Uint8Array(10 + header.length);
+  head.set([0x93, 0x4e, 0x55, 0x4d, 0x50, 0x59, 1, 0, header.length & 255, header.length >> 8]);
+  head.set(new TextEncoder().encode(header), 10);
+  await send(name, new Blob([head, floats]));
+}
+// Pixels as WebGL reads them, RGBA with the bottom row first: one or three of their channels, the top row first. Where
+// `covered` (RGBA too) has alpha 0 there is no surface.
+export function picked(rgba, channels, covered = rgba) {
+  const picture = new Float32Array(width * height * channels.length);
+  for (let y = 0; y < height; ++y)
+    for (let x = 0; x < width; ++x) {
+      const from = ((height - 1 - y) * width + x) * 4, to = (y * width + x) * channels.length;
+      channels.forEach((c, i) => (picture[to + i] = covered[from + 3] === 0 ? NaN : rgba[from + c]));
+    }
+  return picture;
+}
+export async function done(frame) {
+  await send("frame.json", JSON.stringify({ noonmark_frame: 1, scene: text("scene"), visibility: { file: "visibility.npy" }, positions: { file: "positions.npy" }, ...frame }, null, 1));
+}
+window.addEventListener("error", (event) => send("failed", String(event.message)));
+window.addEventListener("unhandledrejection", (event) => send("failed", String(event.reason?.stack ?? event.reason)));

@@ -1,0 +1,153 @@
+// The C interface, as a program that loads the library sees it: no exception, messages for what is wrong, old and new headers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "frames/noonmark.h"
+
+namespace {
+
+constexpr int width = 320, height = 180;
+
+// A camera above the scene that looks down: 12 m x 6.75 m, orthographic.
+noonmark_frame frame_of(const std::vector<float>& visibility) {
+  noonmark_frame frame;
+  noonmark_frame_init(&frame, sizeof frame);
+  frame.width = width;
+  frame.height = height;
+  frame.visibility = visibility.data();
+  const double camera[16] = {2 / 12., 0, 0, 0, 0, 0, -2 / 20., 0, 0, -2 / 6.75, 0, 0, 0, 0, -0.4, 1};
+  std::memcpy(frame.clip_from_world, camera, sizeof camera);
+  frame.light_direction[0] = 0.5;
+  frame.light_direction[1] = -1;
+  return frame;
+}
+
+std::string messages_of(const noonmark_verdict* verdict) {
+  std::string all;
+  for (size_t i = 0; const char* message = noonmark_message(verdict, i); ++i) all += std::string(message) + "\n";
+  return all;
+}
+
+class CInterface : public testing::Test {
+ protected:
+  ~CInterface() override {
+    noonmark_verdict_free(verdict_);
+    noonmark_scene_free(scene_);
+  }
+  void judge(const noonmark_frame* frame) {
+    noonmark_verdict_free(verdict_);
+    verdict_ = noonmark_judge(scene_, frame);
+    ASSERT_NE(verdict_, nullptr);
+  }
+  noonmark_scene* scene_ = noonmark_scene_load("plate");
+  noonmark_verdict* verdict_ = nullptr;
+};
+
+TEST_F(CInterface, JudgesWhatTheTruthSays) {
+  ASSERT_EQ(noonmark_scene_status(scene_), NOONMARK_OK) << noonmark_scene_message(scene_);
+  const std::vector<float> black(width * height, 0);
+  noonmark_frame frame = frame_of(black);
+  frame.accept = "shaded,match,intensity";
+  judge(&frame);
+  ASSERT_EQ(noonmark_status(verdict_), NOONMARK_OK) << messages_of(verdict_);
+  const float* truth = noonmark_truth(verdict_);
+  const std::vector<float> exact(truth, truth + width * height);
+  EXPECT_GT(noonmark_number(verdict_, "frame_acne"), 0.5) << "a black frame is too dark wherever there is light";
+  int classes = 0;
+  for (int i = 0; i < width * height; ++i) classes += noonmark_classes(verdict_)[i] == NOONMARK_ACNE;
+  EXPECT_GT(classes, 10000);
+  int32_t x = -1, y = -1;
+  noonmark_worst_pixel(verdict_, &x, &y);
+  EXPECT_GE(x, 0);
+  EXPECT_GE(y, 0);
+
+  frame = frame_of(exact);
+  judge(&frame);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_OK) << messages_of(verdict_);
+  EXPECT_EQ(noonmark_number(verdict_, "frame_error"), 0);
+  EXPECT_TRUE(std::isnan(noonmark_number(verdict_, "no such number")));
+}
+
+TEST_F(CInterface, AWrongDeliveryHasNoNumbers) {
+  const std::vector<float> grey(width * height, 0.4f);
+  const noonmark_frame frame = frame_of(grey);
+  judge(&frame);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_BAD_FILE);
+  EXPECT_NE(messages_of(verdict_).find("shaded FAILED"), std::string::npos) << messages_of(verdict_);
+  EXPECT_TRUE(std::isnan(noonmark_number(verdict_, "frame_error")));
+}
+
+TEST_F(CInterface, WrongCallsAreSaid) {
+  const std::vector<float> black(width * height, 0);
+  judge(nullptr);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_WRONG_CALL);
+  noonmark_frame frame = frame_of(black);
+  frame.visibility = nullptr;
+  judge(&frame);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_WRONG_CALL);
+  frame = frame_of(black);
+  frame.light_direction[0] = frame.light_direction[1] = 0;
+  judge(&frame);
+  EXPECT_NE(messages_of(verdict_).find("light_direction"), std::string::npos) << messages_of(verdict_);
+  frame = frame_of(black);
+  std::memset(frame.clip_from_world, 0, sizeof frame.clip_from_world);
+  judge(&frame);
+  EXPECT_NE(messages_of(verdict_).find("no inverse"), std::string::npos) << messages_of(verdict_);
+  frame = frame_of(black);
+  frame.accept = "everything";
+  judge(&frame);
+  EXPECT_NE(messages_of(verdict_).find("there is no check 'everything'"), std::string::npos) << messages_of(verdict_);
+
+  noonmark_scene* missing = noonmark_scene_load("missing.glb");
+  EXPECT_EQ(noonmark_scene_status(missing), NOONMARK_BAD_FILE);
+  EXPECT_NE(std::string(noonmark_scene_message(missing)).find("missing.glb"), std::string::npos);
+  noonmark_verdict* verdict = noonmark_judge(missing, &frame);
+  EXPECT_EQ(noonmark_status(verdict), NOONMARK_WRONG_CALL);
+  noonmark_verdict_free(verdict);
+  noonmark_scene_free(missing);
+  EXPECT_EQ(noonmark_status(nullptr), NOONMARK_NO_DEVICE);
+  EXPECT_EQ(noonmark_message(nullptr, 0), nullptr);
+}
+
+// A program of a newer header has more fields behind; they stay untouched.
+TEST_F(CInterface, KnowsTheSizeOfTheCallersStruct) {
+  const std::vector<float> black(width * height, 0);
+  struct Newer {
+    noonmark_frame frame;
+    double more;
+  } newer{{}, 7};
+  noonmark_frame_init(&newer.frame, sizeof newer);
+  EXPECT_EQ(newer.frame.struct_size, sizeof newer);
+  EXPECT_EQ(newer.more, 0) << "a field that the library does not know has the default 0";
+  EXPECT_EQ(newer.frame.edge_pixels, 2);
+  const noonmark_frame plain = frame_of(black);
+  const size_t size = newer.frame.struct_size;
+  newer.frame = plain;
+  newer.frame.struct_size = size;
+  newer.frame.accept = "shaded,match,intensity";
+  judge(&newer.frame);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_OK) << messages_of(verdict_);
+}
+
+TEST(CInterfaceScene, OfTrianglesIsChecked) {
+  const float positions[] = {-5, 0, -5, 5, 0, -5, 0, 0, 5};
+  const uint32_t good[] = {0, 2, 1}, beyond[] = {0, 1, 3};
+  noonmark_scene* scene = noonmark_scene_from_triangles(positions, 3, good, 1);
+  EXPECT_EQ(noonmark_scene_status(scene), NOONMARK_OK) << noonmark_scene_message(scene);
+  noonmark_scene_free(scene);
+  scene = noonmark_scene_from_triangles(positions, 3, beyond, 1);
+  EXPECT_EQ(noonmark_scene_status(scene), NOONMARK_WRONG_CALL);
+  noonmark_scene_free(scene);
+  const float infinite[] = {-5, 0, -5, 5, 0, -5, 0, INFINITY, 5};
+  scene = noonmark_scene_from_triangles(infinite, 3, good, 1);
+  EXPECT_NE(std::string(noonmark_scene_message(scene)).find("position 2"), std::string::npos);
+  noonmark_scene_free(scene);
+  EXPECT_EQ(noonmark_scene_status(nullptr), NOONMARK_WRONG_CALL);
+}
+
+}  // namespace

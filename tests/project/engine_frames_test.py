@@ -1,0 +1,90 @@
+"""Each adapter of examples/engines shows a small scene in its engine, and noonmark judge finds nothing wrong with the delivery.
+   engine_frames_test.py NOONMARK SOURCE FOLDER
+Skips (77) where node, Chromium or the packages of examples/engines/package.json are not installed: npm install in that folder,
+or NODE_MODULES names another one."""
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+
+program, source, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+engines = source / "examples/engines"
+modules = pathlib.Path(os.environ.get("NODE_MODULES", engines / "node_modules"))
+SKIP = 77
+# The page, the package that it needs, and settings with which its shadows are good.
+ADAPTERS = [("three/page.html", "three", ["bias=-0.002"]),
+            ("babylon/page.html", "babylonjs", ["bias=0.02", "filter=usePercentageCloserFiltering"])]
+
+
+def skip(why):
+    print(why)
+    sys.exit(SKIP)
+
+
+def glb(path):
+    """A floor of 8 m and a box of 3 m that stands 0.5 m above it."""
+    positions, indices = [], []
+
+    def quad(a, b, c, d):
+        first = len(positions)
+        positions.extend([a, b, c, d])
+        indices.extend(first + i for i in (0, 1, 2, 0, 2, 3))
+
+    quad((-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4))
+    low, high = (-1.5, 0.5, -1.5), (1.5, 2, 1.5)
+    for axis in range(3):
+        for side in (0, 1):
+            u, v = (axis + 1) % 3, (axis + 2) % 3
+            corners = []
+            for s, t in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                p = [0, 0, 0]
+                p[axis] = (low, high)[side][axis]
+                p[u], p[v] = (low, high)[s][u], (low, high)[t][v]
+                corners.append(tuple(p))
+            quad(*(corners if side else corners[::-1]))
+    data = b"".join(struct.pack("<3f", *p) for p in positions) + b"".join(struct.pack("<H", i) for i in indices)
+    data += b"\0" * (-len(data) % 4)
+    place = 12 * len(positions)
+    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+                "buffers": [{"byteLength": len(data)}],
+                "bufferViews": [{"buffer": 0, "byteLength": place}, {"buffer": 0, "byteOffset": place, "byteLength": 2 * len(indices)}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3",
+                               "min": [min(p[k] for p in positions) for k in range(3)],
+                               "max": [max(p[k] for p in positions) for k in range(3)]},
+                              {"bufferView": 1, "componentType": 5123, "count": len(indices), "type": "SCALAR"}]}
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    path.write_bytes(struct.pack("<4s2I", b"glTF", 2, 28 + len(text) + len(data)) + struct.pack("<I4s", len(text), b"JSON") + text +
+                     struct.pack("<I4s", len(data), b"BIN\0") + data)
+
+
+for tool in ("node", "chromium"):
+    if not shutil.which(tool):
+        skip(f"{tool} is not installed")
+adapters = [adapter for adapter in ADAPTERS if (modules / adapter[1]).is_dir()]
+if not adapters:
+    skip(f"no engine is installed in {modules}")
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+glb(folder / "box.glb")
+bad = False
+for page, package, settings in adapters:
+    out = folder / package
+    shot = subprocess.run(["node", str(engines / "shoot.mjs"), page, str(folder / "box.glb"), str(out), "width=320", "height=180",
+                           "resolution=1024", "eye=-6,7,-6", "target=-1,0,-1", *settings], env={**os.environ, "NODE_MODULES": str(modules)}, capture_output=True, text=True)
+    if shot.returncode != 0:
+        print(f"{page}: {shot.stderr}")
+        bad = True
+        continue
+    judged = subprocess.run([program, "judge", str(out / "frame.json"), "--out", str(out / "judged"), "--max", "frame_error=1%",
+                             "--max", "frame_acne=0.05%"], capture_output=True, text=True)
+    numbers = json.loads((out / "judged/judge.json").read_text())
+    print(f"{package}: {numbers['metrics']}")
+    if judged.returncode != 0 or numbers["metrics"]["counted"] < 10000:
+        print(judged.stdout + judged.stderr)
+        bad = True
+sys.exit(bad)
