@@ -137,7 +137,7 @@ elseif(STEP STREQUAL "headers")
   set(not_installed base/digest.h)
   file(GLOB sources ${SOURCE}/app/*.h ${SOURCE}/app/*.cpp)
   foreach(source ${sources})
-    file(STRINGS ${source} lines REGEX "^#include \"(scenes|technique|gl|raytrace|compare)/")
+    file(STRINGS ${source} lines REGEX "^#include \"(scenes|technique|gl|raytrace|frames|compare)/")
     foreach(line ${lines})
       string(REGEX REPLACE ".*\"(.*)\".*" "\\1" header ${line})
       if(NOT header IN_LIST headers AND NOT header IN_LIST not_installed)
@@ -155,7 +155,8 @@ elseif(STEP STREQUAL "headers")
 int main() {
   using namespace noonmark;
   const bool all = !builtin_scenes().empty() && !settings_table().empty() && !metrics_table().empty() &&
-                   !gl::shader_file(\"shaders/compare.glsl\").empty() && !raytrace::tracer_info().version.empty();
+                   !gl::shader_file(\"shaders/compare.glsl\").empty() && !raytrace::tracer_info().version.empty() &&
+                   !frame_checks().empty();
   return all ? 0 : 1;
 }
 ")
@@ -172,7 +173,7 @@ if(NOT "-ffp-contract=off" IN_LIST options OR options MATCHES "-W|-fno-tree")
   message(FATAL_ERROR "the compile options that travel are ${options}")
 endif()
 add_executable(headers main.cpp)
-target_link_libraries(headers PRIVATE noonmark::scenes noonmark::technique noonmark::gl noonmark::raytrace noonmark::compare)
+target_link_libraries(headers PRIVATE noonmark::scenes noonmark::technique noonmark::gl noonmark::raytrace noonmark::judge noonmark::compare)
 ]])
   build(headers ${WORK}/headers_source)
   run("the program of all headers" ${WORK}/headers/headers)

@@ -172,7 +172,8 @@ def dependencies():
     # What it is linked with, named directly, or by a name that the library's package provides.
     libraries = set()
     for binary in (program, next(root.rglob("noonmark_images.so"))):
-        found = dict(re.findall(r"(\S+) => (/\S+)", output("ldd", binary)))
+        # "libm.so.6 => /lib/...", and for the dynamic linker, whose place every program names itself, "/lib64/ld-linux..." alone.
+        found = {Path(name).name: path or name for name, path in re.findall(r"(\S+)(?: => (/\S+))? \(0x", output("ldd", binary))}
         for library in re.findall(r"\(NEEDED\).*\[(.*)\]", output("readelf", "-d", binary)):
             expect(library in found, f"{binary.name} needs {library}, which is not here")
             libraries |= {found[library]} if library in found else set()
