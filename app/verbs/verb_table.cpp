@@ -14,6 +14,7 @@ Verb verb_inspect();
 Verb verb_report();
 Verb verb_merge();
 Verb verb_scenes();
+Verb verb_export();
 Verb verb_settings();
 Verb verb_schema();
 Verb verb_doctor();
@@ -22,9 +23,9 @@ Verb verb_version();
 
 std::span<const Verb> verb_table() {
   static const Verb table[] = {
-      verb_run(),    verb_check(),   verb_render(), verb_judge(),   verb_map(),    verb_recommend(),
-      verb_init(),   verb_inspect(), verb_report(), verb_merge(),   verb_scenes(), verb_settings(),
-      verb_schema(), verb_doctor(),  verb_help(),   verb_version(),
+      verb_run(),      verb_check(),   verb_render(), verb_judge(), verb_map(),     verb_recommend(),
+      verb_init(),     verb_inspect(), verb_report(), verb_merge(), verb_scenes(),  verb_export(),
+      verb_settings(), verb_schema(),  verb_doctor(), verb_help(),  verb_version(),
   };
   return table;
 }

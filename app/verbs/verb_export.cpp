@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/option_values.h"
+#include "app/verbs/verbs.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "scenes/camera_fit.h"
+#include "scenes/gltf/write_glb.h"
+#include "scenes/library.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportOptions {
+  std::string scene;
+  ExperimentArguments arguments;
+};
+
+std::string glb_file_of(const std::string& scene) { return fs::path(scene).stem().string() + ".glb"; }
+
+int write_scene(const ExportOptions& options) {
+  const std::string file = options.arguments.out.empty() ? glb_file_of(options.scene) : options.arguments.out;
+  std::error_code none;
+  if (!ends_with_any_case(file, ".glb"))
+    throw Error(ErrorKind::usage, fmt::format("{} does not end in .glb, which is the format that is written", file));
+  if (fs::is_directory(file, none))
+    throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the path of a file with --out", file));
+  if (!options.arguments.overwrite && fs::exists(fs::symlink_status(file, none)))
+    throw Error(ErrorKind::usage, fmt::format("{} is there already; choose another --out, or pass --overwrite", file));
+  ExperimentArguments arguments = options.arguments;
+  arguments.sets.push_back("scene.name=" + options.scene);
+  const Settings settings = points(experiment_from("", arguments)).at(0);
+  const Scene scene = make_scene(settings.scene);
+  if (scene.triangles.empty()) throw Error(ErrorKind::file, options.scene + " has no triangle to write");
+  const Light light = effective_light(scene, settings);
+  const std::string bytes = glb_of(scene, effective_camera(scene, settings.view), light);
+  if (const std::string above = fs::path(file).parent_path().string(); !above.empty()) make_folder(above);
+  write_file_atomically(file, bytes);
+  fmt::print("{} is written: {} triangles, camera and light\n", printable(file), scene.triangles.size());
+  if (scene.map)
+    fmt::print("  note: glTF has no shadow map; {} has extent {:g} m, near {:g} m, far {:g} m of its own\n",
+               printable(scene.name), scene.map->extent_m, scene.map->near_m, scene.map->far_m);
+  if (light.angular_diameter_deg > 0 || light.radius_m > 0)
+    fmt::print("  note: glTF's lights have no size, so the light in the file is a point\n");
+  if (const std::string note = notes_line(scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
+  return 0;
+}
+
+RunVerb add_export(CLI::App& verb) {
+  const auto options = std::make_shared<ExportOptions>();
+  verb.add_option("scene", options->scene, "A built-in scene, or a model")
+      ->required()
+      ->check(not_empty())
+      ->type_name(value_kind::scene);
+  add_sets(verb, options->arguments);
+  verb.add_option("--out", options->arguments.out, "The file that is written")
+      ->check(not_empty())
+      ->type_name("FILE.glb")
+      ->default_str(fmt::format("{} for cube-room", glb_file_of("cube-room")));
+  verb.add_flag("--overwrite", options->arguments.overwrite, "Replace the file if it is there already");
+  return [options](const std::string&) { return write_scene(*options); };
+}
+
+}  // namespace
+
+Verb verb_export() {
+  return {"export", "Write a scene, its camera and its light as a .glb that other renderers can show", add_export};
+}
+
+}  // namespace noonmark
