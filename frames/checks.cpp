@@ -249,10 +249,22 @@ Outcome levels(const CheckEvidence& e, const FrameStatistics&) {
                             different.size() > 16 ? ": with 8 bits a value is known to 0.002" : ""));
 }
 
+// ---- map
+
+constexpr std::string_view map_check = "map";
+// The largest median distance of a map's depths from the scene's, as a share of the depths' spread. Half floats are off by
+// 0.0005 at most; a map that is turned over, or another frame's, is off by a tenth and more.
+constexpr double most_map_off = 0.02;
+
+Outcome map(const CheckEvidence& e, const FrameStatistics&) {
+  return not_checked(e.frame.map ? "the map is not looked at before the other checks have passed"
+                                 : "no shadow map was handed over");
+}
+
 struct Row : FrameCheck {
   Outcome (*run)(const CheckEvidence&, const FrameStatistics&);
 };
-constexpr std::array<Row, 9> check_rows{{
+constexpr std::array<Row, 10> check_rows{{
     {{"values", "Every value is in [0,1], or says that there is no surface."}, values},
     {{"positions", "Given positions are 32-bit floats, lie on the scene, and project to their own pixels."}, positions},
     {{"coverage", "The pixels with a surface are those of the scene through the frame's camera."}, coverage},
@@ -262,6 +274,7 @@ constexpr std::array<Row, 9> check_rows{{
     {{"match", "Most of the true shadow is in shadow: scene and light are the frame's."}, match},
     {{"encoding", "The values are linear, not sRGB."}, encoding},
     {{"levels", "How many different values there are; it fails nothing."}, levels},
+    {{map_check, "A shadow map that is handed over holds the scene's depths, seen from its light."}, map},
 }};
 
 }  // namespace
@@ -287,6 +300,15 @@ std::vector<CheckResult> check_frame(const CheckEvidence& evidence) {
     results.push_back({row.name, outcome.state, std::move(outcome.says), false});
   }
   return results;
+}
+
+CheckResult check_given_map(double off_m, double spread_m) {
+  const std::string found = fmt::format(
+      "half of the texels that are read are within {:.3g} m of the scene, of depths that spread over {:.3g} m", off_m,
+      spread_m);
+  if (off_m <= most_map_off * spread_m) return {map_check, CheckState::passed, found};
+  return {map_check, CheckState::failed,
+          found + ": the map is another one, or it is turned over; check 'first_row', 'y', 'reversed' and the matrix"};
 }
 
 }  // namespace noonmark

@@ -7,6 +7,8 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/image.h"
 #include "scenes/scene.h"
@@ -17,6 +19,14 @@ namespace noonmark {
 // Where a receiver of the frame lies, best first: the renderer's own world positions, its depths, or nothing. With nothing
 // the receivers are those of rays through the pixels' centres.
 enum class GivenReceivers { positions, depth, none };
+
+// The shadow map that the frame was drawn with, and how the renderer looks it up.
+struct GivenMap {
+  std::string name;               // for messages: its file
+  Image<float> depth;             // window depth, 0 near and 1 far; row 0 has the lowest y of the light's clip space
+  glm::dmat4 clip_from_world{1};  // of the light; OpenGL's clip space
+  std::vector<std::pair<std::string, std::string>> technique;  // settings by name: bias, filter, culling
+};
 
 struct GivenFrame {
   std::string name;  // for messages: the file of the visibility
@@ -29,6 +39,7 @@ struct GivenFrame {
   Image<glm::dvec3> positions;  // world, metres; NaN: no surface. Empty with GivenReceivers::none
   ViewMatrix view;
   Light light;
+  std::optional<GivenMap> map = {};
 };
 
 }  // namespace noonmark

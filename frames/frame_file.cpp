@@ -13,6 +13,7 @@
 #include "base/suggestion.h"
 #include "frames/frame_keys.h"
 #include "scenes/camera_fit.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {
@@ -78,6 +79,8 @@ std::string wanted(const FrameKey& key, const Json& value) {
                  : "three of \"x\", \"y\", \"z\", each with or without a minus";
     case Kind::matrix:
       return are_numbers(value, 16) ? "" : "16 numbers";
+    case Kind::settings:
+      return value.is_object() ? "" : "an object with names of settings and their values";
     case Kind::version:
       return value == 1 ? "" : "1, the version that this program reads";
   }
@@ -158,23 +161,72 @@ glm::dmat4 world_from_frame(const std::string& path, const Object& file, const J
   return m;
 }
 
+// The matrix of an object that has one; empty if it has none. Sets its convention.
+std::optional<glm::dmat4> read_matrices(const Object& owner, ClipConvention& convention) {
+  if (!owner.has("clip_from_world") && !owner.has("view") && !owner.has("projection")) return std::nullopt;
+  for (const char* key : {"order", "depth_range", "reversed"}) owner.require(key, "a matrix alone does not say it");
+  const bool by_rows = owner.is("order", "row");
+  convention = {owner.is("depth_range", "0..1"), owner.flag("reversed"), owner.is("y", "down")};
+  if (owner.has("clip_from_world")) {
+    if (owner.has("view") || owner.has("projection"))
+      owner.refuse_together("give clip_from_world, or view and projection, not both");
+    return owner.matrix("clip_from_world", by_rows);
+  }
+  owner.require("view", "with a projection there is a view");
+  owner.require("projection", "with a view there is a projection");
+  return owner.matrix("projection", by_rows) * owner.matrix("view", by_rows);
+}
+
+// A value of JSON as the text that a setting reads.
+std::string setting_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const Json& one : value) text += (text.empty() ? "" : ",") + one.dump();
+  return text;
+}
+
+// What the map's matrix and its file do not say. The format is that of the numbers that are handed over.
+bool is_of_lookup(std::string_view name) {
+  constexpr std::string_view of_map[] = {"map.cull", "map.wrap", "map.lit_beyond_far", "map.depth_clamp",
+                                         "map.pancake"};
+  return name.starts_with("bias.") || name.starts_with("filter.") ||
+         std::find(std::begin(of_map), std::end(of_map), name) != std::end(of_map);
+}
+
+void read_map(const std::string& path, const Object& map, const Json& json, FrameFile& file) {
+  if (!map) return;
+  map.require("file", "the picture of the map's depths");
+  map.require("first_row", "the file alone does not say it");
+  MapFile& made = file.map.emplace();
+  made.file = *map.text("file");
+  made.top_row_first = map.is("first_row", "top");
+  const std::optional<glm::dmat4> matrix = read_matrices(map, made.convention);
+  if (!matrix) map.require("clip_from_world", "the matrix of the light, or its view and projection");
+  made.clip_from_frame = *matrix;
+  if (!map.has("technique")) return;
+  Settings settings;
+  for (const auto& [name, value] : json.at("map").at("technique").items()) {
+    const std::string text = setting_text(value);
+    try {
+      const Setting& setting = find_setting(name);
+      if (!is_of_lookup(name))
+        throw Error(ErrorKind::usage,
+                    "a technique here has bias.*, filter.*, map.cull, map.wrap, map.lit_beyond_far, "
+                    "map.depth_clamp and map.pancake; the rest follows from matrix and file");
+      setting.set(settings, text);
+    } catch (const Error& error) {
+      refuse(path, fmt::format("'map.technique.{}': {}", name, error.what()));
+    }
+    made.technique.emplace_back(name, text);
+  }
+}
+
 void read_camera(const Object& camera, FrameFile& file) {
   if (!camera) return;
-  const bool by_matrix = camera.has("clip_from_world") || camera.has("view") || camera.has("projection");
-  if (by_matrix) {
+  file.clip_from_frame = read_matrices(camera, file.convention);
+  if (file.clip_from_frame) {
     if (camera.has("eye") || camera.has("target")) camera.refuse_together("give matrices, or eye and target, not both");
-    for (const char* key : {"order", "depth_range", "reversed"}) camera.require(key, "a matrix alone does not say it");
-    const bool by_rows = camera.is("order", "row");
-    if (camera.has("clip_from_world")) {
-      if (camera.has("view") || camera.has("projection"))
-        camera.refuse_together("give clip_from_world, or view and projection, not both");
-      file.clip_from_frame = camera.matrix("clip_from_world", by_rows);
-    } else {
-      camera.require("view", "with a projection there is a view");
-      camera.require("projection", "with a view there is a projection");
-      file.clip_from_frame = camera.matrix("projection", by_rows) * camera.matrix("view", by_rows);
-    }
-    file.convention = {camera.is("depth_range", "0..1"), camera.flag("reversed"), camera.is("y", "down")};
     return;
   }
   camera.require("eye", "give eye and target, or matrices");
@@ -287,8 +339,13 @@ FrameFile parse_frame_file(const std::string& path, std::string_view text) {
     file.depth = depth.text("file");
     file.depth_measure = depth.is("measure", "view_z") ? DepthMeasure::view_z : DepthMeasure::window;
   }
+  read_map(path, all.object("map"), json, file);
   read_rules(all.object("edge"), all.object("contact"), all.number("metres_per_unit").value_or(1), file);
   return file;
+}
+
+glm::dmat4 FrameFile::map_from_world() const {
+  return from_convention(map->clip_from_frame, map->convention) * glm::inverse(world_from_frame);
 }
 
 ViewMatrix FrameFile::view(const Scene& scene, int width, int height) const {
@@ -330,6 +387,8 @@ std::string frame_schema() {
                 {"maxItems", 3}};
       case Kind::matrix:
         return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 16}, {"maxItems", 16}};
+      case Kind::settings:
+        return {{"type", "object"}, {"additionalProperties", {{"type", {"string", "number", "boolean", "array"}}}}};
       case Kind::version:
         return {{"const", 1}};
     }

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "scenes/scene.h"
 #include "scenes/view_matrix.h"
@@ -18,6 +20,15 @@ enum class ValueEncoding { linear, srgb };  // srgb: IEC 61966-2-1, as a PNG of 
 enum class DepthMeasure {
   window,  // what a depth buffer holds, from 0 to 1, in the camera's convention
   view_z   // metres along the camera's view; perspective cameras only
+};
+
+// The renderer's own map, as the file gives it.
+struct MapFile {
+  std::string file;
+  bool top_row_first = false;     // of clip space with y up
+  glm::dmat4 clip_from_frame{1};  // as given, of the convention below
+  ClipConvention convention;
+  std::vector<std::pair<std::string, std::string>> technique;  // settings by name, each known and allowed here
 };
 
 struct FrameFile {
@@ -37,8 +48,12 @@ struct FrameFile {
   std::optional<Camera> camera;  // given by eye and target, in the scene's coordinates
   std::optional<Light> light;    // in the scene's coordinates; empty: the scene's
 
+  std::optional<MapFile> map;
+
   std::optional<double> edge_m, edge_pixels, contact_m;
 
+  // The matrix of the map, from the scene's coordinates to OpenGL's clip space. Only if there is a map.
+  glm::dmat4 map_from_world() const;
   // Of a scene that gives the camera where the file gives none.
   ViewMatrix view(const Scene& scene, int width, int height) const;
 };

@@ -63,6 +63,30 @@ constexpr FrameKey key_rows[] = {
      "along the "
      "view of a perspective camera.",
      "window|view_z"},
+    {"", "map", Kind::object,
+     "The shadow map that the frame was drawn with: one square map of a directional or a spot light. With it every "
+     "cause of "
+     "the ladder is known; it needs OpenGL."},
+    {"map", "file", Kind::text,
+     "EXR with one 32-bit float channel, or NPY of resolution x resolution: the depth that the lookup compares, from 0 "
+     "to "
+     "1. Required."},
+    {"map", "first_row", Kind::choice,
+     "Which end of the light's clip space the file's first row is: bottom (y = -1), as OpenGL reads pixels, or top (y "
+     "= 1). "
+     "Required.",
+     "bottom|top"},
+    {"map", "view", Kind::matrix, "4 x 4 matrix from the world to the light's axes."},
+    {"map", "projection", Kind::matrix, "4 x 4 matrix from the light's axes to clip space."},
+    {"map", "clip_from_world", Kind::matrix, "The product of both, in place of them."},
+    {"map", "order", Kind::choice, "As of the camera. Required.", "column|row"},
+    {"map", "depth_range", Kind::choice, "As of the camera. Required.", "0..1|-1..1"},
+    {"map", "reversed", Kind::flag, "As of the camera. Required."},
+    {"map", "y", Kind::choice, "As of the camera.", "up|down"},
+    {"map", "technique", Kind::settings,
+     "How the renderer looks the map up, in Noonmark's settings by name: bias.*, filter.*, map.cull, map.wrap, "
+     "map.lit_beyond_far, map.depth_clamp, map.pancake. What is left out has its default, which is no bias and one "
+     "tap."},
     {"", "edge", Kind::object, "How near to a true shadow edge an error is an error of the edge. Default: 2 pixels."},
     {"edge", "pixels", Kind::positive, "In pixels of the picture, at the receiver."},
     {"edge", "texels", Kind::positive, "In texels of the renderer's map; needs `texel`."},

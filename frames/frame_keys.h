@@ -5,7 +5,19 @@
 
 namespace noonmark {
 
-enum class FrameKeyKind { object, text, choice, number, positive, flag, vector3, axes, matrix, version };
+enum class FrameKeyKind {
+  object,
+  text,
+  choice,
+  number,
+  positive,
+  flag,
+  vector3,
+  axes,
+  matrix,
+  settings,  // an object with settings' names and values
+  version
+};
 
 struct FrameKey {
   std::string_view object;  // "": of the file itself; "camera": of that object

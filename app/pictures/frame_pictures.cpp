@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "app/pictures/view_colors.h"
 
@@ -26,17 +27,18 @@ class FramePainter {
 
   // Each wrong pixel in the colour of its class, by the size of its error, over the grey of right ones.
   Image<Color> classes() const {
-    return paint([&](size_t i) {
-      if (!v_.truth.facing[i]) return named_color("attached");
-      if (!v_.counted[i]) return named_color("ambiguous");
-      const float shade = 0.72f + 0.28f * static_cast<float>(cosine(i));
-      const glm::vec3 right = shade * glm::vec3(named_color(v_.truth.lit[i] ? "lit" : "shadowed"));
+    return named([&](size_t i) {
       for (const FrameClassRow& row : frame_classes)
-        if (row.what == v_.classes[i]) {
-          const glm::vec3 color(row.color[0], row.color[1], row.color[2]);
-          return Color(glm::mix(right, color, 0.25f + 0.75f * std::min(1.0f, v_.error[i])) + 0.5f);
-        }
-      return Color(right + 0.5f);
+        if (row.what == v_.classes[i]) return std::optional(Color(row.color[0], row.color[1], row.color[2]));
+      return std::optional<Color>();
+    });
+  }
+
+  // The same by the cause of the ladder.
+  Image<Color> causes(const Ladder& ladder) const {
+    return named([&](size_t i) {
+      return ladder.cause[i] == static_cast<uint8_t>(Cause::none) ? std::nullopt
+                                                                  : std::optional(color_of(ladder, ladder.cause[i]));
     });
   }
 
@@ -57,6 +59,18 @@ class FramePainter {
       if (v_.receivers.primitive[i] != no_primitive) picture[i] = color(i);
     return picture;
   }
+  // color: of a wrong pixel; empty: it has none.
+  Image<Color> named(const std::function<std::optional<Color>(size_t)>& color) const {
+    return paint([&](size_t i) {
+      if (!v_.truth.facing[i]) return named_color("attached");
+      if (!v_.counted[i]) return named_color("ambiguous");
+      const float shade = 0.72f + 0.28f * static_cast<float>(cosine(i));
+      const glm::vec3 right = shade * glm::vec3(named_color(v_.truth.lit[i] ? "lit" : "shadowed"));
+      const auto found = color(i);
+      if (!found) return Color(right + 0.5f);
+      return Color(glm::mix(right, glm::vec3(*found), 0.25f + 0.75f * std::min(1.0f, v_.error[i])) + 0.5f);
+    });
+  }
   double cosine(size_t i) const {
     const glm::dvec3 p = v_.receivers.position[i], normal = v_.receivers.normal[i];
     return std::max(0.0, glm::dot(normal, v_.light.direction_to_light(p)));
@@ -76,8 +90,8 @@ Channel channel(std::string name, const Image<T>& source, const auto& value) {
 }  // namespace
 
 std::vector<PictureRecord> write_frame_pictures(const FrameVerdict& verdict, const GivenFrame& frame,
-                                                const std::string& folder, const std::string& relative,
-                                                const std::string& stem) {
+                                                const Ladder* ladder, const std::string& folder,
+                                                const std::string& relative, const std::string& stem) {
   const FramePainter painter(verdict, frame);
   std::vector<PictureRecord> records;
   const auto write = [&](std::string_view name, const Image<Color>& picture, const char* caption) {
@@ -90,12 +104,13 @@ std::vector<PictureRecord> write_frame_pictures(const FrameVerdict& verdict, con
   write("frame", painter.shaded([&](size_t i) { return frame.visibility[i]; }),
         "The frame's own visibility, shaded in the same way.");
   write("classes", painter.classes(), "Why pixels differ, by their place; the colour's strength is the error's size.");
+  if (ladder) write("causes", painter.causes(*ladder), "Why pixels differ, by the rungs of the frame's own map.");
   write("difference", painter.difference(), "Too dark in orange-red, too light in blue.");
   return records;
 }
 
-ImageRecord write_frame_exr(const FrameVerdict& v, const GivenFrame& frame, const std::string& path,
-                            const std::string& relative_path) {
+ImageRecord write_frame_exr(const FrameVerdict& v, const GivenFrame& frame, const Ladder* ladder,
+                            const std::string& path, const std::string& relative_path) {
   const auto same = [](auto value, size_t) { return value; };
   std::vector<Channel> channels{{"V", frame.visibility}};
   channels.push_back(channel("R1", v.truth.lit, same));
@@ -111,6 +126,12 @@ ImageRecord write_frame_exr(const FrameVerdict& v, const GivenFrame& frame, cons
     const auto along = [axis](const glm::vec3& at, size_t) { return at[axis]; };
     channels.push_back(channel(fmt::format("P.{}", "XYZ"[axis]), v.receivers.position, along));
     channels.push_back(channel(fmt::format("N.{}", "XYZ"[axis]), v.receivers.normal, along));
+  }
+  if (ladder) {
+    for (const Rung rung : {Rung::filtered, Rung::snapped, Rung::on_exact_map, Rung::shown})
+      channels.push_back({std::string(rung_names[static_cast<size_t>(rung)]), (*ladder)[rung]});
+    for (size_t c = 1; c < ladder->causes.size(); ++c)
+      channels.push_back({"step." + ladder->causes[c].name, ladder->causes[c].step});
   }
   return {relative_path, write_exr(path, channels)};
 }

@@ -113,6 +113,28 @@ void require_size(const Image<glm::dvec3>& positions, const Image<float>& visibi
                                      positions.width, positions.height, visibility.width, visibility.height));
 }
 
+GivenMap read_map(const FrameFile& file) {
+  const std::string path = path_in(file, file.map->file);
+  const DecodedImage image = read_image(path);
+  if (image.stored_as != StoredAs::float32) refuse_picture(path, "write the map's depths as 32-bit floats");
+  if (image.width != image.height)
+    refuse_picture(path, fmt::format("has {} x {} texels; only square maps are read", image.width, image.height));
+  const std::vector<float> depths = grey_values(image);
+  GivenMap map{path, Image<float>(image.width, image.height), file.map_from_world(), file.map->technique};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const float depth = depths[map.depth.index(x, y)];
+      if (!(depth >= 0 && depth <= 1))
+        refuse_picture(path,
+                       fmt::format("the texel x = {}, y = {} of the file is {:g}; write the depth that the lookup "
+                                   "compares, from 0 to 1",
+                                   x, y, depth));
+      map.depth.at(x, file.map->top_row_first ? image.height - 1 - y : y) =
+          file.map->convention.reversed ? 1 - depth : depth;
+    }
+  return map;
+}
+
 }  // namespace
 
 FrameFile read_frame_file(const std::string& path) { return parse_frame_file(path, read_file(path, most_json_bytes)); }
@@ -151,6 +173,7 @@ GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
     require_size(frame.positions, frame.visibility, of_depth);
   }
   frame.marks_no_surface = frame.receivers != GivenReceivers::none || has_nan(frame.visibility);
+  if (file.map) frame.map = read_map(file);
   return frame;
 }
 

@@ -38,12 +38,6 @@ Image<Color> shaded(const Measurement& m, const Image<float>& visibility) {
   });
 }
 
-Color color_of(const Ladder& ladder, size_t cause) {
-  if (cause < cause_count) return named_color(ladder.causes[cause].name);
-  const auto [r, g, b] = ladder.brought[cause - cause_count].color;
-  return {r, g, b};
-}
-
 // Each wrong pixel in the colour of its cause, over the grey of right pixels. The strength of the colour is the size of
 // the error. The arguments of std::min have this order so that NaN gets the full strength.
 Image<Color> classes(const Measurement& m) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/pictures/image_file.h"
+#include "compare/ladder/ladder.h"
 #include "compare/report/cause_colors.h"
 
 namespace noonmark {
@@ -14,6 +15,13 @@ inline Color named_color(std::string_view name) {
   const CauseColor* color = find_color(name);
   if (!color) throw std::logic_error("no colour for " + std::string(name));
   return {color->r, color->g, color->b};
+}
+
+// Of an index into ladder.causes.
+inline Color color_of(const Ladder& ladder, size_t cause) {
+  if (cause < cause_count) return named_color(ladder.causes[cause].name);
+  const auto [r, g, b] = ladder.brought[cause - cause_count].color;
+  return {r, g, b};
 }
 
 // IEC 61966-2-1: the 8-bit value of a linear light, where 1 is white. NaN is black.

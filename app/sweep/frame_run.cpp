@@ -11,6 +11,7 @@
 
 #include "app/pictures/frame_pictures.h"
 #include "app/pictures/given_frame.h"
+#include "app/sweep/frame_map.h"
 #include "app/sweep/identity.h"
 #include "app/sweep/judging.h"
 #include "app/sweep/run_info.h"
@@ -36,7 +37,8 @@ class SceneOfFrames {
  public:
   void show(const std::string& name) {
     if (scene_ && name == name_) return;
-    tracer_.reset();  // before the scene that it refers to
+    with_map_.reset();  // before the scene and the tracer that it refers to
+    tracer_.reset();
     SceneSettings settings;
     settings.name = name_ = name;
     scene_ = std::make_unique<Scene>(make_scene(settings));
@@ -45,6 +47,11 @@ class SceneOfFrames {
   }
   const Scene& scene() const { return *scene_; }
   const raytrace::Tracer& tracer() const { return *tracer_; }
+  // Of frames with a map. Only these need OpenGL.
+  FrameMap& with_map() {
+    if (!with_map_) with_map_.emplace(*scene_, *tracer_);
+    return *with_map_;
+  }
   const std::string& name() const { return name_; }
   const std::string& digest() const { return digest_; }
 
@@ -52,6 +59,7 @@ class SceneOfFrames {
   std::string name_, digest_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<raytrace::Tracer> tracer_;
+  std::optional<FrameMap> with_map_;
 };
 
 // The classes as causes of the frame, which is the rung on top of the truth.
@@ -153,8 +161,11 @@ class FrameRun {
     const GivenFrame frame = given_frame(file, scene_.scene());
     JudgeRules rules = rules_of(file);
     rules.accepted.insert(request.accepted.begin(), request.accepted.end());
-    const FrameVerdict verdict = judge_frame(scene_.scene(), scene_.tracer(), frame, rules);
-    PointRecord record = record_of(static_cast<int64_t>(i), point, frame, verdict);
+    FrameVerdict verdict = judge_frame(scene_.scene(), scene_.tracer(), frame, rules);
+    std::optional<Ladder> climbed;
+    if (frame.map && !verdict.refused())
+      climbed = scene_.with_map().climb(frame, rules.accepted.contains("map"), verdict);
+    PointRecord record = record_of(static_cast<int64_t>(i), point, frame, verdict, climbed);
     for (const CheckResult& check : verdict.checks)
       if (check.state == CheckState::failed) {
         const std::string says = fmt::format("{}: {}: {}", request.name, check.name, check.says);
@@ -166,7 +177,8 @@ class FrameRun {
     ++outcome_.measured;
   }
 
-  PointRecord record_of(int64_t id, Settings point, const GivenFrame& frame, const FrameVerdict& verdict) {
+  PointRecord record_of(int64_t id, Settings point, const GivenFrame& frame, const FrameVerdict& verdict,
+                        const std::optional<Ladder>& climbed) {
     point.scene.name = scene_.name();
     point.view.width_px = frame.visibility.width;
     point.view.height_px = frame.visibility.height;
@@ -178,19 +190,21 @@ class FrameRun {
     if (verdict.refused())
       for (auto& [name, value] : record.metrics)
         if (name.starts_with("frame_")) value = std::numeric_limits<double>::quiet_NaN();
-    record.causes = classes_as_causes();
+    record.causes = climbed ? climbed->brought : classes_as_causes();
     record.worst_of = worst_of(verdict);
     if (verdict.worst.x >= 0)
       record.worst = {verdict.worst.x, verdict.worst.y, verdict.error.at(verdict.worst.x, verdict.worst.y),
-                      std::string(class_name(verdict.classes.at(verdict.worst.x, verdict.worst.y)))};
+                      climbed ? std::string(climbed->cause_of(verdict.error.index(verdict.worst.x, verdict.worst.y)))
+                              : std::string(class_name(verdict.classes.at(verdict.worst.x, verdict.worst.y)))};
     record.machine = this_machine({}, tracer_info_);
     record.machine.clock = utc_now();
     if (experiment_.pictures != "none") {
       make_folder(folder_.path() + "/images");
       const std::string stem = fmt::format("p{:04}", id);
-      record.pictures = write_frame_pictures(verdict, frame, folder_.path() + "/images", "images", stem);
+      const Ladder* const ladder = climbed ? &*climbed : nullptr;
+      record.pictures = write_frame_pictures(verdict, frame, ladder, folder_.path() + "/images", "images", stem);
       const std::string exr = fmt::format("images/{}-frame.exr", stem);
-      record.images.push_back(write_frame_exr(verdict, frame, folder_.path() + "/" + exr, exr));
+      record.images.push_back(write_frame_exr(verdict, frame, ladder, folder_.path() + "/" + exr, exr));
     }
     return record;
   }

@@ -11,6 +11,7 @@
 #include "app/pictures/frame_pictures.h"
 #include "app/pictures/given_frame.h"
 #include "app/pictures/image_file.h"
+#include "app/sweep/frame_map.h"
 #include "app/sweep/results_folder.h"
 #include "app/sweep/verb_outputs.h"
 #include "app/verbs/experiment_arguments.h"
@@ -22,6 +23,7 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "compare/judge/bounds.h"
+#include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
 #include "frames/judge.h"
 #include "raytrace/tracer.h"
@@ -143,6 +145,20 @@ void print_verdict(const Subject& subject, const FrameVerdict& verdict) {
                verdict.error.at(verdict.worst.x, verdict.worst.y), verdict.worst.x, verdict.worst.y);
 }
 
+// By the rungs of the frame's own map.
+void print_causes(const FrameVerdict& verdict, const Ladder& ladder) {
+  fmt::print("\n  the error by cause, from the frame's own map and its declared lookup\n");
+  PointRecord record;
+  record.causes = ladder.brought;
+  record.metrics = verdict.metrics;
+  for (const CauseColor& cause : causes_of({&record, 1}))
+    if (const auto found = verdict.metrics.find(std::string(cause.name));
+        found != verdict.metrics.end() && cause.name != "aliasing" && cause.name != "coverage")  // sums of others
+      fmt::print("  {:<14}{:>11.5f}%   {}\n", cause.name, 100 * found->second, cause.label);
+  fmt::print("  at {:.5f}% of the receivers the frame is not what that lookup gives\n",
+             100 * verdict.metrics.at("frame_lookup_differs"));
+}
+
 std::string judge_json(const Subject& subject, const FrameVerdict& verdict, const std::vector<BoundResult>& bounds,
                        const JudgeOptions& options, const std::string& out, int exit_code) {
   using Json = nlohmann::ordered_json;
@@ -176,7 +192,11 @@ int judge_one(const JudgeOptions& options) {
   for (const std::string& text : options.most) bounds.push_back(bound_of(text));
   const Subject subject = subject_of(options);
   const raytrace::Tracer tracer(subject.scene);
-  const FrameVerdict verdict = judge_frame(subject.scene, tracer, subject.frame, subject.rules);
+  FrameVerdict verdict = judge_frame(subject.scene, tracer, subject.frame, subject.rules);
+  std::optional<Ladder> climbed;
+  if (subject.frame.map && !verdict.refused())
+    climbed = FrameMap(subject.scene, tracer).climb(subject.frame, subject.rules.accepted.contains("map"), verdict);
+  const Ladder* const ladder = climbed ? &*climbed : nullptr;
 
   PointRecord record;
   record.metrics = verdict.metrics;
@@ -189,8 +209,8 @@ int judge_one(const JudgeOptions& options) {
 
   make_output_folder(outputs.folder);
   clear_abandoned_files(outputs.folder);
-  write_frame_pictures(verdict, subject.frame, outputs.folder, ".", "frame");
-  write_frame_exr(verdict, subject.frame, outputs.folder + "/frame.exr", "./frame.exr");
+  write_frame_pictures(verdict, subject.frame, ladder, outputs.folder, ".", "frame");
+  write_frame_exr(verdict, subject.frame, ladder, outputs.folder + "/frame.exr", "./frame.exr");
   const std::string json = judge_json(subject, verdict, judged, options, outputs.folder, exit_code);
   write_file_atomically(outputs.folder + "/judge.json", json);
   if (options.arguments.json) {
@@ -198,6 +218,7 @@ int judge_one(const JudgeOptions& options) {
     return exit_code;
   }
   print_verdict(subject, verdict);
+  if (ladder && !verdict.refused()) print_causes(verdict, *ladder);
   for (const BoundResult& bound : judged)
     fmt::print("{}  {}: {}, found {}\n", &bound == &judged.front() ? "\n" : "", bound.held ? "held" : "BROKEN",
                bound_text(bound), found_text(bound));

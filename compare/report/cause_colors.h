@@ -52,11 +52,11 @@ inline constexpr std::array<CauseColor, 4> flicker_colors{{
     {"flicker_coverage", 0, 158, 115, "Edge of the map"},
 }};
 
-// cause_colors (but of frames, which have no cause of ours), followed by the causes that rungs brought at these points (PointRecord::causes), whose texts the rows
-// refer to.
+// cause_colors, followed by the causes that rungs brought at these points (PointRecord::causes), whose texts the rows refer
+// to. Of frames of another renderer they are known only if a frame came with its own map.
 inline std::vector<CauseColor> causes_of(std::span<const PointRecord> points) {
   std::vector<CauseColor> causes;
-  if (!judges_frames(points)) causes.assign(cause_colors.begin(), cause_colors.end());
+  if (!judges_frames(points) || knows_causes(points)) causes.assign(cause_colors.begin(), cause_colors.end());
   for (const RungCause* cause : brought_causes(points))
     causes.push_back({cause->name, cause->color[0], cause->color[1], cause->color[2], cause->label});
   return causes;

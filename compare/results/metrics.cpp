@@ -299,6 +299,12 @@ constexpr Metric of_given_frames[] = {
      "occluder "
      "is further away than the contact distance.",
      true, false, false, true},
+    {"frame_lookup", "fraction",
+     "Of a frame with its own map: mean |frame - R5|, the part that the declared lookup of that map does not show.",
+     true, false, false, true},
+    {"frame_lookup_differs", "fraction",
+     "Of a frame with its own map: share of receivers at which the frame is off from R5 by more than a half.", true,
+     false, false, true},
 };
 
 // Mean, worst and best over the placements of the texel grid of each of these.

@@ -110,6 +110,11 @@ bool judges_frames(std::span<const PointRecord> points) {
   return !points.empty() && judged_rung(points.front()) == frame_rung;
 }
 
+bool knows_causes(std::span<const PointRecord> points) {
+  return std::any_of(points.begin(), points.end(),
+                     [](const PointRecord& point) { return point.metrics.contains("acne"); });
+}
+
 std::string error_metric(std::span<const PointRecord> points) {
   return judges_frames(points) ? "frame_error" : "error";
 }

@@ -48,6 +48,8 @@ bool is_free_name(std::string_view name);
 inline constexpr std::string_view frame_rung = "the frame";
 // Whether the points are frames of another renderer (frames/judge.h). All points of a store are, or none.
 bool judges_frames(std::span<const PointRecord> points);
+// Whether the causes of the ladder are known at a point: everywhere but in frames without their own map.
+bool knows_causes(std::span<const PointRecord> points);
 // The metric that is the error of a point: "error", or of a frame "frame_error".
 std::string error_metric(std::span<const PointRecord> points);
 // The name of the rung that is judged: "R5", or that of the rung on top of it.

@@ -8,9 +8,9 @@ export const width = number("width", 1280), height = number("height", 720);
 function send(name, body) {
   return fetch("/save/" + name, { method: "POST", body });
 }
-// An NPY file of floats: height x width, or height x width x channels. The top row first.
-export async function save(name, floats, channels = 1) {
-  const shape = channels === 1 ? `(${height}, ${width})` : `(${height}, ${width}, ${channels})`;
+// An NPY file of floats: rows x columns, or rows x columns x channels. Of a picture the top row comes first.
+export async function save(name, floats, channels = 1, columns = width, rows = height) {
+  const shape = channels === 1 ? `(${rows}, ${columns})` : `(${rows}, ${columns}, ${channels})`;
   let header = `{'descr': '<f4', 'fortran_order': False, 'shape': ${shape}, }`;
   header = header.padEnd(Math.ceil((header.length + 11) / 64) * 64 - 11) + "\n";
   const head = new Uint8Array(10 + header.length);

@@ -74,7 +74,12 @@ clearTimeout(timer);
 chromium.kill("SIGKILL");
 await new Promise((resolve) => (chromium.exitCode === null && chromium.signalCode === null ? chromium.on("exit", resolve) : resolve()));
 server.close();
-rmSync(profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 }); // its child processes end a little later
+for (let i = 0; i < 50 && existsSync(profile); ++i) // its child processes end a little later
+  try {
+    rmSync(profile, { recursive: true, force: true });
+  } catch {
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
 if (failure) {
   console.error(failure + "\n" + log.split("\n").filter((line) => line.includes("CONSOLE")).slice(-20).join("\n"));
   process.exit(1);

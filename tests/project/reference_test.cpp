@@ -109,7 +109,7 @@ TableLines frame_keys_table_lines() {
     constexpr std::string_view takes[] = {
         // in the order of FrameKeyKind
         "object",  "text",          "",           "number from 0 on", "number above 0",
-        "boolean", "three numbers", "three axes", "16 numbers",       "1"};
+        "boolean", "three numbers", "three axes", "16 numbers",       "settings by name", "1"};
     const std::string_view choices = key.choices;
     std::string kind(takes[static_cast<size_t>(key.kind)]);
     for (const char c : choices) kind += c == '|' ? " | " : std::string(1, c);

@@ -1,0 +1,101 @@
+#include "app/sweep/frame_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
+#include "frames/map_frame.h"
+#include "technique/setting_rules.h"
+
+namespace noonmark {
+namespace {
+
+Settings settings_of(const GivenMap& map, const Light& light, const Image<float>& picture) {
+  Settings settings;
+  for (const auto& [name, value] : map.technique) find_setting(name).set(settings, value);
+  settings.view.width_px = picture.width;
+  settings.view.height_px = picture.height;
+  settings.map.resolution = map.depth.width;
+  settings.map.format = DepthFormat::d32f;  // what is uploaded; the renderer's own rounding is in the numbers
+  settings.light.kind = light.kind == LightKind::spot ? LightChoice::spot : LightChoice::directional;
+  return settings;
+}
+
+Image<float> upside_down(const Image<float>& image) {
+  Image<float> made(image.width, image.height);
+  for (int y = 0; y < image.height; ++y) std::copy_n(&image.at(0, image.height - 1 - y), image.width, &made.at(0, y));
+  return made;
+}
+
+// Where x, y and w of clip space are 0; of an orthographic camera a point far behind the near plane.
+glm::dvec3 eye_of(const ViewMatrix& view, int width, int height) {
+  const glm::dmat4& m = view.clip_from_world();
+  const glm::dmat3 rows =
+      glm::transpose(glm::dmat3(glm::dvec3(m[0][0], m[1][0], m[2][0]), glm::dvec3(m[0][1], m[1][1], m[2][1]),
+                                glm::dvec3(m[0][3], m[1][3], m[2][3])));
+  const glm::dvec3 eye = glm::inverse(rows) * -glm::dvec3(m[3][0], m[3][1], m[3][3]);
+  if (std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z)) return eye;
+  return view.pixel_ray(width / 2, height / 2, width, height).origin;
+}
+
+// The technique of a file that cannot be is a mistake in the file.
+Technique technique_of(const GivenMap& given, const Light& light, const Image<float>& picture,
+                       const LightFrame& frame) {
+  try {
+    return Technique(settings_of(given, light, picture), frame);
+  } catch (const SettingConflict& conflict) {
+    throw Error(ErrorKind::file, fmt::format("{}: the technique of this map: {}", given.name, conflict.what()));
+  }
+}
+
+}  // namespace
+
+Ladder FrameMap::climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict) {
+  const GivenMap& given = *frame.map;
+  const MapFrame map = map_frame(given.name, verdict.light, given.clip_from_world, given.depth.width);
+  // Where the frame shows nothing there is no receiver.
+  ReceiverImage receivers = verdict.receivers;
+  ReceiverTruth truth = verdict.truth;
+  Image<float> picture = frame.visibility;
+  for (size_t i = 0; i < picture.size(); ++i)
+    if (std::isnan(picture[i])) {
+      receivers.primitive[i] = no_primitive;
+      truth.facing[i] = 0;
+      picture[i] = 0;
+    }
+  const int width = picture.width, height = picture.height;
+  GivenClimb climbed = lookup_.climb({.receivers = std::move(receivers),
+                                      .eye_m = eye_of(frame.view, width, height),
+                                      .truth = std::move(truth),
+                                      .technique = technique_of(given, frame.light, frame.visibility, map.frame),
+                                      .depth = map.mirrored ? upside_down(given.depth) : given.depth,
+                                      .frame = {.name = std::string(frame_rung),
+                                                .picture = std::move(picture),
+                                                .cause = std::string(frame_lookup),
+                                                .label = "Lookup (the frame is not the declared lookup of its map)",
+                                                .help = std::string(find_metric(frame_lookup).help)}});
+  CheckResult check = check_given_map(climbed.map_off_m, climbed.depth_spread_m);
+  check.accepted = accepted;
+  *std::find_if(verdict.checks.begin(), verdict.checks.end(),
+                [&](const CheckResult& one) { return one.name == check.name; }) = check;
+  if (verdict.refused()) return std::move(climbed.ladder);
+  // Of the ladder only its causes are said: the other metrics are about a technique of ours.
+  for (const Ladder::CauseImage& cause : climbed.ladder.causes)
+    if (const auto found = climbed.metrics.find(cause.name); found != climbed.metrics.end())
+      verdict.metrics.insert(*found);
+  const Image<float>& looked_up = climbed.ladder[Rung::shown];
+  double counted = 0, differ = 0;
+  for (size_t i = 0; i < looked_up.size(); ++i)
+    if (is_counted(climbed.ladder, i)) {
+      counted += 1;
+      differ += std::abs(climbed.ladder.shown()[i] - looked_up[i]) > 0.5f;
+    }
+  verdict.metrics["frame_lookup_differs"] = differ / counted;
+  return std::move(climbed.ladder);
+}
+
+}  // namespace noonmark

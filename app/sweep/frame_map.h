@@ -1,0 +1,30 @@
+// The causes of a frame whose own shadow map was handed over. It needs OpenGL.
+//
+//   FrameMap with_map(scene, tracer);
+//   const GivenClimb climb = with_map.climb(frame, verdict);
+#pragma once
+#include <optional>
+#include <string>
+
+#include "frames/judge.h"
+#include "measure/given_lookup.h"
+
+namespace noonmark {
+
+// The metric of the step from R5 to the frame (compare/results/metrics.h).
+inline constexpr std::string_view frame_lookup = "frame_lookup";
+
+class FrameMap {
+ public:
+  FrameMap(const Scene& scene, const raytrace::Tracer& tracer) : lookup_(scene, tracer) {}
+
+  // frame: with a map. verdict: gets the result of the check "map", and unless that refuses the frame the metrics: the causes
+  // of the ladder by their names, frame_lookup, frame_lookup_differs. Throws Error(file) if the map is not one of the
+  // frame's light. accepted: whether the check's failure is accepted.
+  Ladder climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict);
+
+ private:
+  GivenLookup lookup_;
+};
+
+}  // namespace noonmark

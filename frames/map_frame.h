@@ -1,0 +1,25 @@
+// The frame of a shadow map that another renderer drew, from its matrix.
+//
+//   const MapFrame map = map_frame(light_frame, given.clip_from_world, 2048);
+//   technique = Technique(settings, map.frame);
+#pragma once
+#include <glm/glm.hpp>
+#include <string>
+
+#include "technique/light_frame.h"
+
+namespace noonmark {
+
+struct MapFrame {
+  LightFrame frame;
+  // The renderer's map is mirrored: its v grows against the frame's up. The rows of its image must be reversed.
+  bool mirrored = false;
+};
+
+// light: the frame of the light that the truth was traced for; its rays stay. clip_from_world: OpenGL's clip space.
+// resolution: texels on a side. One square map of a directional light (orthographic), or of a spot light (perspective,
+// with its axis in the middle). Throws Error(file), which begins with `name`, if the matrix is another one, or if its
+// axis is not the light's.
+MapFrame map_frame(const std::string& name, const LightFrame& light, const glm::dmat4& clip_from_world, int resolution);
+
+}  // namespace noonmark

@@ -1,0 +1,84 @@
+#include "measure/given_lookup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/error.h"
+#include "compare/judge/soundness.h"
+#include "compare/ladder/measure.h"
+#include "measure/stages.h"
+
+namespace noonmark {
+namespace {
+
+// The inverse of MapTile::window_depth.
+double depth_m(const LightFrame& frame, double window_depth) {
+  const double near = frame.near_m, range = frame.far_m - frame.near_m;
+  return frame.uniform() ? near + window_depth * range : frame.far_m * near / (frame.far_m - window_depth * range);
+}
+
+// Reorders the values. share: from 0 to 1.
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+struct GivenLookup::Impl {
+  Impl(const Scene& of, const raytrace::Tracer& its) : scene(of), tracer(its) { renderer.load_scene(scene); }
+  const Scene& scene;
+  const raytrace::Tracer& tracer;
+  gl::Renderer renderer{gl::DebugMode::log};
+  Pipeline stages;
+};
+
+GivenLookup::GivenLookup(const Scene& scene, const raytrace::Tracer& tracer)
+    : impl_(std::make_unique<Impl>(scene, tracer)) {}
+GivenLookup::~GivenLookup() = default;
+
+GivenClimb GivenLookup::climb(const GivenPoint& point) {
+  gl::Renderer& renderer = impl_->renderer;
+  const Technique& technique = point.technique;
+  ViewStage view{.camera = {}, .receivers = point.receivers, .metrics = {}};
+  view.camera.eye_m = point.eye_m;
+  TruthStage truth;
+  truth.receivers = point.truth;
+  renderer.load_receivers(view.receivers, point.eye_m);
+  LookupStage lookup = impl_->stages.prepare_lookup(renderer, impl_->tracer, view, truth, technique);
+  MapStage map;
+  map.map.emplace(renderer.upload_map(point.depth, technique.settings.map));
+  const ShownStage shown = impl_->stages.show(renderer, map, lookup, truth, technique);
+  Climbed climbed = impl_->stages.climb_strips(renderer, lookup, view, truth, shown, technique, nullptr);
+  add_rung(climbed.ladder, point.frame);
+  GivenClimb made;
+  made.ladder = std::move(climbed.ladder);
+  const Image<float> occluders =
+      impl_->tracer.occluder_distance(view.receivers, technique.frame, peter_panning_mask(made.ladder));
+  made.metrics = measure_ladder({made.ladder, view.receivers, technique.frame, lookup.probe, technique.bias,
+                                 lookup.edge_distance_texels, occluders, technique.moves_casters()});
+  made.metrics.insert(climbed.soundness.begin(), climbed.soundness.end());
+  std::vector<double> off, depths;
+  for (size_t texel = 0; texel < lookup.exact_depth.depth.size(); ++texel) {
+    const double exact = depth_m(technique.frame, lookup.exact_depth[texel]);
+    depths.push_back(exact);
+    off.push_back(std::abs(depth_m(technique.frame, shown.stored[texel]) - exact));
+  }
+  made.map_off_m = quantile(off, 0.5);
+  made.depth_spread_m = quantile(depths, 0.95) - quantile(depths, 0.05);
+  for (const SoundLimit& limit : sound_limits)
+    if (const auto found = made.metrics.find(limit.metric); found != made.metrics.end() && found->second > limit.most)
+      throw Error(
+          ErrorKind::defect,
+          fmt::format("the lookup of the given map contradicts itself ({} = {:.6g}, a sound one has at most {:g})",
+                      limit.metric, found->second, limit.most));
+  return made;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,54 @@
+// The rungs below a frame of another renderer whose shadow map was handed over: its map is looked up by OpenGL as the frame
+// declares, and an exact map too, so that every cause of the ladder is known.
+//
+//   GivenLookup lookup(scene, tracer);
+//   GivenClimb climb = lookup.climb({receivers, eye, truth, technique, depth, {.name = "frame", .picture = visibility, ...}});
+//   climb.metrics.at("acne");
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/image.h"
+#include "compare/ladder/ladder.h"
+#include "compare/results/records.h"
+#include "raytrace/tracer.h"
+#include "scenes/receivers.h"
+#include "scenes/scene.h"
+#include "technique/technique.h"
+
+namespace noonmark {
+
+struct GivenPoint {
+  ReceiverImage receivers;
+  glm::dvec3 eye_m;     // the camera's position, for filters that grow with the distance
+  ReceiverTruth truth;  // of the receivers
+  Technique technique;  // with the frame of the map; its settings name the size of the picture
+  Image<float> depth;   // the map: window depth in [0,1], row 0 with the lowest v
+  RungOnTop frame;      // its picture is finite where receivers face the light
+};
+
+struct GivenClimb {
+  Ladder ladder;
+  // By compare/results/metrics.h: what measure_ladder() says of the frame and its causes, and of the map.
+  std::map<std::string, double> metrics;
+  // Over the texels that taps read, along the light: the median distance of the map's depths from the scene's, and
+  // how far apart nine tenths of the scene's are. NaN if none is read.
+  double map_off_m = 0, depth_spread_m = 0;
+};
+
+class GivenLookup {
+ public:
+  // Both must outlive this. Throws Error(device) where there is no OpenGL.
+  GivenLookup(const Scene& scene, const raytrace::Tracer& tracer);
+  ~GivenLookup();
+
+  // Throws Error(defect) if the measurement contradicts itself (compare/judge/soundness.h).
+  GivenClimb climb(const GivenPoint& point);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace noonmark
