@@ -108,17 +108,48 @@ FrameStatistics frame_statistics(const GivenFrame& frame, const ReceiverTruth& t
   // 1: counted and dark, 2: counted and lit, 0: not counted
   Image<uint8_t> state(counted.width, counted.height, 0);
   for (size_t i = 0; i < state.size(); ++i) state[i] = counted[i] ? static_cast<uint8_t>(1 + truth.lit[i]) : 0;
+  // 1: the frame is dark, 3: lit, 2: between or not counted
+  Image<uint8_t> shown(counted.width, counted.height, 2);
+  for (size_t i = 0; i < shown.size(); ++i)
+    if (counted[i]) shown[i] = frame.visibility[i] <= 0.02f ? 1 : frame.visibility[i] >= 0.98f ? 3 : 2;
+  // The same with what is not counted as neither.
+  Image<uint8_t> only_counted(counted.width, counted.height, 2);
+  for (size_t i = 0; i < state.size(); ++i)
+    if (state[i]) only_counted[i] = static_cast<uint8_t>(2 * state[i] - 1);
   const Extremes wide = extremes_within(state, FrameStatistics::deep_px),
-                 narrow = extremes_within(state, FrameStatistics::edge_px);
-  std::vector<double> deep[2], edge[2];
-  for (size_t i = 0; i < state.size(); ++i) {
-    if (!state[i]) continue;
-    const double value = frame.visibility[i];
-    const size_t lit = truth.lit[i];
-    if (wide.least[i] == state[i] && wide.most[i] == state[i]) deep[lit].push_back(value);
-    if (narrow.least[i] == 1 && narrow.most[i] == 2 && value > 0 && value < 1) edge[lit].push_back(value);
-  }
-  return {region_of(deep[1]), region_of(deep[0]), region_of(edge[1]), region_of(edge[0])};
+                 narrow = extremes_within(only_counted, FrameStatistics::edge_px),
+                 of_frame = extremes_within(shown, FrameStatistics::edge_px);
+  const auto between = [](double value) {
+    return value > FrameStatistics::between_low && value < FrameStatistics::between_high;
+  };
+  const auto is_deep = [&](size_t i) { return state[i] && wide.least[i] == state[i] && wide.most[i] == state[i]; };
+  std::vector<double> deep[2], filtered;
+  double step = 0, steps = 0, grey = 0;
+  for (int y = 0; y < state.height; ++y)
+    for (int x = 0; x < state.width; ++x) {
+      const size_t i = state.index(x, y);
+      if (!state[i]) continue;
+      const double value = frame.visibility[i];
+      const bool lit = truth.lit[i];
+      if (is_deep(i)) {
+        deep[lit].push_back(value);
+        if (lit) grey += between(value);
+        if (lit && x + 1 < state.width && state[i + 1] == 2 && is_deep(i + 1)) {
+          step += std::abs(frame.visibility[i + 1] - value);
+          ++steps;
+        }
+      }
+      if (narrow.least[i] == 1 && narrow.most[i] == 3 && of_frame.least[i] == 1 && of_frame.most[i] == 3 &&
+          between(value))
+        filtered.push_back(value);
+    }
+  FrameStatistics found{region_of(deep[1]), region_of(deep[0]), region_of(filtered)};
+  double variance = 0;
+  for (const double value : deep[1])
+    variance += (value - found.deep_lit.mean) * (value - found.deep_lit.mean) / static_cast<double>(deep[1].size());
+  if (steps > 0 && variance > 0) found.deep_lit_roughness = step / steps / std::sqrt(variance);
+  if (!deep[1].empty()) found.deep_lit_between = grey / static_cast<double>(deep[1].size());
+  return found;
 }
 
 double quantile(std::vector<double> values, double share) {

@@ -36,11 +36,18 @@ struct Region {
   double median = 0, low = 0, high = 0, mean = 0;  // low, high: the 5th and the 95th percentile. NaN without a pixel
 };
 
-// deep: R1 is the same at all counted pixels within `deep_px` of the pixel, and all of them are counted. edge: the pixel is
-// within `edge_px` of one whose R1 differs; only values between 0 and 1.
+// deep: R1 is the same at all counted pixels within `deep_px` of the pixel, and all of them are counted. filtered: the pixel
+// is beside a true edge, and the frame goes over it from 0 to 1: both truths and both values are within `edge_px`. Only
+// values between `between_low` and `between_high`.
 struct FrameStatistics {
   static constexpr int deep_px = 6, edge_px = 4;
-  Region deep_lit, deep_dark, edge_lit, edge_dark;
+  static constexpr float between_low = 0.1f, between_high = 0.9f;
+  Region deep_lit, deep_dark, filtered;
+  // Deep in true light: the mean step from a pixel to its neighbour over the standard deviation of the values, 0 if all are
+  // equal. Shading is smooth, acne is rough.
+  double deep_lit_roughness = 0;
+  // The share of the values deep in true light that are between.
+  double deep_lit_between = 0;
 };
 FrameStatistics frame_statistics(const GivenFrame& frame, const ReceiverTruth& truth, const Image<uint8_t>& counted);
 

@@ -176,7 +176,13 @@ bool is_inverted(const FrameStatistics& s) {
   return s.deep_dark.count >= enough && s.deep_lit.count >= enough && s.deep_dark.median > 0.5 &&
          s.deep_lit.median < 0.5;
 }
-bool is_shaded(const FrameStatistics& s) { return s.deep_lit.count >= enough && s.deep_lit.high < 0.95; }
+// Measured deep in true light: frames of five engines, with acne or without, 0.065 to 0.87; such a frame times N.L, 0.005 to
+// 0.09. Acne makes every surface darker too, but it changes from pixel to pixel.
+constexpr double most_smooth = 0.6;
+bool is_shaded(const FrameStatistics& s) {
+  return s.deep_lit.count >= enough && s.deep_lit.high < 0.995 && s.deep_lit.median < 0.95 &&
+         s.deep_lit_roughness < most_smooth;
+}
 constexpr const char* because_inverted = "light and shadow are exchanged";
 
 Outcome inverted(const CheckEvidence&, const FrameStatistics& s) {
@@ -222,19 +228,24 @@ Outcome match(const CheckEvidence&, const FrameStatistics& s) {
 }
 
 Outcome encoding(const CheckEvidence&, const FrameStatistics& s) {
-  if (s.edge_lit.count < enough || s.edge_dark.count < enough)
+  if (s.filtered.count < enough)
     return not_checked("the picture has too few pixels between lit and shadowed beside the shadows' edges");
-  // A filter is as much too light on the dark side of an edge as it is too dark on the lit side: the two means sum to 1. sRGB's
-  // transfer function lifts both.
-  const double excess = s.edge_lit.mean + s.edge_dark.mean - 1;
-  const std::string found = fmt::format(
-      "beside the shadows' edges the values between 0 and 1 have the mean {:.3f} on the lit side and {:.3f} on the "
-      "dark side",
-      s.edge_lit.mean, s.edge_dark.mean);
-  if (excess > 0.2 && s.deep_dark.median < 0.02)
+  // Acne has values of its own between 0 and 1.
+  if (s.deep_lit_between > 0.01)
+    return not_checked(
+        fmt::format("{:.1f}% of the pixels deep in true light are between lit and shadowed, so what is beside "
+                    "the edges is not the filter's alone",
+                    100 * s.deep_lit_between));
+  // A filter goes over an edge as long below one half as above it, wherever the bias moved the edge. sRGB's transfer function
+  // lifts all values. Measured: linear frames of five engines 0.457 to 0.532; the same as sRGB 0.50 to 0.70, above 0.57
+  // where the filter is wider than two pixels.
+  const std::string found =
+      fmt::format("beside the shadows' edges the values between {:g} and {:g} have the mean {:.3f}",
+                  FrameStatistics::between_low, FrameStatistics::between_high, s.filtered.mean);
+  if (s.filtered.mean > 0.57)
     return failed(found +
-                  ", which sum to more than 1: the values are encoded as sRGB; write them linear, or declare the "
-                  "encoding");
+                  ", and a filter's are symmetric about one half: the values are encoded as sRGB; write them "
+                  "linear, or declare the encoding");
   return passed(found);
 }
 

@@ -133,6 +133,47 @@ TEST(Checks, AShadedFrameIsNamed) {
                "shaded frame");
 }
 
+// Times N.L, which is 1 where a surface faces the light.
+TEST(Checks, AFrameThatIsShadedByItsCosineIsNamed) {
+  GivenFrame frame = good().frame;
+  const glm::dvec3 to_light = glm::normalize(frame.light.position_m - frame.light.target_m);
+  for (size_t i = 0; i < frame.visibility.size(); ++i)
+    frame.visibility[i] *=
+        static_cast<float>(std::max(0.0, glm::dot(glm::dvec3(good().receivers.normal[i]), to_light)));
+  expect_named(frame, "shaded", "shaded frame");
+}
+
+// A number in [0,1) that looks random.
+float noise(size_t i) { return static_cast<float>((i * 2654435761u >> 8) % 1000) / 1000; }
+
+// Acne that a filter has softened darkens every lit surface, as shading does.
+TEST(Checks, AcneIsNeitherShadingNorSrgb) {
+  GivenFrame everywhere = good().frame, weak = good().frame;
+  for (size_t i = 0; i < everywhere.visibility.size(); ++i) {
+    if (std::isnan(everywhere.visibility[i]) || !good().truth.lit[i]) continue;
+    everywhere.visibility[i] *= 0.6f + 0.3f * noise(i);
+    if (i % 20 == 0) weak.visibility[i] *= 0.9f + 0.09f * noise(i);
+  }
+  for (const GivenFrame& frame : {everywhere, weak}) {
+    const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
+    for (const CheckResult& check : verdict.checks) EXPECT_NE(check.state, CheckState::failed) << check.says;
+    EXPECT_GT(verdict.metrics.at("frame_acne"), 1e-3);
+  }
+}
+
+// A bias moves the shadow's edge, so the dark side has more of the filter's values than the lit side.
+TEST(Checks, AMovedEdgeIsNotSrgb) {
+  GivenFrame frame = good().frame;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x + 2 < width; ++x) {
+      const float from = good().frame.visibility.at(x + 2, y);
+      if (!std::isnan(frame.visibility.at(x, y)) && !std::isnan(from)) frame.visibility.at(x, y) = from;
+    }
+  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
+  EXPECT_NE(check_named(verdict, "encoding").state, CheckState::failed) << check_named(verdict, "encoding").says;
+  EXPECT_NE(check_named(verdict, "shaded").state, CheckState::failed) << check_named(verdict, "shaded").says;
+}
+
 TEST(Checks, AnIntensityBelowOneIsNamed) {
   expect_named(with(each_value(good().frame.visibility, [](float v) { return 0.5f + 0.5f * v; })), "intensity",
                "intensity");
