@@ -13,6 +13,7 @@
 #include "base/suggestion.h"
 #include "frames/frame_keys.h"
 #include "scenes/camera_fit.h"
+#include "scenes/library.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -225,6 +226,12 @@ void read_map(const std::string& path, const Object& map, const Json& json, Fram
 void read_camera(const Object& camera, FrameFile& file) {
   if (!camera) return;
   file.clip_from_frame = read_matrices(camera, file.convention);
+  file.camera_name = camera.text("name");
+  if (file.camera_name) {
+    if (file.clip_from_frame || camera.has("eye") || camera.has("target"))
+      camera.refuse_together("give a name, or matrices, or eye and target");
+    return;
+  }
   if (file.clip_from_frame) {
     if (camera.has("eye") || camera.has("target")) camera.refuse_together("give matrices, or eye and target, not both");
     return;
@@ -256,8 +263,20 @@ void read_camera(const Object& camera, FrameFile& file) {
 
 void read_light(const Object& light, FrameFile& file) {
   if (!light) return;
-  light.require("kind", "it is directional, spot or point");
+  const auto read_size = [&](Light& l, double scale) {
+    l.angular_diameter_deg = light.number("angular_diameter_deg").value_or(0);
+    l.radius_m = light.number("radius").value_or(0) * scale;
+    l.shape = light.is("shape", "disc") ? LightShape::disc : LightShape::sphere;
+  };
+  file.light_name = light.text("name");
   Light& l = file.light.emplace();
+  if (file.light_name) {
+    for (const char* key : {"kind", "direction", "position", "target", "cone_deg"})
+      if (light.has(key)) light.refuse_together("give a name, or the light itself");
+    read_size(l, glm::length(glm::dvec3(file.world_from_frame[0])));
+    return;
+  }
+  light.require("kind", "it is directional, spot or point");
   l.kind = light.is("kind", "directional") ? LightKind::directional
            : light.is("kind", "spot")      ? LightKind::spot
                                            : LightKind::point;
@@ -280,9 +299,7 @@ void read_light(const Object& light, FrameFile& file) {
     }
   }
   l.cone_deg = light.number("cone_deg").value_or(l.cone_deg);
-  l.angular_diameter_deg = light.number("angular_diameter_deg").value_or(0);
-  l.radius_m = light.number("radius").value_or(0) * scale;
-  l.shape = light.is("shape", "disc") ? LightShape::disc : LightShape::sphere;
+  read_size(l, scale);
   if (l.kind == LightKind::spot) light.require("cone_deg", "beyond it nothing is lit");
 }
 
@@ -300,6 +317,15 @@ void read_rules(const Object& edge, const Object& contact, double scale, FrameFi
   if (contact) {
     contact.require("distance", "a length along the light's ray");
     file.contact_m = *contact.number("distance") * scale;
+  }
+}
+
+// What the scene has by this name. A wrong one is a mistake in this file.
+auto named(const std::string& path, const char* key, const auto& find) {
+  try {
+    return find();
+  } catch (const Error& error) {
+    refuse(path, fmt::format("'{}': {}", key, error.what()));
   }
 }
 
@@ -344,6 +370,15 @@ FrameFile parse_frame_file(const std::string& path, std::string_view text) {
   return file;
 }
 
+Light FrameFile::light_in(const Scene& scene) const {
+  if (!light_name) return light.value_or(scene.light);
+  Light found = named(path, "light.name", [&] { return light_named(scene, *light_name); });
+  found.angular_diameter_deg = light->angular_diameter_deg;
+  found.radius_m = light->radius_m;
+  found.shape = light->shape;
+  return found;
+}
+
 glm::dmat4 FrameFile::map_from_world() const {
   return from_convention(map->clip_from_frame, map->convention) * glm::inverse(world_from_frame);
 }
@@ -351,7 +386,9 @@ glm::dmat4 FrameFile::map_from_world() const {
 ViewMatrix FrameFile::view(const Scene& scene, int width, int height) const {
   if (clip_from_frame)
     return ViewMatrix(from_convention(*clip_from_frame, convention) * glm::inverse(world_from_frame));
-  Camera c = camera ? *camera : scene.camera;
+  Camera c = camera        ? *camera
+             : camera_name ? named(path, "camera.name", [&] { return camera_named(scene, *camera_name); })
+                           : scene.camera;
   if (!c.near_m || !c.far_m) {
     const Camera fitted = with_fitted_depths(scene, c, width, height);
     c.near_m = c.near_m ? c.near_m : fitted.near_m;

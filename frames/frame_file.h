@@ -45,8 +45,10 @@ struct FrameFile {
 
   std::optional<glm::dmat4> clip_from_frame;  // as given, of the convention below
   ClipConvention convention;
-  std::optional<Camera> camera;  // given by eye and target, in the scene's coordinates
-  std::optional<Light> light;    // in the scene's coordinates; empty: the scene's
+  std::optional<Camera> camera;            // given by eye and target, in the scene's coordinates
+  std::optional<std::string> camera_name;  // of the scene's file
+  std::optional<Light> light;              // in the scene's coordinates; empty: the scene's
+  std::optional<std::string> light_name;   // of the scene's file; then `light` gives its size alone
 
   std::optional<MapFile> map;
 
@@ -54,8 +56,9 @@ struct FrameFile {
 
   // The matrix of the map, from the scene's coordinates to OpenGL's clip space. Only if there is a map.
   glm::dmat4 map_from_world() const;
-  // Of a scene that gives the camera where the file gives none.
+  // Of a scene that gives the camera or the light where the file gives none, or a name. Throw Error(file).
   ViewMatrix view(const Scene& scene, int width, int height) const;
+  Light light_in(const Scene& scene) const;
 };
 
 // Throws Error(file) that names the key.

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/suggestion.h"
 #include "base/text.h"
 #include "scenes/builtin.h"
 #include "scenes/floor.h"
@@ -37,6 +38,29 @@ Scene scene_as_built(const SceneSettings& settings) {
                   settings.name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
 
+template <class T>
+const T& value_named(const std::vector<Named<T>>& all, std::string_view name, std::string_view what,
+                     const std::string& scene) {
+  const Named<T>* found = nullptr;
+  std::vector<std::string_view> names;
+  for (const Named<T>& one : all) {
+    for (const std::string_view own : {std::string_view(one.node), std::string_view(one.name)})
+      if (!own.empty()) names.push_back(own);
+    if (one.node != name && one.name != name) continue;
+    if (found)
+      throw Error(ErrorKind::usage,
+                  fmt::format("{} has two {}s with the name '{}'; give them names of their own", scene, what, name));
+    found = &one;
+  }
+  if (!found)
+    throw Error(ErrorKind::usage,
+                fmt::format("{} has no {} with the name '{}'{}{}", scene, what, name, did_you_mean(name, names),
+                            names.empty() ? fmt::format("; it has no named {}", what)
+                                          : fmt::format("; it has {}", fmt::join(names, ", "))));
+  if (!found->value) throw Error(ErrorKind::usage, found->why_not);
+  return *found->value;
+}
+
 // Of what remeshed makes, before it is made: tiles turn each triangle into 64.
 void require_room(const SceneSettings& settings, const Scene& scene) {
   const SceneSize size = remeshed_size(scene, settings.mesh);
@@ -58,6 +82,14 @@ void require_room(const SceneSettings& settings, const Scene& scene) {
 
 bool names_file(std::string_view scene_name) {
   return ends_with_any_case(scene_name, ".gltf") || ends_with_any_case(scene_name, ".glb");
+}
+
+const Camera& camera_named(const Scene& scene, std::string_view name) {
+  return value_named(scene.cameras, name, "camera", scene.name);
+}
+
+const Light& light_named(const Scene& scene, std::string_view name) {
+  return value_named(scene.lights, name, "light", scene.name);
 }
 
 std::string notes_line(const Scene& scene) {

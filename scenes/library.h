@@ -22,6 +22,11 @@ bool names_file(std::string_view scene_name);
 // used.
 Scene make_scene(const SceneSettings& settings);
 
+// A camera or a light of the scene's file, by the name of its node or its own. Throws Error(usage) with the nearest name, or
+// with the reason why it cannot be used.
+const Camera& camera_named(const Scene& scene, std::string_view name);
+const Light& light_named(const Scene& scene, std::string_view name);
+
 // "street: 2 animations at rest (...); 1 primitive of lines left out": the scene's notes as one line; empty without
 // any.
 std::string notes_line(const Scene& scene);

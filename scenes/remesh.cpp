@@ -220,9 +220,19 @@ Scene remeshed(Scene scene, MeshForm form, const Placement& placement) {
     cut_each(scene, form, placed);
   else
     for (glm::vec3& p : scene.positions) p = glm::vec3(placed(p));
-  for (glm::dvec3* p : {&scene.camera.eye_m, &scene.camera.target_m, &scene.light.position_m, &scene.light.target_m})
-    *p = placed(*p);
-  if (!stays) scene.camera.up = glm::dvec3(motion * glm::dvec4(scene.camera.up, 0));
+  const auto move_camera = [&](Camera& camera) {
+    for (glm::dvec3* p : {&camera.eye_m, &camera.target_m}) *p = placed(*p);
+    if (!stays) camera.up = glm::dvec3(motion * glm::dvec4(camera.up, 0));
+  };
+  const auto move_light = [&](Light& light) {
+    for (glm::dvec3* p : {&light.position_m, &light.target_m}) *p = placed(*p);
+  };
+  move_camera(scene.camera);
+  move_light(scene.light);
+  for (Named<Camera>& one : scene.cameras)
+    if (one.value) move_camera(*one.value);
+  for (Named<Light>& one : scene.lights)
+    if (one.value) move_light(*one.value);
 
   switch (form) {
     case MeshForm::as_built:

@@ -76,6 +76,14 @@ struct MapVolume {
   double far_m = 10;
 };
 
+// A camera or a light of a scene's file. Either name finds it (camera_named(), light_named() of scenes/library.h).
+template <class T>
+struct Named {
+  std::string node, name;  // of its node, and its own; "": it has none
+  std::optional<T> value;  // empty: it cannot be used
+  std::string why_not;     // then the reason
+};
+
 struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;   // world, metres, all finite
@@ -90,6 +98,9 @@ struct Scene {
   double mask_error_m = 0;
   Camera camera;
   Light light;
+  // All that the scene's file has, in its order. The first that can be used are `camera` and `light`. Empty: built in.
+  std::vector<Named<Camera>> cameras;
+  std::vector<Named<Light>> lights;
   std::optional<MapVolume> map;  // the scene's own choice; without one the map is fitted tightly to the scene
   // For people: one phrase for each thing that the scene's file holds and Noonmark does not model, and for each choice
   // that the file leaves open.

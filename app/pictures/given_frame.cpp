@@ -159,7 +159,7 @@ GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
                    .visibility = std::move(visibility),
                    .positions = {},
                    .view = file.view(scene, width, height),
-                   .light = file.light.value_or(scene.light)};
+                   .light = file.light_in(scene)};
   if (file.positions) {
     frame.receivers = GivenReceivers::positions;
     const std::string of_positions = path_in(file, *file.positions);

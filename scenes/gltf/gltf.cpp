@@ -43,12 +43,12 @@ Model load_model(const std::string& path, const Pose& pose, bool masks) {
     }
     gltf::note_contents(document, placement.nodes, masks, scene.notes);
     ModelContents contents = gltf::count_contents(document);
-    const std::optional<Camera> camera = gltf::find_camera(document, placement.nodes, scene);
-    scene.camera = camera ? *camera : fit_camera(scene);
-    const std::optional<Light> light = gltf::find_light(document, placement.nodes, scene);
-    scene.light = light ? *light : fit_light(scene);
-    contents.gives_camera = camera.has_value();
-    contents.gives_light = light.has_value();
+    scene.cameras = gltf::find_cameras(document, placement.nodes, scene);
+    contents.gives_camera = !scene.cameras.empty();
+    scene.camera = contents.gives_camera ? *scene.cameras.front().value : fit_camera(scene);
+    scene.lights = gltf::find_lights(document, placement.nodes, scene);
+    contents.gives_light = !scene.lights.empty();
+    scene.light = contents.gives_light ? *scene.lights.front().value : fit_light(scene);
     return {std::move(scene), contents};
   } catch (const std::bad_alloc&) {
     gltf::refuse(path, "", "does not fit into memory", "simplify it, or use a machine with more");

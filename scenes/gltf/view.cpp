@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "scenes/fit.h"
 #include "scenes/gltf/error.h"
 #include "scenes/gltf/notes.h"
@@ -29,37 +30,28 @@ double cone_deg(const tinygltf::SpotLight& spot) {
   return by_default ? 90 : 2 * glm::degrees(spot.outerConeAngle);
 }
 
-}  // namespace
-
-std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
-  const auto has_camera = [&](const PlacedNode& n) {
-    return !n.collapsed && document.model.nodes[n.node].camera != -1;
-  };
-  const auto found = std::find_if(nodes.begin(), nodes.end(), has_camera);
-  if (found == nodes.end()) return std::nullopt;
-  if (const auto more = static_cast<uint64_t>(std::count_if(found + 1, nodes.end(), has_camera)); more > 0)
-    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, "camera"), is_or_are(more)));
-  const auto index = static_cast<size_t>(document.model.nodes[found->node].camera);
+Camera camera_at(const Document& document, const PlacedNode& placed, const Scene& scene) {
+  const auto index = static_cast<size_t>(document.model.nodes[placed.node].camera);
   if (const auto unknown = document.guarded.unknown_cameras.find(index);
       unknown != document.guarded.unknown_cameras.end()) {
     refuse(document.file, fmt::format("cameras[{}]", index), unknown->second, "remove the camera, or correct it");
   }
-  require_invertible(document, *found);
+  require_invertible(document, placed);
   const tinygltf::Camera& from = document.model.cameras[index];
   Camera camera;
-  camera.eye_m = origin_of(*found);
+  camera.eye_m = origin_of(placed);
   // Any point ahead can be the target. The one nearest to the scene's middle is the one that people expect.
   const Sphere sphere = bounding_sphere(scene);
-  const glm::dvec3 forward = forward_of(*found);
+  const glm::dvec3 forward = forward_of(placed);
   // A transform that shears can make the camera's up parallel to its view. Then the picture has no upright direction.
   constexpr double least_sine = 1e-3;
-  if (!(glm::length(glm::cross(forward, up_of(*found))) > least_sine)) {
-    refuse(document.file, fmt::format("nodes[{}].camera", found->node), "its up and its view are almost parallel",
+  if (!(glm::length(glm::cross(forward, up_of(placed))) > least_sine)) {
+    refuse(document.file, fmt::format("nodes[{}].camera", placed.node), "its up and its view are almost parallel",
            "give the camera's node a rotation and a translation only");
   }
   const double ahead = glm::dot(sphere.centre_m - camera.eye_m, forward);
   camera.target_m = camera.eye_m + forward * std::max(ahead, 1.0);
-  camera.up = up_of(*found);
+  camera.up = up_of(placed);
   if (from.type == "orthographic") {
     camera.projection = Projection::orthographic;
     camera.height_m = 2 * from.orthographic.ymag;
@@ -73,25 +65,20 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
   return camera;
 }
 
-std::optional<Light> find_light(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
-  const auto lights = [&](const PlacedNode& n) { return n.shown() && light_of(document, n) != nullptr; };
-  const auto found = std::find_if(nodes.begin(), nodes.end(), lights);
-  if (found == nodes.end()) return std::nullopt;
-  if (const auto more = static_cast<uint64_t>(std::count_if(found + 1, nodes.end(), lights)); more > 0)
-    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, "light"), is_or_are(more)));
-  const tinygltf::Light& from = *light_of(document, *found);
+Light light_at(const Document& document, const PlacedNode& placed, const Scene& scene) {
+  const tinygltf::Light& from = *light_of(document, placed);
   if (from.type != "directional" && from.type != "point" && from.type != "spot") {
-    refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),
+    refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", placed.node),
            fmt::format("its type '{}' is not one of directional, point, spot", printable(from.type)),
            "remove the light, or correct it");
   }
-  require_invertible(document, *found);
+  require_invertible(document, placed);
   const Sphere sphere = bounding_sphere(scene);
-  const glm::dvec3 forward = forward_of(*found);
+  const glm::dvec3 forward = forward_of(placed);
   if (from.type == "directional") return directional_light(sphere, forward);
 
   Light light;
-  light.position_m = origin_of(*found);
+  light.position_m = origin_of(placed);
   const glm::dvec3 to_middle = sphere.centre_m - light.position_m;
   if (from.type == "point") {
     light.kind = LightKind::point;
@@ -105,12 +92,52 @@ std::optional<Light> find_light(const Document& document, const std::vector<Plac
   // The same range as that of the setting light.cone_deg.
   constexpr double least_cone_deg = 1, largest_cone_deg = 170;
   if (!(light.cone_deg >= least_cone_deg && light.cone_deg <= largest_cone_deg)) {
-    refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),
+    refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", placed.node),
            fmt::format("a spot light with a cone of {:.6g} degrees; a shadow map can cover {} to {}", light.cone_deg,
                        least_cone_deg, largest_cone_deg),
            "change its outerConeAngle, or make it a point light");
   }
   return light;
+}
+
+// All nodes that hold one, in the file's order. The first must be one that can be used: its mistake is thrown.
+template <class T, class Holds, class At, class Name>
+std::vector<Named<T>> find_all(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene,
+                               const char* what, const Holds& holds, const At& at, const Name& own_name) {
+  std::vector<Named<T>> found;
+  for (const PlacedNode& placed : nodes) {
+    if (!holds(placed)) continue;
+    Named<T> one{document.model.nodes[placed.node].name, own_name(placed), {}, ""};
+    try {
+      one.value = at(document, placed, scene);
+    } catch (const Error& error) {
+      if (found.empty()) throw;
+      one.why_not = error.what();
+    }
+    found.push_back(std::move(one));
+  }
+  if (found.size() > 1) {
+    const uint64_t more = found.size() - 1;
+    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, what), is_or_are(more)));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Named<Camera>> find_cameras(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+  const auto camera_of = [&](const PlacedNode& placed) { return document.model.nodes[placed.node].camera; };
+  return find_all<Camera>(
+      document, nodes, scene, "camera",
+      [&](const PlacedNode& placed) { return !placed.collapsed && camera_of(placed) != -1; }, camera_at,
+      [](const PlacedNode&) { return std::string(); });  // tinygltf 2.7 does not read it
+}
+
+std::vector<Named<Light>> find_lights(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+  return find_all<Light>(
+      document, nodes, scene, "light",
+      [&](const PlacedNode& placed) { return placed.shown() && light_of(document, placed) != nullptr; }, light_at,
+      [&](const PlacedNode& placed) { return light_of(document, placed)->name; });
 }
 
 }  // namespace noonmark::gltf

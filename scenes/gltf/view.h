@@ -1,6 +1,5 @@
-// The camera and the light of the scene that is shown.
+// The cameras and the lights of the scene that is shown.
 #pragma once
-#include <optional>
 #include <vector>
 
 #include "scenes/gltf/nodes.h"
@@ -8,16 +7,17 @@
 
 namespace noonmark::gltf {
 
-// The first camera of the placed nodes, also of an invisible node; nothing if there is none. An infinite perspective
-// has no far plane, so far is fitted. Aspect ratio and xmag are not used, because the user chooses the picture's shape.
-// Other cameras are left out, with a note. Throws Error(file) if a shear makes the camera's up parallel to its view.
-std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);
+// The cameras of the placed nodes, also of invisible nodes. Aspect ratio and xmag are not used, because the user chooses
+// the picture's shape; an infinite perspective has no far plane, so far is fitted. If there are several, a note says that
+// the first is used. Throws Error(file) if a shear makes the first camera's up parallel to its view; a later camera of this
+// kind has no value.
+std::vector<Named<Camera>> find_cameras(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);
 
-// The first light of the visible nodes, of any kind; nothing if there is none. Other lights are left out, with a note,
-// because one light at a time is measured. innerConeAngle, range, colour and intensity are not read, because only the
+// The lights of the visible nodes, of any kind. If there are several, a note says that the first is used, because one light
+// at a time is measured. innerConeAngle, range, colour and intensity are not read, because only the
 // visibility of a light is measured. A directional light gets a position outside the scene. A spot light's target is
-// the point on its axis nearest to the scene's middle, or 1 m ahead. Throws Error(file) if a spot's cone is wider or
-// narrower than a shadow map can cover.
-std::optional<Light> find_light(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);
+// the point on its axis nearest to the scene's middle, or 1 m ahead. Throws Error(file) if the first light is a spot whose
+// cone is wider or narrower than a shadow map can cover; a later light of this kind has no value.
+std::vector<Named<Light>> find_lights(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);
 
 }  // namespace noonmark::gltf

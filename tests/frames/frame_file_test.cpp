@@ -53,6 +53,40 @@ void expect_same_rays(const ViewMatrix& a, const ViewMatrix& b, const std::strin
   }
 }
 
+TEST(FrameFile, ACameraAndALightOfTheSceneAreTakenByName) {
+  Scene scene = make_scene({.name = "cube-room"});
+  Camera side = scene.camera;
+  side.eye_m = {7, 3, 1};
+  Light lamp;
+  lamp.kind = LightKind::point;
+  lamp.position_m = {1, 2, 3};
+  scene.cameras = {{"front", "", scene.camera, ""}, {"side", "", side, ""}};
+  scene.lights = {{"sun", "", scene.light, ""}, {"ceiling", "lamp", lamp, ""}};
+  Json json = least();
+  json["camera"] = {{"name", "side"}};
+  json["light"] = {{"name", "lamp"}, {"radius", 0.25}};
+  const FrameFile file = parse_frame_file("frame.json", json.dump());
+  scene.camera = side;
+  expect_same_rays(file.view(scene, 160, 90), view_of(scene, 160, 90), "by name");
+  EXPECT_EQ(file.light_in(scene).position_m, lamp.position_m);
+  EXPECT_EQ(file.light_in(scene).radius_m, 0.25);
+  json["light"]["name"] = "lump";
+  const FrameFile wrong = parse_frame_file("frame.json", json.dump());
+  try {
+    wrong.light_in(scene);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::file);
+    EXPECT_NE(std::string(error.what()).find("frame.json: 'light.name': "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("did you mean 'lamp'"), std::string::npos) << error.what();
+  }
+  json["light"]["kind"] = "point";
+  EXPECT_NE(fault_of(json).find("give a name, or the light itself"), std::string::npos);
+  json.erase("light");
+  json["camera"]["eye"] = {1, 2, 3};
+  EXPECT_NE(fault_of(json).find("give a name, or matrices"), std::string::npos);
+}
+
 TEST(FrameFile, EveryConventionOfAMatrixIsTheSameCamera) {
   const Scene scene = make_scene({.name = "cube-room"});
   const ViewMatrix view = view_of(scene, 160, 90);

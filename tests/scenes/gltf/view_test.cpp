@@ -2,6 +2,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/error.h"
 #include "scenes/camera_fit.h"
 #include "scenes/fit.h"
 #include "scenes/library.h"
@@ -99,6 +100,42 @@ TEST_F(GltfView, TheFirstLightInTheScenesOrderIsTaken) {
   // A light that is not used may have a cone that is too wide for a map.
   d["extensions"]["KHR_lights_punctual"]["lights"][0] = {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.57}}}};
   EXPECT_EQ(load(d).light.kind, LightKind::directional);
+}
+
+TEST_F(GltfView, CamerasAndLightsAreFoundByTheirNames) {
+  json d = with_lights({{{"type", "point"}, {"name", "lamp"}}, {{"type", "directional"}, {"name", "sun"}}},
+                       {{"translation", {5, 5, 5}}, {"name", "ceiling"}});
+  d["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
+  d["nodes"].push_back({{"name", "sky"}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+  d["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.5}, {"znear", 0.25}}}},
+                  {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}}};
+  d["nodes"].push_back({{"camera", 0}, {"name", "wide"}, {"translation", {0, 0, 9}}});
+  d["nodes"].push_back({{"camera", 1}, {"name", "door"}, {"translation", {0, 1, 9}}});
+  const Scene s = load(d);
+  for (const char* name : {"lamp", "ceiling"}) EXPECT_EQ(light_named(s, name).kind, LightKind::point);
+  for (const char* name : {"sun", "sky"}) EXPECT_EQ(light_named(s, name).kind, LightKind::directional);
+  EXPECT_EQ(camera_named(s, "wide").eye_m, glm::dvec3(0, 0, 9));
+  EXPECT_EQ(camera_named(s, "door").eye_m, glm::dvec3(0, 1, 9));
+  EXPECT_EQ(s.light.kind, LightKind::point);
+  EXPECT_EQ(s.camera.eye_m, glm::dvec3(0, 0, 9));
+  const auto fault = [&](const json& document, const char* light) -> std::string {
+    try {
+      light_named(load(document), light);
+      return "";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(fault(d, "sin"),
+            "scene has no light with the name 'sin'; did you mean 'sun'?; it has ceiling, lamp, sky, sun");
+  // A later light that a map cannot cover, and two of one name.
+  d["extensions"]["KHR_lights_punctual"]["lights"][1] = {
+      {"type", "spot"}, {"name", "sun"}, {"spot", {{"outerConeAngle", 1.57}}}};
+  EXPECT_NE(fault(d, "sun").find("a shadow map can cover"), std::string::npos) << fault(d, "sun");
+  EXPECT_EQ(fault(d, "lamp"), "");
+  d["nodes"][2]["name"] = "ceiling";
+  EXPECT_NE(fault(d, "ceiling").find("two lights"), std::string::npos);
+  EXPECT_EQ(fault(square(), "sun"), "scene has no light with the name 'sun'; it has no named light");
 }
 
 TEST_F(GltfView, SpotStandsAndLooksAsItsNode) {
