@@ -350,8 +350,7 @@ PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup
   return times;
 }
 
-Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
-                               std::optional<RungOnTop> on_top) {
+Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {
   Impl& b = *impl_;
   const Impl::Asked asked = b.begin(settings);
   const SceneStage& loaded = asked.loaded;
@@ -367,7 +366,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   MapStage& map = b.drawn(scene, technique, asked.keys.map);
   ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, technique);
 
-  const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
+  const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
   // Only for a curve that is not known yet.
@@ -383,7 +382,6 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   }
   Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, truth, shown, technique, unknown, each_strip);
   if (placements) placements->finish();
-  if (on_top) add_rung(climbed.ladder, std::move(*on_top));
   Measurement m{{},           technique, std::move(climbed.ladder), view.camera,        scene, view.receivers,
                 lookup.probe, {},        std::move(shown.stored),   lookup.exact_depth, {}};
   m.record = record_of(m, *loaded.tracer, view, truth, lookup, climbed.soundness);

@@ -53,11 +53,9 @@ class Workbench {
                      std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>());
   ~Workbench();
 
-  // on_top: a picture that is judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
-  // one (curve_part), or if there is a picture on top, because no bias changes that. The record has no metric that is a
+  // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). The record has no metric that is a
   // time: see measure/pass_times.h. Throws Error.
-  Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
-                      std::optional<RungOnTop> on_top = {});
+  Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve);
 
   // One sample of the time of each pass that is asked for. The images of the last measurement may be gone afterwards.
   // Throws Error.

@@ -169,23 +169,6 @@ DecodedImage read_image(const std::string& path) {
   return std::move(result.image);
 }
 
-Image<float> read_grey(const std::string& path, int width, int height) {
-  const DecodedImage image = read_image(path);
-  const auto refuse = [&](const std::string& why) { throw Error(ErrorKind::file, fmt::format("{}: {}", path, why)); };
-  if (image.width != width || image.height != height)
-    refuse(
-        fmt::format("has {} x {} pixels, but the point's picture has {} x {}; write it in that size, or set "
-                    "view.width_px and view.height_px to its size",
-                    image.width, image.height, width, height));
-  Image<float> grey(width, height);
-  grey.pixels = grey_values(image);
-  if (image.alpha)
-    for (size_t i = 0; i < image.pixels(); ++i)
-      if (image.at(i, *image.alpha) != 1)
-        refuse("has an alpha channel that is not 1 everywhere; remove the alpha channel");
-  return grey;
-}
-
 std::vector<float> grey_values(const DecodedImage& image) {
   const auto refuse = [&](const char* why) { throw Error(ErrorKind::file, fmt::format("{}: {}", image.path, why)); };
   std::vector<size_t> colours;

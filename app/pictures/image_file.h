@@ -63,7 +63,4 @@ DecodedImage read_image(const std::string& path);
 // The values of the one channel beside alpha, or of three equal ones. Throws Error(file) if there are others.
 std::vector<float> grey_values(const DecodedImage& image);
 
-// The same of a picture of this size, whose alpha channel, if there is one, must be 1 everywhere. Throws Error(file).
-Image<float> read_grey(const std::string& path, int width, int height);
-
 }  // namespace noonmark

@@ -58,6 +58,18 @@ std::string as_setting(const std::string& names, const std::vector<std::string>&
   return text;
 }
 
+// "; judge has it": the verbs, other than this one, that have the option. Empty if there are none, or more than three.
+std::string verbs_with(const CLI::App& app, const CLI::App& verb, const std::string& option) {
+  std::string names;
+  int count = 0;
+  for (const CLI::App* other : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::vector<std::string> options = options_of(*other);
+    if (other == &verb || std::find(options.begin(), options.end(), option) == options.end()) continue;
+    names += (count++ == 0 ? "" : ", ") + other->get_name();
+  }
+  return count == 0 || count > 3 ? "" : fmt::format("; {} {} it", names, count == 1 ? "has" : "have");
+}
+
 }  // namespace
 
 std::string command_line_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -84,10 +96,12 @@ std::string command_line_error(const CLI::App& app, const CLI::ParseError& error
   const bool is_setting = setting != settings.end() && std::none_of(options.begin(), options.end(), [&](auto one) {
                             return one == setting->first || one.starts_with(name);
                           });
-  return fmt::format(
-      "{} has no option '{}'{} {}", verb.get_name(), name,
-      is_setting ? "; did you mean " + as_setting(setting->second, left, option) + "?" : did_you_mean(name, options),
-      help);
+  const std::string elsewhere = verbs_with(app, verb, name);
+  return fmt::format("{} has no option '{}'{} {}", verb.get_name(), name,
+                     is_setting          ? "; did you mean " + as_setting(setting->second, left, option) + "?"
+                     : elsewhere.empty() ? did_you_mean(name, options)
+                                         : elsewhere,
+                     help);
 }
 
 void require_verb(const std::string& name) {

@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "app/pictures/given_picture.h"
 #include "app/pictures/pictures.h"
 #include "app/pictures/point_files.h"
 #include "app/sweep/results_folder.h"
@@ -30,9 +29,6 @@
 
 namespace noonmark {
 namespace {
-
-// Bytes: the picture and its step as floats, and both as channels of ladder.exr, interleaved and encoded.
-constexpr double per_given_pixel = 2 * sizeof(float) * 4;
 
 Settings the_point(const Experiment& experiment, long point) {
   const std::vector<Settings> all = points(experiment);
@@ -88,11 +84,6 @@ void print_ladder(const Measurement& m, const char* clock) {
   fmt::print("\n");
   if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
   if (nothing_judged(m.record)) return;
-  if (!m.record.causes.empty())
-    fmt::print(
-        "\n  {} is judged in place of R5: error and wrong are its own;\n"
-        "  the causes other than {} are those of the settings' technique (R0 to R5)\n",
-        judged_rung(m.record), m.record.causes.front().name);
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
@@ -109,10 +100,7 @@ void print_ladder(const Measurement& m, const char* clock) {
     const MedianInterval time = interval_of(m.record, name);
     fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);
   }
-  if (!m.record.causes.empty())
-    fmt::print("\n  no bias curve: no bias changes the given picture\n");
-  else if (const std::string why = why_no_curve(m.record); !why.empty())
-    fmt::print("\n  no bias curve: {}\n", why);
+  if (const std::string why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   const BiasCurve& c = *m.record.curve;
   const char* there = m.technique.frame.uniform() ? "" : " (m and texels at the median receiver)";
@@ -144,37 +132,28 @@ void print_ladder(const Measurement& m, const char* clock) {
 struct RenderOptions {
   std::string experiment;  // empty: the default settings
   long point = -1;         // of the experiment's sweep; -1: the sweep must have one point only
-  std::string picture;     // a file that is judged in place of R5, or empty
   ExperimentArguments arguments;
 };
 
 int render_point(const RenderOptions& options) {
-  const auto& [path, point, picture, arguments] = options;
+  const auto& [path, point, arguments] = options;
   const VerbOutputs outputs = outputs_of("render", path, arguments.out);
   retract(outputs);
   const Experiment experiment = experiment_from(path, arguments);
   const Settings settings = the_point(experiment, point);
   const std::string& out = outputs.folder;
-  std::optional<RungOnTop> given;
-  if (!picture.empty()) {  // before anything is written or measured
-    require_room_to_start(true);
-    given = given_picture(picture, settings.view);
-  }
   make_output_folder(out);
   clear_abandoned_files(out);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
-  const bool curve = part.curve_enabled && !given;
-  MemoryEstimate memory =
+  const bool curve = part.curve_enabled;
+  const MemoryEstimate memory =
       at_point(experiment, std::max(point, 0L), [&] { return bench.memory(settings, curve, true); });
-  if (given)
-    memory.shares.push_back({"the given picture", "measure a smaller picture (view.width_px, view.height_px)",
-                             per_given_pixel * static_cast<double>(given->picture.size())});
   require_memory(memory, bench.memory_of_program(true), "this point");
   TimeMetrics times = time_passes(bench, settings);
-  Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt, std::move(given));
+  Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt);
   m.record.metrics.merge(times);
   write_pictures(m, out, ".", "point");
   write_images(m, out, ".", "");
@@ -197,12 +176,6 @@ RunVerb add_render(CLI::App& verb) {
   add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
   verb.add_option("--point", options->point, "Number of the point in the experiment's sweep, from 0")
       ->check(whole_number(0));
-  verb.add_option("--picture", options->picture,
-                  "Judge this picture in place of the shadow map's: an EXR or PNG file of the view's size, the top row "
-                  "first; one grey channel, linear, from 0 (shadowed) to 1 (lit); one sample at each pixel's centre, "
-                  "without antialiasing, jitter and tone mapping")
-      ->check(not_empty())
-      ->type_name(value_kind::picture);
   add_sets(verb, arguments);
   add_parts(verb, arguments);
   add_threads(verb, arguments);

@@ -346,17 +346,5 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, OneCurve, testing::Values("cube-room", "wall", "fence"), scene_test_name);
 
-// No bias changes a picture that is put on top, so a curve beside it would be one of another picture.
-TEST(RungOnTopOfAPoint, HasNoBiasCurve) {
-  Workbench bench(gl::DebugMode::fatal);
-  const Settings settings = small("cube-room");
-  const Measurement without = bench.measure(settings, CurveOptions{});
-  ASSERT_TRUE(without.record.curve);
-  RungOnTop given{.name = "R6", .picture = without.ladder.shown(), .cause = "elsewhere", .label = "E", .help = "E."};
-  const Measurement with_picture = bench.measure(settings, CurveOptions{}, given);
-  EXPECT_FALSE(with_picture.record.curve);
-  EXPECT_EQ(with_picture.record.metrics.at("error"), without.record.metrics.at("error"));
-}
-
 }  // namespace
 }  // namespace noonmark::acceptance

@@ -163,6 +163,40 @@ TEST_F(JudgeVerb, AFrameThatIsNotThereIsOneError) {
 }
 
 // A stripe of acne of at least 0.05% of the receivers, on a lit floor.
+TEST_F(JudgeVerb, APictureThatCannotBeReadEndsWithOneError) {
+  const auto refused = [&](const std::string& file, const std::vector<std::string>& words) {
+    EXPECT_EQ(run({"judge", "cube-room", "--picture", file, "--out", "out"}), 3) << file << output_;
+    EXPECT_TRUE(output_.starts_with("noonmark: " + file + ": ")) << output_;
+    for (const std::string& word : words) EXPECT_TRUE(says(word)) << word << "\n" << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << file << ": something was written";
+  };
+  const Image<float> whole(frame_width, frame_height, 1);
+  write_exr((folder_ / "whole.exr").string(), {{"Y", whole}});
+  write_exr((folder_ / "two.exr").string(), {{"Y", whole}, {"Z", whole}});
+  refused("two.exr", {"has 2 channels", "one grey channel"});
+  Image<float> alpha = whole;
+  alpha.at(7, 3) = 0.5f;
+  write_exr((folder_ / "alpha.exr").string(), {{"Y", whole}, {"A", alpha}});
+  refused("alpha.exr", {"its alpha is 0.5 at x = 7, y = 3", "without multisampling"});
+  write_png((folder_ / "red.png").string(), Image<Color>(frame_width, frame_height, Color(255, 0, 0)));
+  refused("red.png", {"has colours", "one grey channel"});
+  for (const char* file : {"whole.exr", "red.png"}) {
+    const std::string bytes = text(file);
+    for (const size_t length : {bytes.size() / 2, size_t{20}}) {
+      write("half", bytes.substr(0, length));
+      refused("half", {"cannot be decoded", "write it again"});
+      for (const char* inside : {"picture.exr", "picture.png", ".;"}) EXPECT_FALSE(says(inside)) << output_;
+    }
+  }
+  write("notes.png", "no picture");
+  refused("notes.png", {"is neither a PNG"});
+  refused("nowhere.exr", {"cannot be read", "check the path"});
+  EXPECT_EQ(run({"judge", "cube-room", "--picture", ""}), 2);
+  EXPECT_EQ(run({"render", "--picture", "whole.exr"}), 2);
+  EXPECT_TRUE(says("judge")) << "render had this option: " << output_;
+}
+
 // A frame whose own shadow map is handed over: what `render` wrote of a point, as another renderer would deliver it.
 class JudgeWithMap : public Program {
  protected:

@@ -50,7 +50,7 @@ has check ''
 expect 'recommend' rec
 expect '--help --version' -
 expect '--dry-run --help --json --out --overwrite --part --print-config --quiet --set --shard --threads' run --
-expect '--part --picture --point' render --p
+expect '--part --point' render --p
 expect '--help' doctor -
 expect '' scenes ''
 expect '' run --threads ''
