@@ -11,9 +11,6 @@
 
 namespace noonmark {
 
-// The metric of the step from R5 to the frame (compare/results/metrics.h).
-inline constexpr std::string_view frame_lookup = "frame_lookup";
-
 class FrameMap {
  public:
   FrameMap(const Scene& scene, const raytrace::Tracer& tracer) : lookup_(scene, tracer) {}

@@ -1,6 +1,7 @@
 #include "app/sweep/frame_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -130,8 +131,8 @@ class FrameRun {
     }
     progress.end_line();
     RunInfo info = run_info(experiment_, folder_.path(), options_, {}, tracer_info_);
-    info.scene_name = scene_.scene().name;
-    info.triangles = scene_.scene().triangles.size();
+    info.scene_name = fmt::format("{}", fmt::join(scene_names_, ", "));
+    info.triangles = scene_names_.size() == 1 ? scene_.scene().triangles.size() : 0;
     info.scene_notes = notes_;
     store_->set_info(info, static_cast<int64_t>(experiment_.frames.size()));
   }
@@ -155,6 +156,9 @@ class FrameRun {
     const FrameRequest& request = experiment_.frames[i];
     const FrameFile& file = files_[i];
     scene_.show(names_file(*file.scene) ? path_in(file, *file.scene) : *file.scene);
+    if (const std::string& name = scene_.scene().name;
+        std::find(scene_names_.begin(), scene_names_.end(), name) == scene_names_.end())
+      scene_names_.push_back(name);
     if (const std::string note = notes_line(scene_.scene());
         !note.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
       notes_.push_back(note);
@@ -216,7 +220,7 @@ class FrameRun {
   std::vector<FrameFile> files_;
   std::optional<ResultStore> store_;
   SceneOfFrames scene_;
-  std::vector<std::string> notes_, refused_;
+  std::vector<std::string> scene_names_, notes_, refused_;
   SweepOutcome outcome_;
 };
 

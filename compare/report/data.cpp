@@ -200,6 +200,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
       {"swept", swept_data(results, shown)},
       {"metrics", metric_data(results)},
       {"causes", cause_data(results)},
+      {"frames", judges_frames(results.points) ? json(results.info.command) : json()},  // the command that judged them
       {"plot", results.info.plot},
       {"over", results.info.over},
       {"cost", results.info.cost},

@@ -62,7 +62,7 @@ std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points,
     CauseShare share{name, 0, 0};
     size_t finite = 0;
     for (const PointRecord* point : points) {
-      const double value = share_of(*point, share.name, bias);
+      const double value = has_cause(*point, share.name) ? share_of(*point, share.name, bias) : 0;
       if (!std::isfinite(value)) continue;
       share.mean += value;
       ++finite;

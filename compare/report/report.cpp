@@ -35,7 +35,7 @@ std::string subtitle(const Results& results) {
   if (!parts.empty())
     out = fmt::format("{} part{} · ", parts.size(), parts.size() == 1 ? "" : "s");
   else if (!info.scene_name.empty())
-    out = "Scene " + info.scene_name + " · ";
+    out = (info.scene_name.find(", ") == info.scene_name.npos ? "Scene " : "Scenes ") + info.scene_name + " · ";
   out += fmt::format("{} point{}", results.points.size(), results.points.size() == 1 ? "" : "s");
   std::string swept;
   // Not if there are parts: each part sweeps its own settings.

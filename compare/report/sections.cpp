@@ -230,7 +230,7 @@ CausesOfPoint causes_of_point(const PointRecord& point, const std::vector<CauseC
   for (const CauseColor& cause : causes) {
     const double value = metric_of(point, std::string(cause.name));
     if (!is_part(cause.name)) continue;
-    if (std::isnan(value) && !point.metrics.contains(std::string(cause.name))) continue;
+    if (!has_cause(point, cause.name)) continue;
     out.told +=
         fmt::format("{}{} {}", out.told.empty() ? "" : ", ", metric_label(cause.name), quantity(value, "fraction"));
     if (!std::isfinite(value) || value <= 0) continue;
@@ -295,7 +295,8 @@ Markup budget_section(const Results& results, const ShownPoints& shown) {
   const Markup of_frames =
       "The part of the error at each place, as a share of counted receivers. The number at the end is the whole error, "
       "mean "
-      "|frame − truth|. A place is no cause: a frame alone does not say what its map and its bias did.";
+      "|frame − truth|. A place is no cause: a frame alone does not say what its map and its bias did. A frame whose "
+      "own map was handed over is split by cause.";
   const Markup words =
       frames ? of_frames
              : prose(

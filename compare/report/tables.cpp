@@ -256,7 +256,7 @@ Markup made_terms(const Results& results, bool timed) {
            {"Command", info.command},
            {"Experiment", info.experiment},
            {"Noonmark", info.version + (info.commit.empty() ? "" : ", commit " + info.commit)},
-           {"Scene", listed({info.scene_name, triangles})},
+           {"Scene", listed({info.scene_name, info.triangles > 0 ? triangles : ""})},
            {"Processor", info.host_cpu},
            {"OpenGL", listed({info.gl_renderer, info.gl_vendor, info.gl_version})},
            {"Times from", timed ? info.gl_timer : "not measured; set times = true in the experiment"},

@@ -132,6 +132,7 @@ std::string quantity(const MedianInterval& interval, std::string_view unit) {
 }
 
 std::string setting_label(const std::string& name) {
+  if (name == "given.frame") return "frame";
   std::string label = name.starts_with("map.") ? name.substr(4) : name;
   for (std::string_view suffix : {".kind", ".name", "_m", "_deg", "_px"}) strip_suffix(label, suffix);
   std::replace_if(

@@ -115,6 +115,14 @@ bool knows_causes(std::span<const PointRecord> points) {
                      [](const PointRecord& point) { return point.metrics.contains("acne"); });
 }
 
+bool has_cause(const PointRecord& point, std::string_view cause) {
+  if (!point.metrics.contains(std::string(cause))) return false;
+  const bool by_place =
+      cause != frame_lookup && std::any_of(metrics_table().begin(), metrics_table().end(),
+                                           [&](const Metric& row) { return row.name == cause && row.of_frames; });
+  return !by_place || !knows_causes({&point, 1});
+}
+
 std::string error_metric(std::span<const PointRecord> points) {
   return judges_frames(points) ? "frame_error" : "error";
 }
@@ -123,7 +131,10 @@ std::vector<Metric> metrics_of(std::span<const PointRecord> points) {
   std::vector<Metric> metrics(metrics_table().begin(), metrics_table().end());
   // Of a frame, what no frame can have has no meaning for a reader.
   if (judges_frames(points))
-    std::erase_if(metrics, [&](const Metric& row) { return !points.front().metrics.contains(std::string(row.name)); });
+    std::erase_if(metrics, [&](const Metric& row) {
+      return std::none_of(points.begin(), points.end(),
+                          [&](const PointRecord& point) { return point.metrics.contains(std::string(row.name)); });
+    });
   const auto has_row = [](const RungCause* cause) {
     return std::any_of(metrics_table().begin(), metrics_table().end(),
                        [&](const Metric& row) { return row.name == cause->name; });

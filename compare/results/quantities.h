@@ -46,10 +46,15 @@ std::vector<Metric> metrics_of(std::span<const PointRecord> points);
 bool is_free_name(std::string_view name);
 // The rung of the causes of a point that is a frame of another renderer.
 inline constexpr std::string_view frame_rung = "the frame";
+// The cause of a frame with its own map that the map does not explain, and its metric.
+inline constexpr std::string_view frame_lookup = "frame_lookup";
 // Whether the points are frames of another renderer (frames/judge.h). All points of a store are, or none.
 bool judges_frames(std::span<const PointRecord> points);
 // Whether the causes of the ladder are known at a point: everywhere but in frames without their own map.
 bool knows_causes(std::span<const PointRecord> points);
+// Whether this is one of the parts that sum to the point's error. Of a frame these are the classes by place, or with its own
+// map the causes of the ladder; the other ones are metrics only.
+bool has_cause(const PointRecord& point, std::string_view cause);
 // The metric that is the error of a point: "error", or of a frame "frame_error".
 std::string error_metric(std::span<const PointRecord> points);
 // The name of the rung that is judged: "R5", or that of the rung on top of it.

@@ -91,6 +91,36 @@ TEST_F(JudgeVerb, TakesCameraAndLightFromTheSettings) {
   EXPECT_NEAR(said()["metrics"]["frame_error"], error_, 1e-4);
 }
 
+TEST_F(JudgeVerb, APngHasItsValuesAsTheyAre) {
+  const nlohmann::json from_exr = [&] {
+    frame(false);
+    EXPECT_EQ(run({"judge", "cube-room", "--picture", "V.exr", "--out", "out"}), 0) << output_;
+    return said();
+  }();
+  Image<Color> grey(frame_width, frame_height);
+  for (size_t i = 0; i < grey.size(); ++i) grey[i] = Color(visibility_[i] > 0 ? 255 : 0);
+  write_png((folder_ / "V.png").string(), grey);
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--srgb"}}) {  // 0 and 1 are the same in both
+    std::vector<std::string> words = {"judge", "cube-room", "--picture", "V.png", "--out", "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    ASSERT_EQ(run(words), 0) << output_;
+    EXPECT_EQ(said()["metrics"]["frame_error"], from_exr["metrics"]["frame_error"]);
+  }
+  // 51 is 0.2 as a number and 0.033 as sRGB, wherever the truth is lit.
+  for (size_t i = 0; i < grey.size(); ++i) grey[i] = Color(visibility_[i] > 0 ? 51 : 0);
+  write_png((folder_ / "V.png").string(), grey);
+  const auto error = [&](bool srgb) {
+    std::vector<std::string> words = {"judge", "cube-room", "--picture", "V.png", "--out", "out"};
+    for (const char* check : {"shaded", "match", "inverted"}) words.insert(words.end(), {"--accept", check});
+    if (srgb) words.push_back("--srgb");
+    EXPECT_EQ(run(words), 0) << output_;
+    return said()["metrics"]["frame_error"].get<double>();
+  };
+  const double linear = error(false), encoded = error(true);
+  EXPECT_NEAR((1 - 0.2) / (1 - 0.0331), linear / encoded, 0.005);
+}
+
 TEST_F(JudgeVerb, ABrokenBoundIsExitCodeOne) {
   write("frame.json", frame(true).dump());
   ASSERT_EQ(run({"judge", "frame.json", "--out", "out", "--max", "frame_acne=0.05%"}), 0) << output_;
@@ -383,7 +413,10 @@ TEST_F(JudgeWithMap, CheckKnowsTheCausesToo) {
   write("frame.json", deliver({}).dump());
   write("frames.toml", "[[frame]]\nfile = \"frame.json\"\n[[bound]]\nmetric = \"acne\"\nmax = 1e-6\n");
   EXPECT_EQ(run({"check", "frames.toml", "--out", "out"}), 1) << output_;
-  EXPECT_NE(text("out/report.html").find("Acne (too dark)"), std::string::npos);
+  const std::string report = text("out/report.html");
+  EXPECT_NE(report.find("Acne (too dark)"), std::string::npos);
+  EXPECT_NE(report.find("<i class=\"c-acne\""), std::string::npos) << "the bar has its causes";
+  EXPECT_EQ(report.find("<i class=\"c-frame_"), std::string::npos) << "and not its classes by place, too";
   EXPECT_TRUE(fs::exists(folder_ / "out/images/p0000-causes.png"));
 }
 

@@ -5,6 +5,8 @@
 var page = window.noonmarkPage, kit = page.kit, make = kit.make, data = page.data;
 // bias: 'set' where the card shows a broken bound, which was judged with the bias as set; null: that of the page.
 var state = {left: 'truth', right: 'classes', divide: 50, zoom: 1, worst: 'error', bias: null};
+// A frame of another renderer has no bias of ours.
+var asSet = data.frames ? '.' : ', with the bias as set.';
 function mode() {
   return state.bias || page.bias;
 }
@@ -94,19 +96,19 @@ function worstOf(p) {
   }
   var failure = failureOf(p);
   if (failure)
-    return {x: failure.x, y: failure.y, text: failure.label + ' ' + failure.size + ' there, with the bias as set.'};
+    return {x: failure.x, y: failure.y, text: failure.label + ' ' + failure.size + ' there' + asSet};
   if (state.worst === 'error')
     return p.worst && {
       x: p.worst.x,
       y: p.worst.y,
       text: 'Wrong by ' + kit.shown(Number(p.worst.error), 'fraction') +
-          (p.worst.cause ? ', ' + labelOf(p.worst.cause) : '') + ', with the bias as set.'
+          (p.worst.cause ? ', ' + labelOf(p.worst.cause) : '') + asSet
     };
   var of = (p.worst_of || {})[state.worst];
   return of && {
     x: of.x,
     y: of.y,
-    text: labelOf(state.worst) + ' ' + kit.shown(Number(of.size), 'fraction') + ' there, with the bias as set.'
+    text: labelOf(state.worst) + ' ' + kit.shown(Number(of.size), 'fraction') + ' there' + asSet
   };
 }
 // What the worst pixel can be worst of, with a label for each.
@@ -209,7 +211,7 @@ function stage(p) {
     said.textContent = 'Worst pixel (' + w.x + ', ' + w.y + ') from the top left. ' + w.text;
     [left, right]
         .concat(list.filter(function(q) {
-          return ['truth' + follow, 'map' + follow, 'classes' + follow].indexOf(q.name) >= 0 && q !== left &&
+          return ['truth' + follow, 'map' + follow, 'frame', 'classes' + follow, 'causes'].indexOf(q.name) >= 0 && q !== left &&
               q !== right;
         }))
         .slice(0, 4)
@@ -274,6 +276,7 @@ function stage(p) {
 }
 
 function commandOf(p) {
+  if (data.frames) return data.frames;
   var list = data.command.concat(p.set || []);
   if (mode() === 'recommended' && p.at) {
     list = list.filter(function(word) {
@@ -303,7 +306,7 @@ function command(p) {
       copied();
   }
   return make('section', {class: 'card-command', 'aria-label': 'Command'}, [
-    make('h3', {}, 'The command that renders it'), make('p', {class: 'command'}, code),
+    make('h3', {}, data.frames ? 'The command that judged the frames' : 'The command that renders it'), make('p', {class: 'command'}, code),
     make('p', {}, [button('Copy', copy), ' ', told])
   ]);
 }
