@@ -144,9 +144,13 @@ class FrameRun {
     write_report(outcome_.results, folder_.path());
     if (!refused_.empty())
       throw Error(ErrorKind::file,
-                  fmt::format("{}; its shadows are not judged; deliver the frame anew, or add the check's name "
+                  fmt::format("{}; its shadows are not judged{}; deliver the frame anew, or add the check's name "
                               "to its 'accept'",
-                              refused_.front()));
+                              refused_.front(),
+                              refused_.size() == 1
+                                  ? ""
+                                  : fmt::format(" (and {} more failed {}, which the report lists)", refused_.size() - 1,
+                                                refused_.size() == 2 ? "check" : "checks")));
   }
 
   SweepOutcome take() { return std::move(outcome_); }

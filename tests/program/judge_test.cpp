@@ -486,9 +486,15 @@ TEST_F(CheckFrames, AWrongDeliveryIsExitCodeThreeAndTheOthersAreReported) {
   write_exr((folder_ / "checks/1.exr").string(), {{"Y", visibility_}});
   EXPECT_EQ(run({"check", "checks/frames.toml", "--out", "out"}), 3) << output_;
   EXPECT_TRUE(says("frame 1: inverted")) << output_;
+  EXPECT_FALSE(says("more failed")) << output_;
   EXPECT_NE(text("out/report.html").find("frame 2"), std::string::npos);
   write("checks/accepted.toml", "[[frame]]\nfile = \"1.json\"\naccept = [\"inverted\"]\n" +
                                     std::string("[[bound]]\nmetric = \"frame_error\"\nmax = 1\n"));
+  write("checks/two.toml", "[[frame]]\nfile = \"1.json\"\nname = \"a\"\n[[frame]]\nfile = \"1.json\"\nname = \"b\"\n");
+  EXPECT_EQ(run({"run", "checks/two.toml", "--out", "two"}), 3) << output_;
+  EXPECT_TRUE(says("a: inverted")) << output_;
+  EXPECT_TRUE(says("(and 1 more failed check, which the report lists)")) << output_;
+  EXPECT_NE(text("two/report.html").find("b: inverted"), std::string::npos);
   EXPECT_EQ(run({"check", "checks/accepted.toml", "--out", "accepted"}), 0) << output_;
   EXPECT_NE(text("accepted/report.html").find("(accepted)"), std::string::npos);
 }
