@@ -148,13 +148,14 @@ float noise(size_t i) { return static_cast<float>((i * 2654435761u >> 8) % 1000)
 
 // Acne that a filter has softened darkens every lit surface, as shading does.
 TEST(Checks, AcneIsNeitherShadingNorSrgb) {
-  GivenFrame everywhere = good().frame, weak = good().frame;
+  GivenFrame everywhere = good().frame, weak = good().frame, half = good().frame;
   for (size_t i = 0; i < everywhere.visibility.size(); ++i) {
     if (std::isnan(everywhere.visibility[i]) || !good().truth.lit[i]) continue;
     everywhere.visibility[i] *= 0.6f + 0.3f * noise(i);
     if (i % 20 == 0) weak.visibility[i] *= 0.9f + 0.09f * noise(i);
+    if (noise(i) < 0.5f) half.visibility[i] *= 0.85f;
   }
-  for (const GivenFrame& frame : {everywhere, weak}) {
+  for (const GivenFrame& frame : {everywhere, weak, half}) {
     const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
     for (const CheckResult& check : verdict.checks) EXPECT_NE(check.state, CheckState::failed) << check.says;
     EXPECT_GT(verdict.metrics.at("frame_acne"), 1e-3);

@@ -98,6 +98,30 @@ TEST(Judge, ALeakIsAContactWhereItsOccluderIsNear) {
   EXPECT_EQ(far.metrics.at("frame_contact"), 0);
   EXPECT_DOUBLE_EQ(near.metrics.at("frame_contact"), far.metrics.at("frame_leak"));
   EXPECT_EQ(near.metrics.at("frame_leak"), 0);
+  // The plate's faces are 0.4 m and 0.5 m above the floor, so an occluder is the lower one, along the light's ray.
+  const glm::dvec3 to_light = glm::normalize(leaking.frame.light.position_m - leaking.frame.light.target_m);
+  const double way = 0.4 / to_light.y;
+  const FrameVerdict below = leaking.judged({.edge_m = 0.01, .contact_m = 0.98 * way}),
+                     above = leaking.judged({.edge_m = 0.01, .contact_m = 1.4 * way});
+  EXPECT_LT(below.metrics.at("frame_contact"), 0.02 * far.metrics.at("frame_leak"));
+  EXPECT_GT(above.metrics.at("frame_contact"), 0.98 * far.metrics.at("frame_leak"));
+}
+
+// A filter errs on both sides of an edge.
+TEST(Judge, BothSidesOfAnEdgeAreItsOwn) {
+  const FrameVerdict verdict = good_frame("plate", 320, 180, 1).judged();
+  double dark = 0;
+  for (const size_t i : counted_with(verdict, false)) dark += verdict.error[i];
+  ASSERT_GT(dark, 10);
+  // Beside the plate's outline the blur mixes surfaces that lie far from each other.
+  EXPECT_GT(verdict.metrics.at("frame_edge"), 0.98 * verdict.metrics.at("frame_error"));
+}
+
+TEST(Judge, AnAmbiguousTruthIsNotCounted) {
+  const FrameVerdict verdict = good_frame("bowl", 320, 180, 0).judged();
+  const double ambiguous = verdict.metrics.at("ambiguous") * verdict.metrics.at("facing");
+  ASSERT_GT(ambiguous, 0.5) << "the scene has none";
+  EXPECT_DOUBLE_EQ(verdict.metrics.at("counted"), verdict.metrics.at("facing") - ambiguous);
 }
 
 TEST(Judge, APenumbraIsItsOwnClass) {

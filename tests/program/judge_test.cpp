@@ -410,14 +410,30 @@ TEST_F(JudgeWithMap, AMapOfAnotherSceneOrUpsideDownIsNamed) {
 
 TEST_F(JudgeWithMap, CheckKnowsTheCausesToo) {
   measure({{"bias.constant", "0.002"}});
-  write("frame.json", deliver({}).dump());
-  write("frames.toml", "[[frame]]\nfile = \"frame.json\"\n[[bound]]\nmetric = \"acne\"\nmax = 1e-6\n");
+  nlohmann::json frame = deliver({});
+  write("frame.json", frame.dump());
+  frame.erase("map");
+  write("without.json", frame.dump());
+  const std::string bound = "[[bound]]\nmetric = \"acne\"\nmax = 1e-6\nwhere = {\"given.frame\" = \"frame.json\"}\n";
+  write("frames.toml", "[[frame]]\nfile = \"frame.json\"\n[[frame]]\nfile = \"without.json\"\n" + bound);
   EXPECT_EQ(run({"check", "frames.toml", "--out", "out"}), 1) << output_;
-  const std::string report = text("out/report.html");
+  const std::string both = text("out/report.html");
+  const size_t second = both.find("without.json", both.find("<i class=\"c-acne\""));
+  ASSERT_NE(second, std::string::npos);
+  const std::string report = both.substr(0, second);
   EXPECT_NE(report.find("Acne (too dark)"), std::string::npos);
   EXPECT_NE(report.find("<i class=\"c-acne\""), std::string::npos) << "the bar has its causes";
   EXPECT_EQ(report.find("<i class=\"c-frame_"), std::string::npos) << "and not its classes by place, too";
+  EXPECT_NE(both.find("<i class=\"c-frame_", second), std::string::npos) << "those of the frame without a map";
   EXPECT_TRUE(fs::exists(folder_ / "out/images/p0000-causes.png"));
+
+  // A map that is refused has no causes.
+  frame = deliver({});
+  frame["map"]["first_row"] = "top";
+  write("frame.json", frame.dump());
+  write("refused.toml", "[[frame]]\nfile = \"frame.json\"\n");
+  EXPECT_EQ(run({"run", "refused.toml", "--out", "refused"}), 3) << output_;
+  EXPECT_EQ(text("refused/report.html").find("<i class=\"c-acne\""), std::string::npos);
 }
 
 class CheckFrames : public JudgeVerb {

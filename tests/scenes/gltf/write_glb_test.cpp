@@ -74,6 +74,14 @@ TEST_F(WriteGlb, KeepsALightFromStraightAboveAndAnOrthographicCamera) {
   EXPECT_LT(glm::distance(travels(read.light), glm::dvec3(0, -1, 0)), rotation_rounding);
 }
 
+TEST_F(WriteGlb, KeepsWhichTrianglesAreSeenFromTheFrontOnly) {
+  Scene scene = builtin_scenes().front().make({});
+  scene.single_sided.assign(scene.triangles.size(), false);
+  for (size_t t = 0; t < scene.triangles.size(); t += 3) scene.single_sided[t] = true;
+  const Scene read = through_file(scene, scene.light);
+  EXPECT_EQ(read.single_sided, scene.single_sided);
+}
+
 TEST_F(WriteGlb, WritesAUnitNormalForATriangleWithoutArea) {
   Scene scene = builtin_scenes().front().make({});
   scene.triangles[0].y = scene.triangles[0].x;
