@@ -238,6 +238,7 @@ void read_camera(const Object& camera, FrameFile& file) {
   }
   camera.require("eye", "give eye and target, or matrices");
   camera.require("target", "give eye and target, or matrices");
+  if (*camera.vector("eye") == *camera.vector("target")) camera.refuse_together("eye and target are the same place");
   if (camera.has("fov_y_deg") == camera.has("height"))
     camera.refuse_together("give fov_y_deg of a perspective camera, or height of an orthographic one");
   const auto place = [&](const char* key) {
@@ -320,7 +321,7 @@ void read_rules(const Object& edge, const Object& contact, double scale, FrameFi
   }
 }
 
-// What the scene has by this name. A wrong one is a mistake in this file.
+// What `find` makes of the key. A mistake there is one in this file.
 auto named(const std::string& path, const char* key, const auto& find) {
   try {
     return find();
@@ -385,7 +386,9 @@ glm::dmat4 FrameFile::map_from_world() const {
 
 ViewMatrix FrameFile::view(const Scene& scene, int width, int height) const {
   if (clip_from_frame)
-    return ViewMatrix(from_convention(*clip_from_frame, convention) * glm::inverse(world_from_frame));
+    return named(path, "camera", [&] {
+      return ViewMatrix(from_convention(*clip_from_frame, convention) * glm::inverse(world_from_frame));
+    });
   Camera c = camera        ? *camera
              : camera_name ? named(path, "camera.name", [&] { return camera_named(scene, *camera_name); })
                            : scene.camera;

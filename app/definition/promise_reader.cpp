@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "app/definition/frame_metrics.h"
 #include "base/error.h"
 #include "compare/judge/formula.h"
 #include "compare/results/quantities.h"
@@ -24,6 +25,7 @@ void PromiseReader::read_bound(const toml::table& table) {
     if (item.key == "metric") {
       bound.metric = string(*item.node, "metric");
       const std::vector<QuantityInfo> named = at(item.node->source(), [&] { return quantities_named(bound.metric); });
+      if (!experiment_.frames.empty()) at(item.node->source(), [&] { require_frame_metric(bound.metric); });
       const auto of_curve = [](const QuantityInfo& info) { return info.of_curve; };
       if (!experiment_.curve_enabled && std::all_of(named.begin(), named.end(), of_curve))
         fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", bound.metric));

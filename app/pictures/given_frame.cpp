@@ -151,6 +151,22 @@ std::string path_in(const FrameFile& file, const std::string& named) {
   return (std::filesystem::path(file.path).parent_path() / named).lexically_normal().string();
 }
 
+std::string scene_name_of(const FrameFile& file) {
+  if (!file.scene) refuse_picture(file.path, "names no scene; add the key 'scene'");
+  return names_file(*file.scene) ? path_in(file, *file.scene) : *file.scene;
+}
+
+Scene scene_of(const FrameFile& file) {
+  SceneSettings settings;
+  settings.name = scene_name_of(file);
+  try {
+    return make_scene(settings);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::usage) refuse_picture(file.path, fmt::format("'scene': {}", error.what()));
+    throw;
+  }
+}
+
 GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
   const std::string path = path_in(file, file.visibility);
   Image<float> visibility = read_visibility(path, file.encoding);

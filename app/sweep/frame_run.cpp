@@ -36,13 +36,13 @@ namespace {
 // The scene of the frame before, because the frames of an experiment mostly show one scene.
 class SceneOfFrames {
  public:
-  void show(const std::string& name) {
+  void show(const FrameFile& file) {
+    const std::string name = scene_name_of(file);
     if (scene_ && name == name_) return;
     with_map_.reset();  // before the scene and the tracer that it refers to
     tracer_.reset();
-    SceneSettings settings;
-    settings.name = name_ = name;
-    scene_ = std::make_unique<Scene>(make_scene(settings));
+    name_ = name;
+    scene_ = std::make_unique<Scene>(scene_of(file));
     digest_ = scene_digest(*scene_);
     tracer_ = std::make_unique<raytrace::Tracer>(*scene_);
   }
@@ -111,8 +111,7 @@ class FrameRun {
                                                 "--overwrite, which deletes them",
                                                 folder_.path()));
     for (const FrameRequest& request : experiment_.frames) files_.push_back(read_frame_file(request.file));
-    for (const FrameFile& file : files_)
-      if (!file.scene) throw Error(ErrorKind::file, fmt::format("{}: names no scene; add the key 'scene'", file.path));
+    for (const FrameFile& file : files_) scene_name_of(file);  // which refuses a file without one
     folder_.take();
     folder_.remove_earlier_results();
     store_.emplace(folder_.path() + "/results.sqlite", "frames\n", Existing::overwrite);
@@ -159,7 +158,7 @@ class FrameRun {
   void judge_frame_number(size_t i, const Settings& point) {
     const FrameRequest& request = experiment_.frames[i];
     const FrameFile& file = files_[i];
-    scene_.show(names_file(*file.scene) ? path_in(file, *file.scene) : *file.scene);
+    scene_.show(file);
     if (const std::string& name = scene_.scene().name;
         std::find(scene_names_.begin(), scene_names_.end(), name) == scene_names_.end())
       scene_names_.push_back(name);

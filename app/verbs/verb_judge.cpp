@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/definition/frame_metrics.h"
 #include "app/definition/share_text.h"
 #include "app/pictures/frame_pictures.h"
 #include "app/pictures/given_frame.h"
@@ -66,6 +68,7 @@ Bound bound_of(const std::string& text) {
     bound.max = number;
   }
   check_bound(bound);
+  require_frame_metric(bound.metric);
   return bound;
 }
 
@@ -78,6 +81,8 @@ struct Subject {
 
 Subject subject_of(const JudgeOptions& options) {
   const bool is_file = ends_with_any_case(options.subject, ".json");
+  if (std::error_code none; std::filesystem::is_directory(options.subject, none))
+    throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the frame.json in it", options.subject));
   if (is_file != options.picture.empty())
     throw Error(ErrorKind::usage, is_file
                                       ? "a frame.json names its picture itself; --picture is for a scene"
@@ -91,11 +96,7 @@ Subject subject_of(const JudgeOptions& options) {
           ErrorKind::usage,
           "a frame.json says camera, light and encoding itself; --set and --srgb are for a scene with --picture");
     const FrameFile file = read_frame_file(options.subject);
-    if (!file.scene)
-      throw Error(ErrorKind::file, fmt::format("{}: names no scene; add the key 'scene'", options.subject));
-    SceneSettings settings;
-    settings.name = names_file(*file.scene) ? path_in(file, *file.scene) : *file.scene;
-    Scene scene = make_scene(settings);
+    Scene scene = scene_of(file);
     GivenFrame frame = given_frame(file, scene);
     subject.emplace(Subject{std::move(scene), std::move(frame), rules_of(file)});
   } else {
@@ -198,6 +199,11 @@ int judge_one(const JudgeOptions& options) {
     climbed = FrameMap(subject.scene, tracer).climb(subject.frame, subject.rules.accepted.contains("map"), verdict);
   const Ladder* const ladder = climbed ? &*climbed : nullptr;
 
+  for (const Bound& bound : bounds)
+    if (!verdict.refused() && !verdict.metrics.contains(bound.metric))
+      throw Error(ErrorKind::usage,
+                  fmt::format("--max {}: known only of a frame with its own shadow map; add the key 'map' to {}",
+                              bound.metric, options.subject));
   PointRecord record;
   record.metrics = verdict.metrics;
   const std::vector<BoundResult> judged =

@@ -141,6 +141,32 @@ TEST_F(JudgeVerb, ABrokenBoundIsExitCodeOne) {
   EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--max", "frame_acnee=0.05%"}), 2) << output_;
   EXPECT_TRUE(says("did you mean 'frame_acne'")) << output_;
   EXPECT_FALSE(fs::exists(folder_ / "out/judge.json")) << "of an earlier run";
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--max", "error=1%"}), 2) << output_;
+  EXPECT_TRUE(says("a frame of another renderer has no metric 'error'; its own is 'frame_error'")) << output_;
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--max", "acne=1%"}), 2) << output_;
+  EXPECT_TRUE(says("add the key 'map' to frame.json")) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out/judge.json"));
+}
+
+TEST_F(JudgeVerb, AMistakeInTheFileNamesTheFile) {
+  const auto refused = [&](const std::function<void(nlohmann::json&)>& spoil, const char* words) {
+    nlohmann::json json = frame(false);
+    spoil(json);
+    write("bad.json", json.dump());
+    EXPECT_EQ(run({"judge", "bad.json", "--out", "out"}), 3) << output_;
+    EXPECT_TRUE(output_.starts_with("noonmark: bad.json: ")) << output_;
+    EXPECT_TRUE(says(words)) << output_;
+  };
+  refused([](nlohmann::json& json) { json["scene"] = "cube-rom"; }, "did you mean 'cube-room'");
+  refused([](nlohmann::json& json) { json.erase("scene"); }, "names no scene");
+  refused([](nlohmann::json& json) { json["camera"]["clip_from_world"] = std::vector<double>(16, 1.0); }, "no inverse");
+  refused(
+      [](nlohmann::json& json) {
+        json["camera"] = {{"eye", {1, 1, 1}}, {"target", {1, 1, 1}}, {"fov_y_deg", 45}};
+      },
+      "eye and target are the same place");
+  EXPECT_EQ(run({"judge", ".", "--out", "out"}), 2);
+  EXPECT_TRUE(says("is a folder; give the frame.json in it")) << output_;
 }
 
 TEST_F(JudgeVerb, AWrongDeliveryIsExitCodeThree) {
@@ -523,6 +549,7 @@ TEST_F(CheckFrames, NothingElseIsMeasuredBesideFrames) {
            {"[sweep]\nmap.resolution = [1, 2]\n", "no sweep"},
            {"[[frame]]\nfile = \"0.json\"\nname = \"frame 0\"\n", "two frames have the name"},
            {"[[frame]]\nname = \"x\"\n", "needs a file"},
+           {"[[bound]]\nmetric = \"error\"\nmax = 0.1\n", "its own is 'frame_error'"},
            {"[[frame]]\nfile = \"0.json\"\naccept = [\"all\"]\n", "no check 'all'"}}) {
     write("checks/more.toml", frames + more);
     EXPECT_EQ(run({"check", "checks/more.toml", "--out", "more"}), 2) << more << output_;
