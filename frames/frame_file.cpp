@@ -22,16 +22,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = FrameKeyKind;
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> words;
-  for (;;) {
-    const size_t end = text.find(separator);
-    words.push_back(text.substr(0, end));
-    if (end == text.npos) return words;
-    text.remove_prefix(end + 1);
-  }
-}
-
 std::string full_name(const FrameKey& key) {
   return key.object.empty() ? std::string(key.name) : fmt::format("{}.{}", key.object, key.name);
 }
@@ -61,7 +51,7 @@ std::string wanted(const FrameKey& key, const Json& value) {
     case Kind::text:
       return value.is_string() && !value.get<std::string>().empty() ? "" : "a text";
     case Kind::choice: {
-      const std::vector<std::string_view> choices = split(key.choices, '|');
+      const std::vector<std::string_view> choices = choices_of(key);
       const bool known =
           value.is_string() && std::find(choices.begin(), choices.end(), value.get<std::string>()) != choices.end();
       return known ? "" : fmt::format("one of \"{}\"", fmt::join(choices, "\", \""));
@@ -398,56 +388,6 @@ ViewMatrix FrameFile::view(const Scene& scene, int width, int height) const {
     c.far_m = c.far_m ? c.far_m : fitted.far_m;
   }
   return ViewMatrix(make_camera_frame(c, width, height).clip_from_world());
-}
-
-std::string frame_schema() {
-  const auto form = [](const FrameKey& key) -> Json {
-    switch (key.kind) {
-      case Kind::object:
-        return {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
-      case Kind::text:
-        return {{"type", "string"}, {"minLength", 1}};
-      case Kind::choice: {
-        Json words = Json::array();
-        for (const std::string_view choice : split(key.choices, '|')) words.push_back(choice);
-        return {{"enum", words}};
-      }
-      case Kind::number:
-        return {{"type", "number"}, {"minimum", 0}};
-      case Kind::positive:
-        return {{"type", "number"}, {"exclusiveMinimum", 0}};
-      case Kind::flag:
-        return {{"type", "boolean"}};
-      case Kind::vector3:
-        return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
-      case Kind::axes:
-        return {{"type", "array"},
-                {"items", {{"enum", {"x", "y", "z", "-x", "-y", "-z", "+x", "+y", "+z"}}}},
-                {"minItems", 3},
-                {"maxItems", 3}};
-      case Kind::matrix:
-        return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 16}, {"maxItems", 16}};
-      case Kind::settings:
-        return {{"type", "object"}, {"additionalProperties", {{"type", {"string", "number", "boolean", "array"}}}}};
-      case Kind::version:
-        return {{"const", 1}};
-    }
-    return {};
-  };
-  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
-              {"title", "frame.json of Noonmark: the frame of another renderer"},
-              {"type", "object"},
-              {"additionalProperties", false},
-              {"required", {"noonmark_frame", "visibility"}},
-              {"properties", Json::object()}};
-  for (const FrameKey& key : frame_keys()) {
-    Json& owner = key.object.empty() ? schema : schema["properties"][std::string(key.object)];
-    Json one = form(key);
-    one["description"] = key.help;
-    owner["properties"][std::string(key.name)] = std::move(one);
-    if (!key.object.empty() && key.name == "file") owner["required"].push_back("file");
-  }
-  return schema.dump(2) + "\n";
 }
 
 }  // namespace noonmark

@@ -103,4 +103,14 @@ constexpr FrameKey key_rows[] = {
 
 std::span<const FrameKey> frame_keys() { return key_rows; }
 
+std::vector<std::string_view> choices_of(const FrameKey& key) {
+  std::vector<std::string_view> choices;
+  for (std::string_view rest = key.choices;;) {
+    const size_t end = rest.find('|');
+    choices.push_back(rest.substr(0, end));
+    if (end == rest.npos) return choices;
+    rest.remove_prefix(end + 1);
+  }
+}
+
 }  // namespace noonmark

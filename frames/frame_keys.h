@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace noonmark {
 
@@ -28,5 +29,6 @@ struct FrameKey {
 };
 
 std::span<const FrameKey> frame_keys();
+std::vector<std::string_view> choices_of(const FrameKey& key);
 
 }  // namespace noonmark

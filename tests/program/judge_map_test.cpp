@@ -1,0 +1,228 @@
+// noonmark judge with the frame's own shadow map: its causes are those that the ladder finds for the same map.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/pictures/image_file.h"
+#include "measure/workbench.h"
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+// A frame whose own shadow map is handed over: what `render` wrote of a point, as another renderer would deliver it.
+class JudgeWithMap : public Program {
+ protected:
+  static constexpr int width = 320, height = 180;
+  // top_row_first, zero_to_one, reversed, mirrored: how the other renderer has its map.
+  struct Convention {
+    bool top_row_first = false, zero_to_one = false, reversed = false, mirrored = false;
+  };
+  void measure(const std::map<std::string, std::string>& settings) {
+    Workbench bench(gl::DebugMode::fatal);
+    Settings all;
+    all.view.width_px = width;
+    all.view.height_px = height;
+    all.map.resolution = 512;
+    for (const auto& [name, value] : settings) find_setting(name).set(all, value);
+    const Measurement m = bench.measure(all, {});
+    metrics_ = m.record.metrics;
+    for (const Ladder::CauseImage& cause : m.ladder.causes) causes_.push_back(cause.name);
+    visibility_ = m.ladder.shown();
+    positions_ = m.receivers.position;
+    for (size_t i = 0; i < visibility_.size(); ++i)
+      if (m.receivers.primitive[i] == no_primitive) visibility_[i] = -1;
+    stored_ = m.stored_rows(0, all.map.resolution);
+    map_from_world_ = m.technique.frame.clip_from_world(0);
+    settings_ = settings;
+    const Light light = effective_light(m.scene, all);
+    const glm::dvec3 way = light.target_m - light.position_m, at = light.position_m;
+    light_ = {{"kind", light.kind == LightKind::spot ? "spot" : "directional"},
+              {"position", {at.x, at.y, at.z}},
+              {"direction", {way.x, way.y, way.z}}};
+    if (light.kind == LightKind::spot) light_["cone_deg"] = light.cone_deg;
+  }
+  nlohmann::json deliver(const Convention& as) {
+    write_exr((folder_ / "V.exr").string(), {{"Y", visibility_}});
+    std::vector<Channel> channels;
+    for (int axis = 0; axis < 3; ++axis) {
+      Image<float> values(width, height, std::numeric_limits<float>::quiet_NaN());
+      for (size_t i = 0; i < values.size(); ++i)
+        if (visibility_[i] >= 0) values[i] = positions_[i][axis];
+      channels.push_back({std::string(1, static_cast<char>('X' + axis)), values});
+    }
+    write_exr((folder_ / "P.exr").string(), channels);
+    Image<float> map = stored_;
+    const bool turned = as.top_row_first != as.mirrored;
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x) {
+        const float depth = stored_.at(x, turned ? map.height - 1 - y : y);
+        map.at(x, y) = as.reversed ? 1 - depth : depth;
+      }
+    write_exr((folder_ / "map.exr").string(), {{"Z", map}});
+    glm::dmat4 clip(1);
+    if (as.mirrored) clip[1][1] = -1;
+    if (as.zero_to_one) clip[2][2] = as.reversed ? -0.5 : 0.5, clip[3][2] = 0.5;
+    if (as.reversed && !as.zero_to_one) clip[2][2] = -1;
+    const glm::dmat4 m = clip * map_from_world_;
+    std::vector<double> numbers;
+    for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
+    nlohmann::json technique = nlohmann::json::object();
+    for (const auto& [name, value] : settings_)
+      if (!name.starts_with("scene.")) technique[name] = value;
+    return {{"noonmark_frame", 1},
+            {"scene", settings_.contains("scene.name") ? settings_.at("scene.name") : "cube-room"},
+            {"visibility", {{"file", "V.exr"}}},
+            {"positions", {{"file", "P.exr"}}},
+            {"light", light_},
+            {"map",
+             {{"file", "map.exr"},
+              {"first_row", as.top_row_first ? "top" : "bottom"},
+              {"clip_from_world", numbers},
+              {"order", "column"},
+              {"depth_range", as.zero_to_one ? "0..1" : "-1..1"},
+              {"reversed", as.reversed},
+              {"technique", technique}}}};
+  }
+  nlohmann::json judged(const nlohmann::json& frame, int code = 0) {
+    write("frame.json", frame.dump());
+    EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), code) << output_;
+    return nlohmann::json::parse(read_file((folder_ / "out/judge.json").string()));
+  }
+  // The causes are those of the point.
+  void expect_causes(const nlohmann::json& said) {
+    for (const std::string& cause : causes_) {
+      if (metrics_.contains(cause)) {
+        EXPECT_NEAR(said["metrics"][cause], metrics_.at(cause), 1e-9) << cause;
+      }
+    }
+    EXPECT_NEAR(said["metrics"]["frame_lookup"], 0, 1e-9);
+    EXPECT_EQ(said["metrics"]["frame_lookup_differs"], 0);
+  }
+
+  Image<float> channel(const std::string& name) {
+    const DecodedImage exr = read_image((folder_ / "out/frame.exr").string());
+    const auto at = std::find(exr.channels.begin(), exr.channels.end(), name);
+    EXPECT_NE(at, exr.channels.end()) << name;
+    Image<float> values(exr.width, exr.height);
+    for (size_t i = 0; i < values.size(); ++i) values[i] = exr.at(i, static_cast<size_t>(at - exr.channels.begin()));
+    return values;
+  }
+
+  std::map<std::string, double> metrics_;
+  std::vector<std::string> causes_;
+  std::map<std::string, std::string> settings_;
+  nlohmann::json light_;
+  Image<float> visibility_, stored_;
+  Image<glm::vec3> positions_;
+  glm::dmat4 map_from_world_{1};
+};
+
+TEST_F(JudgeWithMap, FindsTheCausesOfThePoint) {
+  measure({{"bias.constant", "0.002"}, {"bias.normal_offset", "0.5"}, {"filter.kind", "box"}, {"map.format", "32f"}});
+  settings_.erase("map.format");
+  ASSERT_GT(metrics_.at("acne") + metrics_.at("filter"), 0.001);
+  expect_causes(judged(deliver({})));
+  EXPECT_TRUE(says("Peter Panning")) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/frame-causes.png"));
+}
+
+TEST_F(JudgeWithMap, ReadsTheMapsOfOtherConventions) {
+  measure({{"scene.name", "spot-room"}, {"bias.constant", "0.0005"}, {"map.format", "32f"}});
+  settings_.erase("map.format");
+  for (const bool top : {false, true})
+    for (const bool mirrored : {false, true}) {
+      SCOPED_TRACE(top);
+      SCOPED_TRACE(mirrored);
+      expect_causes(judged(deliver({top, true, false, mirrored})));
+    }
+  // 1 - (1 - d) rounds d to a step of 2^-24, so verdicts of a few texels may change.
+  const nlohmann::json reversed = judged(deliver({.reversed = true}));
+  EXPECT_NEAR(reversed["metrics"]["acne"], metrics_.at("acne"), 1e-3);
+  EXPECT_LT(reversed["metrics"]["frame_lookup_differs"], 1e-3);
+}
+
+TEST_F(JudgeWithMap, TheCausesSumToTheErrorWhateverTheFrameShows) {
+  measure({{"bias.constant", "0.001"}});
+  int drawn = 0;
+  for (int y = height - 30; y < height; ++y)
+    for (int x = 40; x < 90; ++x)
+      if (float& v = visibility_.at(x, y); v >= 0) v = 1 - v, ++drawn;
+  const nlohmann::json said = judged(deliver({}));
+  EXPECT_NEAR(said["metrics"]["frame_lookup"], drawn / said["metrics"]["counted"].get<double>(), 1e-6);
+  const Image<float> error = channel("error"), truth = channel("R1"), shown = channel("V");
+  std::vector<Image<float>> steps;
+  for (const std::string& cause : causes_)
+    if (cause != "none") steps.push_back(channel("step." + cause));
+  steps.push_back(channel("step.frame_lookup"));
+  const Image<float> flags = channel("flags");
+  for (size_t i = 0; i < error.size(); ++i) {
+    if (!(static_cast<int>(flags[i]) & 2)) continue;
+    double sum = 0;
+    for (const Image<float>& step : steps) sum += step[i];
+    ASSERT_NEAR(sum, shown[i] - truth[i], 1e-6) << i;
+    ASSERT_NEAR(std::abs(sum), error[i], 1e-6) << i;
+  }
+}
+
+TEST_F(JudgeWithMap, AMapOfAnotherSceneOrUpsideDownIsNamed) {
+  measure({{"bias.constant", "0.002"}});
+  nlohmann::json frame = deliver({});
+  frame["map"]["first_row"] = "top";
+  const nlohmann::json said = judged(frame, 3);
+  EXPECT_TRUE(says("map         FAILED")) << output_;
+  EXPECT_TRUE(says("first_row")) << output_;
+  EXPECT_TRUE(said["metrics"].empty());
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "map"}), 0) << output_;
+  const auto refused = [&](const char* key, const nlohmann::json& value, const char* words) {
+    nlohmann::json wrong = deliver({});
+    wrong["map"][key] = value;
+    write("frame.json", wrong.dump());
+    EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
+    EXPECT_TRUE(says(words)) << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "out/judge.json")) << key;
+  };
+  refused("technique", {{"bias.constnt", 1}}, "did you mean 'bias.constant'");
+  refused("technique", {{"map.extent_m", 1}}, "follows from matrix and file");
+  refused("technique", {{"bias.constant", -1}}, "it takes 0");
+  refused("technique", {{"filter.kind", "cube_grid"}}, "the technique of this map");
+  refused("reversed", true, "180 degrees");
+  refused("file", "V.exr", "only square maps are read");
+  stored_.at(5, 7) = 1.5f;
+  refused("first_row", "bottom", "the texel x = 5, y = 7 of the file is 1.5");
+}
+
+TEST_F(JudgeWithMap, CheckKnowsTheCausesToo) {
+  measure({{"bias.constant", "0.002"}});
+  nlohmann::json frame = deliver({});
+  write("frame.json", frame.dump());
+  frame.erase("map");
+  write("without.json", frame.dump());
+  const std::string bound = "[[bound]]\nmetric = \"acne\"\nmax = 1e-6\nwhere = {\"given.frame\" = \"frame.json\"}\n";
+  write("frames.toml", "[[frame]]\nfile = \"frame.json\"\n[[frame]]\nfile = \"without.json\"\n" + bound);
+  EXPECT_EQ(run({"check", "frames.toml", "--out", "out"}), 1) << output_;
+  const std::string both = text("out/report.html");
+  const size_t second = both.find("without.json", both.find("<i class=\"c-acne\""));
+  ASSERT_NE(second, std::string::npos);
+  const std::string report = both.substr(0, second);
+  EXPECT_NE(report.find("Acne (too dark)"), std::string::npos);
+  EXPECT_NE(report.find("<i class=\"c-acne\""), std::string::npos) << "the bar has its causes";
+  EXPECT_EQ(report.find("<i class=\"c-frame_"), std::string::npos) << "and not its classes by place, too";
+  EXPECT_NE(both.find("<i class=\"c-frame_", second), std::string::npos) << "those of the frame without a map";
+  EXPECT_TRUE(fs::exists(folder_ / "out/images/p0000-causes.png"));
+
+  // A map that is refused has no causes.
+  frame = deliver({});
+  frame["map"]["first_row"] = "top";
+  write("frame.json", frame.dump());
+  write("refused.toml", "[[frame]]\nfile = \"frame.json\"\n");
+  EXPECT_EQ(run({"run", "refused.toml", "--out", "refused"}), 3) << output_;
+  EXPECT_EQ(text("refused/report.html").find("<i class=\"c-acne\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance
