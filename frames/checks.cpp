@@ -216,7 +216,23 @@ Outcome intensity(const CheckEvidence&, const FrameStatistics& s) {
   return passed(fmt::format("deep in true shadow 5% of the pixels are at {:.3f} or less", s.deep_dark.low));
 }
 
-Outcome match(const CheckEvidence&, const FrameStatistics& s) {
+// What faces away from the declared light cannot be lit by it. If most of the picture does and is lit, the light's direction or
+// the side that the camera looks at is turned round.
+Outcome match(const CheckEvidence& e, const FrameStatistics& s) {
+  size_t surfaces = 0, away = 0, away_lit = 0;
+  for (size_t i = 0; i < e.seen.size(); ++i) {
+    const float value = e.frame.visibility[i];
+    if (e.seen[i] == no_primitive || std::isnan(value)) continue;
+    ++surfaces;
+    away += !e.truth.facing[i];
+    away_lit += !e.truth.facing[i] && value > 0.98f;
+  }
+  if (2 * away > surfaces && 10 * away_lit > 9 * away)
+    return failed(
+        fmt::format("{} of {} surfaces face away from the declared light, and the frame lights {} of them: the light's "
+                    "direction is "
+                    "turned round, or the camera's 'reversed' is wrong",
+                    away, surfaces, away_lit));
   if (s.deep_dark.count < enough) return not_checked("the picture has too few pixels deep in true shadow");
   if (is_inverted(s)) return not_checked(because_inverted);
   if (s.deep_dark.median >= 0.95 && s.deep_lit.median > 0.5)

@@ -256,6 +256,7 @@ void read_light(const Object& light, FrameFile& file) {
   if (!light) return;
   const auto read_size = [&](Light& l, double scale) {
     l.angular_diameter_deg = light.number("angular_diameter_deg").value_or(0);
+    if (l.angular_diameter_deg > 90) light.refuse_together("angular_diameter_deg must be 90 or less");
     l.radius_m = light.number("radius").value_or(0) * scale;
     l.shape = light.is("shape", "disc") ? LightShape::disc : LightShape::sphere;
   };
@@ -285,7 +286,8 @@ void read_light(const Object& light, FrameFile& file) {
       l.target_m = place("target");
     } else {
       const glm::dvec3 way = glm::dmat3(file.world_from_frame) * *light.vector("direction");
-      if (!(glm::length(way) > 0)) light.refuse_together("the direction has no length");
+      if (!(glm::length(way) > 0) || !std::isfinite(glm::length(way)))
+        light.refuse_together("the direction has no length, or one that is too large");
       l.target_m = l.position_m + glm::normalize(way);
     }
   }

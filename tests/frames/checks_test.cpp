@@ -190,6 +190,12 @@ TEST(Checks, AnotherLightIsNamed) {
   expect_named(frame, "match", "the light");
 }
 
+TEST(Checks, ALightThatIsTurnedRoundIsNamed) {
+  GivenFrame frame = good().frame;
+  std::swap(frame.light.position_m, frame.light.target_m);
+  expect_named(frame, "match", "turned round");
+}
+
 TEST(Checks, SrgbIsNamed) { expect_named(with(each_value(good().frame.visibility, srgb)), "encoding", "sRGB"); }
 
 TEST(Checks, ValuesOutsideAreNamed) {

@@ -87,6 +87,14 @@ TEST(FrameFile, ACameraAndALightOfTheSceneAreTakenByName) {
   EXPECT_NE(fault_of(json).find("give a name, or matrices"), std::string::npos);
 }
 
+TEST(FrameFile, ALightThatCannotBeIsNamed) {
+  Json json = least();
+  json["light"] = {{"kind", "directional"}, {"direction", {1e200, -1e200, 0}}};
+  EXPECT_NE(fault_of(json).find("too large"), std::string::npos) << fault_of(json);
+  json["light"] = {{"kind", "directional"}, {"direction", {0, -1, 0}}, {"angular_diameter_deg", 720}};
+  EXPECT_NE(fault_of(json).find("90 or less"), std::string::npos) << fault_of(json);
+}
+
 TEST(FrameFile, EveryConventionOfAMatrixIsTheSameCamera) {
   const Scene scene = make_scene({.name = "cube-room"});
   const ViewMatrix view = view_of(scene, 160, 90);

@@ -152,7 +152,9 @@ TEST_F(JudgeWithMap, TheCausesSumToTheErrorWhateverTheFrameShows) {
   for (int y = height - 30; y < height; ++y)
     for (int x = 40; x < 90; ++x)
       if (float& v = visibility_.at(x, y); v >= 0) v = 1 - v, ++drawn;
-  const nlohmann::json said = judged(deliver({}));
+  write("frame.json", deliver({}).dump());
+  ASSERT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "map"}), 0) << output_;
+  const nlohmann::json said = nlohmann::json::parse(read_file((folder_ / "out/judge.json").string()));
   EXPECT_NEAR(said["metrics"]["frame_lookup"], drawn / said["metrics"]["counted"].get<double>(), 1e-6);
   const Image<float> error = channel("error"), truth = channel("R1"), shown = channel("V");
   std::vector<Image<float>> steps;
@@ -194,6 +196,17 @@ TEST_F(JudgeWithMap, AMapOfAnotherSceneOrUpsideDownIsNamed) {
   refused("file", "V.exr", "only square maps are read");
   stored_.at(5, 7) = 1.5f;
   refused("first_row", "bottom", "the texel x = 5, y = 7 of the file is 1.5");
+}
+
+TEST_F(JudgeWithMap, ALookupThatIsNotTheFramesIsNamed) {
+  measure({{"bias.constant", "0.002"}});
+  nlohmann::json frame = deliver({});
+  frame["map"].erase("technique");  // no bias
+  judged(frame, 3);
+  EXPECT_TRUE(says("it is not the frame's own; check bias")) << output_;
+  EXPECT_FALSE(says("Peter Panning")) << "no cause is printed";
+  frame["map"]["technique"] = {{"bias.constant", 10}};
+  judged(frame, 3);
 }
 
 TEST_F(JudgeWithMap, CheckKnowsTheCausesToo) {
