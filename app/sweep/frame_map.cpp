@@ -58,7 +58,7 @@ Technique technique_of(const GivenMap& given, const Light& light, const Image<fl
 
 }  // namespace
 
-Ladder FrameMap::climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict) {
+std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict) {
   const GivenMap& given = *frame.map;
   const MapFrame map = map_frame(given.name, verdict.light, given.clip_from_world, given.depth.width);
   // Where the frame shows nothing there is no receiver.
@@ -96,7 +96,7 @@ Ladder FrameMap::climb(const GivenFrame& frame, bool accepted, FrameVerdict& ver
   }
   *std::find_if(verdict.checks.begin(), verdict.checks.end(),
                 [&](const CheckResult& one) { return one.name == check.name; }) = check;
-  if (verdict.refused()) return std::move(climbed.ladder);
+  if (verdict.refused()) return std::nullopt;
   // Of the ladder only its causes are said: the other metrics are about a technique of ours.
   for (const Ladder::CauseImage& cause : climbed.ladder.causes)
     if (const auto found = climbed.metrics.find(cause.name); found != climbed.metrics.end())

@@ -17,8 +17,8 @@ class FrameMap {
 
   // frame: with a map. verdict: gets the result of the check "map", and unless that refuses the frame the metrics: the causes
   // of the ladder by their names, frame_lookup, frame_lookup_differs. Throws Error(file) if the map is not one of the
-  // frame's light. accepted: whether the check's failure is accepted.
-  Ladder climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict);
+  // frame's light. accepted: whether the check's failure is accepted. Empty if the frame is refused.
+  std::optional<Ladder> climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict);
 
  private:
   GivenLookup lookup_;

@@ -224,7 +224,7 @@ int judge_one(const JudgeOptions& options) {
     return exit_code;
   }
   print_verdict(subject, verdict);
-  if (ladder && !verdict.refused()) print_causes(verdict, *ladder);
+  if (ladder) print_causes(verdict, *ladder);
   for (const BoundResult& bound : judged)
     fmt::print("{}  {}: {}, found {}\n", &bound == &judged.front() ? "\n" : "", bound.held ? "held" : "BROKEN",
                bound_text(bound), found_text(bound));

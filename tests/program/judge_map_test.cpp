@@ -205,6 +205,7 @@ TEST_F(JudgeWithMap, ALookupThatIsNotTheFramesIsNamed) {
   judged(frame, 3);
   EXPECT_TRUE(says("it is not the frame's own; check bias")) << output_;
   EXPECT_FALSE(says("Peter Panning")) << "no cause is printed";
+  EXPECT_FALSE(fs::exists(folder_ / "out/frame-causes.png")) << "or drawn";
   frame["map"]["technique"] = {{"bias.constant", 10}};
   judged(frame, 3);
 }
