@@ -186,7 +186,8 @@ void noonmark_scene_free(noonmark_scene* scene) { delete scene; }
 
 void noonmark_frame_init(noonmark_frame* frame, size_t struct_size) {
   if (!frame) return;
-  // A caller of an older header has fewer fields, and one of a newer header fields that this library does not know.
+  // A program that was compiled with an older header has a smaller struct, one with a newer header a larger struct: only the
+  // fields that both know are copied.
   noonmark_frame all = defaults();
   all.struct_size = struct_size;
   std::memset(frame, 0, struct_size);

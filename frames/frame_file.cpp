@@ -313,7 +313,7 @@ void read_rules(const Object& edge, const Object& contact, double scale, FrameFi
   }
 }
 
-// What `find` makes of the key. A mistake there is one in this file.
+// Returns what `find` returns. If it throws, the error names this file and the key.
 auto named(const std::string& path, const char* key, const auto& find) {
   try {
     return find();
