@@ -186,7 +186,7 @@ void noonmark_scene_free(noonmark_scene* scene) { delete scene; }
 
 void noonmark_frame_init(noonmark_frame* frame, size_t struct_size) {
   if (!frame) return;
-  // A program that was compiled with an older header has a smaller struct, one with a newer header a larger struct: only the
+  // A program that was compiled with an older header has a smaller struct, one with a newer header a larger one: only the
   // fields that both know are copied.
   noonmark_frame all = defaults();
   all.struct_size = struct_size;
