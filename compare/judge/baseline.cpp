@@ -62,24 +62,45 @@ std::map<std::string, std::string> texts(const json& table) {
   return found;
 }
 
+// A point is named by its part and its swept values. So it stays the same point when a fixed setting or the model changes.
 using Key = std::pair<std::string, std::map<std::string, std::string>>;
+using SweptNames = std::map<std::string, std::set<std::string>>;  // of each part
 
-// All settings; those that the file does not name have their defaults.
-Key key_of(const BaselinePoint& point) {
+// A setting that the file does not name is newer than the file and had its default.
+std::string value_there(const BaselinePoint& point, const std::string& name) {
+  if (const auto at = point.settings.find(name); at != point.settings.end()) return at->second;
+  for (const Setting& row : settings_table())
+    if (row.name == name) return row.get(Settings());
+  return "no such setting";
+}
+
+// The settings that differ among the points of a part, which are those that it sweeps.
+void add_swept(const std::vector<BaselinePoint>& points, SweptNames& names) {
+  std::map<std::string, const BaselinePoint*> first;
+  for (const BaselinePoint& point : points) {
+    const BaselinePoint& other = *first.emplace(point.part, &point).first->second;
+    for (const auto* settings : {&point.settings, &other.settings})
+      for (const auto& [name, text] : *settings)
+        if (value_there(point, name) != value_there(other, name)) names[point.part].insert(name);
+  }
+}
+
+Key key_of(const BaselinePoint& point, const SweptNames& swept) {
   Key key{point.part, {}};
-  for (const Setting& row : settings_table()) key.second[std::string(row.name)] = row.get(Settings());
-  for (const auto& [name, text] : point.settings) key.second[name] = text;
+  if (const auto names = swept.find(point.part); names != swept.end())
+    for (const std::string& name : names->second) key.second[name] = value_there(point, name);
   return key;
 }
 
 // "map.resolution is 512, in the baseline 1024" for each setting that differs.
-std::vector<std::string> differences(const Key& before, const Key& now) {
+std::vector<std::string> differences(const BaselinePoint& before, const BaselinePoint& now) {
+  std::set<std::string> names;
+  for (const auto* settings : {&before.settings, &now.settings})
+    for (const auto& [name, text] : *settings) names.insert(name);
   std::vector<std::string> found;
-  for (const auto& [name, text] : before.second) {
-    const auto other = now.second.find(name);
-    const std::string here = other == now.second.end() ? "no such setting" : other->second;
-    if (here != text) found.push_back(fmt::format("{} is {}, in the baseline {}", name, here, text));
-  }
+  for (const std::string& name : names)
+    if (const std::string was = value_there(before, name), is = value_there(now, name); was != is)
+      found.push_back(fmt::format("{} is {}, in the baseline {}", name, is, was));
   return found;
 }
 
@@ -118,14 +139,13 @@ std::string value_text(double value, double other, std::string_view unit) {
 
 class Comparison {
  public:
-  Comparison(const std::string& path, std::optional<double> time_share) : path_(path), time_share_(time_share) {}
+  explicit Comparison(std::optional<double> time_share) : time_share_(time_share) {}
 
   void compare(const BaselinePoint& before, const BaselinePoint& now, const std::string& point) {
+    ++points_;
+    for (const std::string& difference : differences(before, now)) ++changed_[difference];
     if (before.scene != now.scene)
-      throw Error(ErrorKind::usage,
-                  fmt::format("{}: the scene {} has other contents than when the baseline was written, so their values "
-                              "cannot be compared; restore the scene, or accept it with --update-baseline",
-                              path_, now.settings.at("scene.name")));
+      ++changed_[fmt::format("the scene {} has other contents than in the baseline", value_there(now, "scene.name"))];
     for (const auto& [name, value] : now.values) {
       if (value.time && !time_share_) continue;
       const auto there = before.values.find(name);
@@ -140,6 +160,14 @@ class Comparison {
             fmt::format("gone: {} at {} is in the baseline, but no bound and no plot names it any more", name, point));
   }
   BaselineComparison& found() { return found_; }
+  // How many points of the baseline were measured.
+  size_t points() const { return points_; }
+  // A line for each setting and each scene that changed.
+  void list_changes() {
+    for (const auto& [what, where] : changed_)
+      found_.changed.push_back(
+          fmt::format("changed: {}{}", what, where == points_ ? "" : fmt::format(" (at {})", counted(where, "point"))));
+  }
 
  private:
   // A name that this version does not know is not a time.
@@ -173,19 +201,20 @@ class Comparison {
     (worse ? found_.worse : found_.better).push_back(std::move(text));
   }
 
-  std::string path_;
   std::optional<double> time_share_;
+  size_t points_ = 0;
+  std::map<std::string, size_t> changed_;  // what changed, and at how many points
   BaselineComparison found_;
 };
 
 // The fewest differences to a point of the same part, or to any point if the part has none.
-std::vector<std::string> least_differences(const Key& before, const std::map<Key, const BaselinePoint*>& now) {
+std::vector<std::string> least_differences(const BaselinePoint& before, const Baseline& now) {
   std::vector<std::string> least;
   bool same_part = false, any = false;
-  for (const auto& [key, point] : now) {
-    const bool same = key.first == before.first;
+  for (const BaselinePoint& point : now.points) {
+    const bool same = point.part == before.part;
     if (same_part && !same) continue;
-    std::vector<std::string> here = differences(before, key);
+    std::vector<std::string> here = differences(before, point);
     if (!any || (same && !same_part) || here.size() < least.size()) least = std::move(here);
     any = true;
     same_part = same_part || same;
@@ -256,36 +285,38 @@ Baseline parse_baseline(std::string_view text, const std::string& path) {
 
 BaselineComparison compare_with_baseline(const Baseline& before, const Baseline& now, const std::string& path,
                                          std::optional<double> time_share, std::span<const std::string> parts) {
+  SweptNames swept;
+  add_swept(before.points, swept);
+  add_swept(now.points, swept);
   std::map<Key, const BaselinePoint*> there;
-  for (const BaselinePoint& point : now.points) there[key_of(point)] = &point;
+  for (const BaselinePoint& point : now.points) there[key_of(point, swept)] = &point;
   const std::set<std::string> names_before = naming_settings(before), names_now = naming_settings(now);
-  Comparison comparison(path, time_share);
+  Comparison comparison(time_share);
   std::vector<std::string>& worse = comparison.found().worse;
-  size_t matched = 0;
   std::string why;
   std::set<Key> known;
   for (const BaselinePoint& point : before.points) {
     if (!parts.empty() && std::find(parts.begin(), parts.end(), point.part) == parts.end()) continue;
-    const Key key = key_of(point);
+    const Key key = key_of(point, swept);
     known.insert(key);
     if (const auto at = there.find(key); at != there.end()) {
-      ++matched;
       comparison.compare(point, *at->second, name_of(point, names_before));
       continue;
     }
-    const std::vector<std::string> other = least_differences(key, there);
+    const std::vector<std::string> other = least_differences(point, now);
     std::string text =
         fmt::format("missing: {} is in the baseline, but was not measured", name_of(point, names_before));
     if (!other.empty()) text += fmt::format("; at the nearest point {}", fmt::join(other, ", "));
     if (why.empty()) why = text;
     worse.push_back(std::move(text));
   }
-  if (matched == 0)
+  if (comparison.points() == 0)
     throw Error(
         ErrorKind::usage,
-        fmt::format("{}: no point of the baseline was measured{}; use the experiment and the settings that it was "
+        fmt::format("{}: no point of the baseline was measured{}; use the experiment and the swept values that it was "
                     "written with, or accept these with --update-baseline",
                     path, why.empty() ? "" : fmt::format(" ({})", why)));
+  comparison.list_changes();
   for (const auto& [key, point] : there)
     if (!known.contains(key))
       comparison.found().notes.push_back(
@@ -297,7 +328,8 @@ BaselineComparison compare_with_baseline(const Baseline& before, const Baseline&
 }
 
 std::string baseline_verdict(const BaselineComparison& comparison) {
-  const std::string better = comparison.better.empty() ? "" : fmt::format(", {} better", comparison.better.size());
+  std::string better = comparison.better.empty() ? "" : fmt::format(", {} better", comparison.better.size());
+  if (!comparison.changed.empty()) better += fmt::format("; {}", counted(comparison.changed.size(), "change"));
   if (comparison.held())
     return fmt::format("no worse than the baseline ({} compared{})", counted(comparison.compared, "value"), better);
   return fmt::format("worse than the baseline in {} of {}{}", comparison.worse.size(),

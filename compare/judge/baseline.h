@@ -61,17 +61,19 @@ Baseline parse_baseline(std::string_view text, const std::string& path);
 
 struct BaselineComparison {
   std::vector<std::string> worse, better, notes;  // one line each
+  std::vector<std::string> changed;               // the settings and scenes that are not as they were; one line each
   size_t compared = 0;                            // number of values
   bool held() const { return worse.empty(); }
 };
 
-// Points are matched by their part and all settings. A setting that the file does not name has its default there,
-// because it is newer than the file. A value changed if it differs by more than one unit of the last digit that the
-// file holds: half of it is the file's rounding, half is for sums in another order. time_share: a time is compared only
-// if it is given, and changed if it differs by more than this share of the time before. A point of the file that was
+// Points are matched by their part and the values that it sweeps, before or now. So a point keeps its name when a fixed
+// setting or the model changes; what changed is said beside what became worse. A setting that the file does not name has its
+// default there, because it is newer than the file. A value changed if it differs by more than one unit of the last digit
+// that the file holds: half of it is the file's rounding, half is for sums in another order. time_share: a time is compared
+// only if it is given, and changed if it differs by more than this share of the time before. A point of the file that was
 // not measured is worse, with the settings that differ from the nearest point; a new point or value is a note.
 // parts: only points of these parts are compared; empty: all.
-// Throws Error(usage) if the file of a scene has other contents than before, and if no point is in both.
+// Throws Error(usage) if no point is in both.
 BaselineComparison compare_with_baseline(const Baseline& before, const Baseline& now, const std::string& path,
                                          std::optional<double> time_share, std::span<const std::string> parts = {});
 

@@ -90,9 +90,33 @@ TEST(Baseline, NamesASceneWithoutItsFolder) {
   EXPECT_NE(text.find("\"scene.name\": \"street.glb\""), std::string::npos) << text;
 }
 
-TEST(Baseline, OtherContentsOfASceneAreRefused) {
+TEST(Baseline, AChangedModelIsComparedAndSaid) {
   const Bound bound = limit("acne", 1, {});
-  EXPECT_EQ(kind_thrown([&] { compared(one(0.1, bound, "a"), one(0.1, bound, "b")); }), usage);
+  const BaselineComparison found = compared(one(0.1, bound, "a"), one(0.2, bound, "b"));
+  EXPECT_EQ(found.worse.size(), 1u);
+  ASSERT_EQ(found.changed.size(), 1u);
+  EXPECT_NE(found.changed[0].find("has other contents"), std::string::npos) << found.changed[0];
+}
+
+// Points are named by their part and what is swept, so a fixed setting may change.
+TEST(Baseline, AChangedSettingIsComparedAndSaid) {
+  const Bound bound = limit("acne", 1, {});
+  const auto of = [&](const char* bias, const char* wrap_of_second) {
+    Baseline baseline{"r", {}};
+    for (const int64_t id : {0, 1}) {
+      PointRecord point = sample_point(id);  // they differ in map.resolution
+      point.settings["bias.constant"] = bias;
+      if (id == 1) point.settings["map.wrap"] = wrap_of_second;
+      baseline.points.push_back(baseline_point(point, {&bound, 1}, {}, false, ""));
+    }
+    return baseline;
+  };
+  const std::string wrap = sample_point(1).settings.at("map.wrap");
+  const BaselineComparison found = compared(of("2", wrap.c_str()), of("3", wrap.c_str()));
+  EXPECT_TRUE(found.held());
+  EXPECT_EQ(found.compared, 2u);
+  EXPECT_EQ(found.changed, std::vector<std::string>{"changed: bias.constant is 3, in the baseline 2"});
+  EXPECT_TRUE(compared(of("2", wrap.c_str()), of("2", wrap.c_str())).changed.empty());
 }
 
 TEST(Baseline, AMissingPointIsWorseAndNamesWhatDiffers) {
@@ -108,13 +132,14 @@ TEST(Baseline, AMissingPointIsWorseAndNamesWhatDiffers) {
   EXPECT_NE(found.worse[0].find("map.resolution = 512 is in the baseline, but was not measured"), std::string::npos)
       << found.worse[0];
   EXPECT_EQ(found.notes.size(), 1u) << "the new point";
-  EXPECT_EQ(kind_thrown([&] { compared(of({1}), of({2})); }), usage) << "no point is in both";
+  EXPECT_EQ(kind_thrown([&] { compared(of({0, 1}), of({2, 3})); }), usage) << "no point is in both";
 }
 
 TEST(Baseline, ASettingThatTheFileDoesNotKnowHasItsDefaultThere) {
   Baseline before = one(0.1);
   before.points[0].settings.erase("map.wrap");
   EXPECT_TRUE(compared(before, one(0.1)).held());
+  EXPECT_TRUE(compared(before, one(0.1)).changed.empty());
 }
 
 TEST(Baseline, TimesAreComparedOnlyIfAskedFor) {
