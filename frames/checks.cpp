@@ -278,7 +278,6 @@ Outcome levels(const CheckEvidence& e, const FrameStatistics&) {
 
 // ---- map
 
-constexpr std::string_view map_check = "map";
 // The largest median distance of a map's depths from the scene's, as a share of the depths' spread. Half floats are off by
 // 0.0005 at most; a map that is turned over, or another frame's, is off by a tenth and more.
 constexpr double most_map_off = 0.02;

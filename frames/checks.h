@@ -43,6 +43,7 @@ struct CheckEvidence {
 };
 std::vector<CheckResult> check_frame(const CheckEvidence& evidence);
 
+inline constexpr std::string_view map_check = "map";
 // The check "map", which needs the exact map. off_m: the median distance of its depths from the scene's, over the texels that
 // are read. spread_m: how far apart the scene's depths there are.
 CheckResult check_given_map(double off_m, double spread_m);

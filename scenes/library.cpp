@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -45,7 +46,7 @@ const T& value_named(const std::vector<Named<T>>& all, std::string_view name, st
   std::vector<std::string_view> names;
   for (const Named<T>& one : all) {
     for (const std::string_view own : {std::string_view(one.node), std::string_view(one.name)})
-      if (!own.empty()) names.push_back(own);
+      if (!own.empty() && std::find(names.begin(), names.end(), own) == names.end()) names.push_back(own);
     if (one.node != name && one.name != name) continue;
     if (found)
       throw Error(ErrorKind::usage,

@@ -202,6 +202,7 @@ std::string reproduce_command(const Experiment& experiment, const PointRecord& p
     const FrameRequest& frame = experiment.frames.at(static_cast<size_t>(point.id));
     std::string judge = "noonmark judge " + shell_quoted(frame.file);
     for (const std::string& name : frame.accepted) judge += " --accept " + shell_quoted(name);
+    if (frame.without_map) judge += " --without-map";
     return judge;
   }
   std::string command = "noonmark render " + shell_quoted(experiment.path);

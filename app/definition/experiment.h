@@ -50,6 +50,7 @@ struct FrameRequest {
   std::string name;                   // different for each
   std::string file;                   // frame.json; a relative path starts at the working directory
   std::vector<std::string> accepted;  // names of checks
+  bool without_map = false;           // judged by place, though its file names a shadow map
 };
 
 struct Experiment {

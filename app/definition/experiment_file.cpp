@@ -148,6 +148,8 @@ class Reader : private SettingsReader {
           frame.accepted.push_back(string(*one, "frame.accept"));
           at(one->source(), [&] { require_check(frame.accepted.back()); });
         }
+      } else if (item.key == "without_map") {
+        frame.without_map = boolean(*item.node, "frame.without_map");
       } else {
         unknown(item, "key", key_names("frame"), "frame.");
       }

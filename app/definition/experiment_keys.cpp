@@ -105,7 +105,8 @@ const std::vector<ExperimentKey>& frame_table_keys() {
   static const std::vector<ExperimentKey> keys = {
       required({"file", Kind::text, "The path of its frame.json, from this file's folder."}),
       {"name", Kind::text, "What the report calls it; without one, the path of the file."},
-      {"accept", Kind::names, "Checks of the delivery whose failure does not stop it."}};
+      {"accept", Kind::names, "Checks of the delivery whose failure does not stop it."},
+      {"without_map", Kind::flag, "Judge it by place alone, though its file names a shadow map; needs no OpenGL."}};
   return keys;
 }
 

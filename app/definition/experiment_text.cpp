@@ -61,6 +61,7 @@ class Writer {
       line("file", toml_string(from_folder(frame.file)));
       line("name", toml_string(frame.name));
       if (!frame.accepted.empty()) line("accept", names(frame.accepted));
+      if (frame.without_map) line("without_map", "true");
     }
     if (!e.frames.empty())
       for (const Bound& bound : e.bounds) write_bound(bound, "");

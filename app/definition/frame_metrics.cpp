@@ -9,8 +9,23 @@
 #include "base/suggestion.h"
 #include "compare/ladder/ladder.h"
 #include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
+
+namespace {
+
+bool is_cause(std::string_view metric) {
+  for (int cause = 1; cause < cause_count; ++cause)
+    if (metric == cause_name(static_cast<Cause>(cause))) return true;
+  return false;
+}
+
+}  // namespace
+
+bool needs_own_map(std::string_view metric) {
+  return is_cause(metric) || metric == frame_lookup || metric == frame_lookup_differs;
+}
 
 void require_frame_metric(std::string_view metric) {
   std::vector<std::string_view> names = {"receivers", "facing", "counted", "ambiguous"};

@@ -9,4 +9,7 @@ namespace noonmark {
 // Error(usage) with the nearest name for any other metric.
 void require_frame_metric(std::string_view metric);
 
+// Whether only a frame with its own map has the metric.
+bool needs_own_map(std::string_view metric);
+
 }  // namespace noonmark

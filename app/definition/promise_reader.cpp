@@ -67,6 +67,7 @@ void PromiseReader::read_bound(const toml::table& table) {
   if (max) bound.max = limit(*max, "max", "be broken");
   if (min) bound.min = limit(*min, "min", "hold");
   at(table.source(), [&] { check_bound(bound); });
+  bound.location = location_text(table.source());
   experiment_.bounds.push_back(std::move(bound));
 }
 

@@ -207,7 +207,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
   }
   for (const auto& [name, value] : m.record.times) json["times"][name] = number_json(value);
   for (const RecordField& field : record_fields())
-    if (!field.group.empty())
+    if (!field.group.empty() && field.group != delivery_group)
       json[std::string(field.group)][std::string(field.key())] =
           with_value(field, m.record, [](const auto& value) -> nlohmann::json {
             if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)

@@ -58,6 +58,15 @@ Technique technique_of(const GivenMap& given, const Light& light, const Image<fl
 
 }  // namespace
 
+FrameMap::FrameMap(const Scene& scene, const raytrace::Tracer& tracer) try : lookup_(scene, tracer) {
+} catch (const Error& error) {
+  if (error.kind() != ErrorKind::device) throw;
+  throw Error(ErrorKind::device,
+              fmt::format("the causes of a frame with its own map need OpenGL: {}; or judge it by place alone, with "
+                          "--without-map (in a [[frame]]: without_map = true)",
+                          error.what()));
+}
+
 std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict) {
   const GivenMap& given = *frame.map;
   const MapFrame map = map_frame(given.name, verdict.light, given.clip_from_world, given.depth.width);
@@ -108,7 +117,7 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
       counted += 1;
       differ += std::abs(climbed.ladder.shown()[i] - looked_up[i]) > 0.5f;
     }
-  verdict.metrics["frame_lookup_differs"] = differ / counted;
+  verdict.metrics[std::string(frame_lookup_differs)] = differ / counted;
   return std::move(climbed.ladder);
 }
 

@@ -13,7 +13,8 @@ namespace noonmark {
 
 class FrameMap {
  public:
-  FrameMap(const Scene& scene, const raytrace::Tracer& tracer) : lookup_(scene, tracer) {}
+  // Throws Error(device) if there is no OpenGL, and says how to judge without it.
+  FrameMap(const Scene& scene, const raytrace::Tracer& tracer);
 
   // frame: with a map. verdict: gets the result of the check "map", and unless that refuses the frame the metrics: the causes
   // of the ladder by their names, frame_lookup, frame_lookup_differs. Throws Error(file) if the map is not one of the

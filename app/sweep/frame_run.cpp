@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/definition/frame_metrics.h"
 #include "app/pictures/frame_pictures.h"
 #include "app/pictures/given_frame.h"
 #include "app/sweep/frame_map.h"
@@ -22,6 +23,7 @@
 #include "base/file.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "compare/judge/conditions.h"
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
 #include "compare/store/store.h"
@@ -110,11 +112,13 @@ class FrameRun {
       throw Error(ErrorKind::usage, fmt::format("{} holds the results of another experiment; give another --out, or "
                                                 "--overwrite, which deletes them",
                                                 folder_.path()));
-    for (const FrameRequest& request : experiment_.frames) files_.push_back(read_frame_file(request.file));
-    for (const FrameFile& file : files_) scene_name_of(file);  // which refuses a file without one
+    for (const FrameRequest& request : experiment_.frames) files_.push_back(read(request));
+    require_maps_of_causes();
+    const std::string path = folder_.path() + "/results.sqlite";
+    if (folder_.ours()) earlier_ = ResultStore::bounds_of(path);
     folder_.take();
     folder_.remove_earlier_results();
-    store_.emplace(folder_.path() + "/results.sqlite", "frames\n", Existing::overwrite);
+    store_.emplace(path, "frames\n", Existing::overwrite);
     store_->set_info(run_info(experiment_, folder_.path(), options_, {}, tracer_info_),
                      static_cast<int64_t>(experiment_.frames.size()));
   }
@@ -138,92 +142,158 @@ class FrameRun {
 
   void judge_and_write() {
     outcome_.results = store_->load();
-    noonmark::judge(experiment_, outcome_.results);
+    noonmark::judge(experiment_, outcome_.results, earlier_);
     store_->set_bounds(outcome_.results.bounds);
     write_report(outcome_.results, folder_.path());
-    if (!refused_.empty())
-      throw Error(ErrorKind::file,
-                  fmt::format("{}; its shadows are not judged{}; deliver the frame anew, or add the check's name "
-                              "to its 'accept'",
-                              refused_.front(),
-                              refused_.size() == 1
-                                  ? ""
-                                  : fmt::format(" (and {} more failed {}, which the report lists)", refused_.size() - 1,
-                                                refused_.size() == 2 ? "check" : "checks")));
   }
 
   SweepOutcome take() { return std::move(outcome_); }
 
  private:
+  // A frame.json, or why it cannot be read.
+  struct ReadFile {
+    std::optional<FrameFile> file;
+    std::string why_not;
+  };
+
+  // A fault of one frame's files must not hide what the other frames are.
+  template <class Use>
+  static std::string fault_of(const Use& use) {
+    try {
+      use();
+      return "";
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::file && error.kind() != ErrorKind::usage) throw;  // not the frame's
+      return error.what();
+    }
+  }
+
+  static ReadFile read(const FrameRequest& request) {
+    ReadFile made;
+    made.why_not = fault_of([&] {
+      FrameFile file = read_frame_file(request.file);
+      scene_name_of(file);  // which refuses a file without one
+      if (request.without_map) file.map.reset();
+      made.file = std::move(file);
+    });
+    return made;
+  }
+
+  // A bound on a cause needs the map of each frame that it matches.
+  void require_maps_of_causes() {
+    const std::vector<Settings> planned = points(experiment_);
+    for (const Bound& bound : experiment_.bounds) {
+      if (!needs_own_map(bound.metric)) continue;
+      for (size_t i = 0; i < files_.size(); ++i) {
+        PointRecord point;
+        point.settings = settings_map(planned[i]);
+        if (!matches(point, bound.where) || !files_[i].file || files_[i].file->map) continue;
+        throw Error(ErrorKind::usage,
+                    fmt::format("bound on '{}': {} hands over no shadow map, so its causes are not known; bound "
+                                "'frame_acne' and its kin there, or name the frames with a map in the bound's where "
+                                "(given.frame = [\"...\"])",
+                                bound.metric, experiment_.frames[i].name));
+      }
+    }
+  }
+
+  struct Judged {
+    GivenFrame frame;
+    FrameVerdict verdict;
+    std::optional<Ladder> climbed;
+  };
+
   void judge_frame_number(size_t i, const Settings& point) {
+    PointRecord record = empty_record(static_cast<int64_t>(i), point);
+    std::optional<Judged> judged;
+    record.delivery.refused = files_[i].why_not;
+    if (files_[i].file) record.delivery.refused = fault_of([&] { judged.emplace(judged_frame(i)); });
+    if (judged) fill(record, *judged);
+    if (!record.delivery.refused.empty())
+      for (const Metric& row : metrics_table())
+        if (row.of_frames) record.metrics[std::string(row.name)] = std::numeric_limits<double>::quiet_NaN();
+    store_->add(record);
+    outcome_.scenes.push_back(judged && names_file(scene_.name()) ? scene_.digest() : "");
+    ++outcome_.measured;
+  }
+
+  PointRecord empty_record(int64_t id, const Settings& point) const {
+    PointRecord record;
+    record.id = id;
+    record.settings = settings_map(point);
+    record.causes = classes_as_causes();
+    record.machine = this_machine({}, tracer_info_);
+    record.machine.clock = utc_now();
+    return record;
+  }
+
+  // Throws Error(file) for a picture that cannot be read, or that is not of this scene's frame.
+  Judged judged_frame(size_t i) {
     const FrameRequest& request = experiment_.frames[i];
-    const FrameFile& file = files_[i];
+    const FrameFile& file = *files_[i].file;
     scene_.show(file);
-    if (const std::string& name = scene_.scene().name;
-        std::find(scene_names_.begin(), scene_names_.end(), name) == scene_names_.end())
-      scene_names_.push_back(name);
-    if (const std::string note = notes_line(scene_.scene());
-        !note.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
-      notes_.push_back(note);
-    const GivenFrame frame = given_frame(file, scene_.scene());
+    const auto remember = [](std::vector<std::string>& list, const std::string& text) {
+      if (!text.empty() && std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+    };
+    remember(scene_names_, scene_.scene().name);
+    remember(notes_, notes_line(scene_.scene()));
+    GivenFrame frame = given_frame(file, scene_.scene());
     JudgeRules rules = rules_of(file);
     rules.accepted.insert(request.accepted.begin(), request.accepted.end());
     FrameVerdict verdict = judge_frame(scene_.scene(), scene_.tracer(), frame, rules);
     std::optional<Ladder> climbed;
     if (frame.map && !verdict.refused())
       climbed = scene_.with_map().climb(frame, rules.accepted.contains("map"), verdict);
-    PointRecord record = record_of(static_cast<int64_t>(i), point, frame, verdict, climbed);
-    for (const CheckResult& check : verdict.checks)
-      if (check.state == CheckState::failed) {
-        const std::string says = fmt::format("{}: {}: {}", request.name, check.name, check.says);
-        if (!check.accepted) refused_.push_back(says);
-        notes_.push_back(check.accepted ? fmt::format("{} (accepted)", says) : says);
-      }
-    store_->add(record);
-    outcome_.scenes.push_back(names_file(scene_.name()) ? scene_.digest() : "");
-    ++outcome_.measured;
+    return {std::move(frame), std::move(verdict), std::move(climbed)};
   }
 
-  PointRecord record_of(int64_t id, Settings point, const GivenFrame& frame, const FrameVerdict& verdict,
-                        const std::optional<Ladder>& climbed) {
-    point.scene.name = scene_.name();
-    point.view.width_px = frame.visibility.width;
-    point.view.height_px = frame.visibility.height;
-    PointRecord record;
-    record.id = id;
-    record.settings = settings_map(point);
+  static PointRecord::Delivery delivery_of(const FrameVerdict& verdict, bool with_map) {
+    PointRecord::Delivery delivery;
+    const auto add = [](std::string& list, const char* between, const std::string& text) {
+      list += (list.empty() ? "" : between) + text;
+    };
+    for (const CheckResult& check : verdict.checks) {
+      if (check.name == map_check && !with_map) continue;  // there is nothing to check
+      if (check.state == CheckState::not_checked) add(delivery.not_checked, ", ", std::string(check.name));
+      if (check.state == CheckState::failed)
+        add(check.accepted ? delivery.accepted : delivery.refused, "; ", fmt::format("{}: {}", check.name, check.says));
+    }
+    return delivery;
+  }
+
+  void fill(PointRecord& record, const Judged& judged) {
+    const auto& [frame, verdict, climbed] = judged;
+    record.delivery = delivery_of(verdict, frame.map.has_value());
+    record.settings["scene.name"] = scene_.name();
+    record.settings["view.width_px"] = fmt::format("{}", frame.visibility.width);
+    record.settings["view.height_px"] = fmt::format("{}", frame.visibility.height);
     record.scene_digest = scene_.digest();
     record.metrics = verdict.metrics;
-    if (verdict.refused())
-      for (auto& [name, value] : record.metrics)
-        if (name.starts_with("frame_")) value = std::numeric_limits<double>::quiet_NaN();
-    record.causes = climbed ? climbed->brought : classes_as_causes();
+    if (climbed) record.causes = climbed->brought;
     record.worst_of = worst_of(verdict);
     if (verdict.worst.x >= 0)
       record.worst = {verdict.worst.x, verdict.worst.y, verdict.error.at(verdict.worst.x, verdict.worst.y),
                       climbed ? std::string(climbed->cause_of(verdict.error.index(verdict.worst.x, verdict.worst.y)))
                               : std::string(class_name(verdict.classes.at(verdict.worst.x, verdict.worst.y)))};
-    record.machine = this_machine({}, tracer_info_);
-    record.machine.clock = utc_now();
     if (experiment_.pictures != "none") {
       make_folder(folder_.path() + "/images");
-      const std::string stem = fmt::format("p{:04}", id);
+      const std::string stem = fmt::format("p{:04}", record.id);
       const Ladder* const ladder = climbed ? &*climbed : nullptr;
       record.pictures = write_frame_pictures(verdict, frame, ladder, folder_.path() + "/images", "images", stem);
       const std::string exr = fmt::format("images/{}-frame.exr", stem);
       record.images.push_back(write_frame_exr(verdict, frame, ladder, folder_.path() + "/" + exr, exr));
     }
-    return record;
   }
 
   const Experiment& experiment_;
   const ResultsFolder& folder_;
   const SweepOptions& options_;
   const raytrace::TracerInfo tracer_info_;
-  std::vector<FrameFile> files_;
+  std::vector<ReadFile> files_;
   std::optional<ResultStore> store_;
+  std::vector<BoundResult> earlier_;  // of the run before
   SceneOfFrames scene_;
-  std::vector<std::string> scene_names_, notes_, refused_;
+  std::vector<std::string> scene_names_, notes_;
   SweepOutcome outcome_;
 };
 

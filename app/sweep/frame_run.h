@@ -1,5 +1,5 @@
 // Judges the frames of an experiment ([[frame]]): each is a point of the store, the report and the verdict, as the points of a
-// sweep are. Nothing is measured with OpenGL.
+// sweep are. Only a frame's own shadow map needs OpenGL.
 //
 //   SweepOutcome outcome = run_frames(experiment, folder, options);
 #pragma once
@@ -10,8 +10,9 @@
 namespace noonmark {
 
 // Frames are judged anew each time: a frame takes a second or two, and its pictures change without a change of their names.
-// Throws Error: usage if the folder holds the results of another experiment; file if a frame cannot be read, and, after
-// everything is written, if a check of a delivery failed.
+// A frame that cannot be read, or of whose delivery a check failed, is refused: its record says why (PointRecord::Delivery),
+// and the other frames are judged. Throws Error(usage) if the folder holds the results of another experiment, or if a bound
+// needs the map of a frame that has none; Error(device) if a frame has a map and there is no OpenGL.
 SweepOutcome run_frames(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
 
 }  // namespace noonmark

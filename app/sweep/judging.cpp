@@ -10,6 +10,8 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/deliveries.h"
+#include "compare/judge/last_run.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/judge/soundness.h"
@@ -18,11 +20,15 @@
 
 namespace noonmark {
 
-void judge(const Experiment& experiment, Results& results) {
+namespace {
+
+void judge_parts(const Experiment& experiment, Results& results) {
   const auto reproduce = [&](const PointRecord& point) { return reproduce_command(experiment, point); };
   const auto judge_part = [&](const Experiment& part, std::span<const PointRecord> points) {
     for (BoundResult& bound : evaluate_bounds(points, part.bounds, reproduce)) {
       bound.part = part.part;
+      if (!experiment.frames.empty() && !bound.reproduce.empty() && bound.max)
+        bound.reproduce += fmt::format(" --max {}={}", bound.metric, *bound.max);
       results.bounds.push_back(std::move(bound));
     }
     for (LawResult& law : evaluate_laws(points, part.laws, reproduce)) {
@@ -41,6 +47,13 @@ void judge(const Experiment& experiment, Results& results) {
   }
 }
 
+}  // namespace
+
+void judge(const Experiment& experiment, Results& results, const std::vector<BoundResult>& earlier) {
+  judge_parts(experiment, results);
+  add_last_run(results.bounds, earlier);
+}
+
 std::string verdict_words(const Results& results, const BaselineComparison* compared) {
   size_t bounds_held = 0, warnings = 0, laws_held = 0;
   for (const BoundResult& bound : results.bounds) {
@@ -48,9 +61,10 @@ std::string verdict_words(const Results& results, const BaselineComparison* comp
     warnings += !bound.held && bound.warns;
   }
   for (const LawResult& law : results.laws) laws_held += law.held;
-  std::string verdict;
+  std::string verdict = refused_words(results.points);
   if (!results.bounds.empty())
-    verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
+    verdict += fmt::format("{}{} of {} held", verdict.empty() ? "" : ", ", bounds_held,
+                           counted(results.bounds.size(), "bound"));
   if (warnings > 0) verdict += fmt::format(", {}", counted(warnings, "warning"));
   if (!results.laws.empty())
     verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
@@ -59,15 +73,25 @@ std::string verdict_words(const Results& results, const BaselineComparison* comp
   return verdict.empty() ? "nothing is promised" : verdict;
 }
 
-std::string findings_text(const Results& results, const BaselineComparison* compared) {
+std::string refused_text(const Results& results) {
+  const std::vector<const PointRecord*> refused = refused_frames(results.points);
   std::string text;
+  for (const PointRecord* frame : refused) text += fmt::format("refused: {}\n", printable(why_refused(*frame)));
+  if (!refused.empty())
+    text += "  deliver it anew; a check that fails for a known reason is passed over with the frame's key 'accept'\n";
+  return text;
+}
+
+std::string findings_text(const Results& results, const BaselineComparison* compared) {
+  std::string text = refused_text(results);
   for (const BoundResult& bound : results.bounds)
     text += describe(bound, find_point(results.points, bound.point), results.info.swept);
   if (!results.laws.empty()) text += (results.bounds.empty() ? "" : "\n") + law_table(results.laws);
   for (const LawResult& law : results.laws)
     if (!law.found.empty()) text += fmt::format("found: {}\n", printable(law.found));
+  if (const std::string since = last_run_text(results); !since.empty()) text += printable(since) + "\n";
   if (compared)
-    for (const auto* lines : {&compared->worse, &compared->better, &compared->notes})
+    for (const auto* lines : {&compared->changed, &compared->worse, &compared->better, &compared->notes})
       for (const std::string& line : *lines) text += printable(line) + "\n";
   return text;
 }

@@ -6,6 +6,7 @@
 
 #include "base/build_facts.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/deliveries.h"
 #include "compare/judge/laws.h"
 #include "compare/judge/recommendation.h"
 #include "compare/results/quantities.h"
@@ -28,6 +29,10 @@ Json point_of(const PointRecord& point, const RunInfo& info) {
   Json json = {{"point", point.id}};
   if (!point.part.empty()) json["part"] = point.part;
   json["settings"] = settings_of(point, info.swept);
+  if (judges_frames({&point, 1}))
+    json["delivery"] = {{"refused", point.delivery.refused},
+                        {"accepted", point.delivery.accepted},
+                        {"not_checked", point.delivery.not_checked}};
   json["metrics"] = Json::object();
   for (const auto& [name, value] : point.metrics) json["metrics"][name] = number_json(value);
   if (point.curve) {
@@ -57,6 +62,7 @@ Json bound_of(const BoundResult& bound) {
   if (!bound.where.empty()) json["where"] = bound.where;
   json["verdict"] = bound.held ? "held" : bound.warns ? "warning" : "broken";
   json["found"] = bound.points == 0 ? Json() : Json(number_json(bound.found));
+  if (bound.before) json["found_before"] = number_json(*bound.before);
   json["points"] = bound.points;
   json["worst_point"] = bound.point < 0 ? Json() : Json(bound.point);
   if (!bound.held) json["reproduce"] = bound.reproduce;
@@ -120,10 +126,11 @@ Json results_json(const SweepOutcome& outcome, const JsonRun& run) {
   const Results& results = outcome.results;
   const RunInfo& info = results.info;
   Json json = {{"experiment", run.experiment}, {"title", info.title}, {"exit_code", run.exit_code}};
-  json["verdict"] = outcome.interrupted  ? "incomplete"
-                    : !run.judges        ? "measured"
-                    : run.exit_code == 0 ? "held"
-                                         : "broken";
+  json["verdict"] = outcome.interrupted                       ? "incomplete"
+                    : !refused_frames(results.points).empty() ? "refused"
+                    : !run.judges                             ? "measured"
+                    : run.exit_code == 0                      ? "held"
+                                                              : "broken";
   json["folder"] = run.folder;
   json["points_planned"] = results.planned_points;
   json["points_measured"] = outcome.measured;
@@ -136,11 +143,9 @@ Json results_json(const SweepOutcome& outcome, const JsonRun& run) {
   for (const BoundResult& bound : results.bounds) json["bounds"].push_back(bound_of(bound));
   for (const LawResult& law : results.laws) json["laws"].push_back(law_of(law));
   if (run.baseline)
-    json["baseline"] = {{"held", run.baseline->held()},
-                        {"compared", run.baseline->compared},
-                        {"worse", run.baseline->worse},
-                        {"better", run.baseline->better},
-                        {"notes", run.baseline->notes}};
+    json["baseline"] = {{"held", run.baseline->held()},     {"compared", run.baseline->compared},
+                        {"changed", run.baseline->changed}, {"worse", run.baseline->worse},
+                        {"better", run.baseline->better},   {"notes", run.baseline->notes}};
   json["answer"] = answer_of(results);
   json["points"] = Json::array();
   for (const PointRecord& point : results.points) json["points"].push_back(point_of(point, info));

@@ -6,13 +6,21 @@
 #include "app/sweep/frame_run.h"
 #include "app/sweep/stop_on_signal.h"
 #include "app/sweep/sweep_run.h"
+#include "base/error.h"
 #include "base/text.h"
+#include "compare/judge/deliveries.h"
 
 namespace noonmark {
 
 std::string SweepOutcome::counts() const {
   return kept == 0 ? fmt::format("{} measured", counted(static_cast<size_t>(measured), "point"))
                    : fmt::format("{} measured, {} kept", counted(static_cast<size_t>(measured), "point"), kept);
+}
+
+int SweepOutcome::exit_code(bool held) const {
+  if (interrupted) return static_cast<int>(ErrorKind::incomplete);
+  if (!refused_frames(results.points).empty()) return static_cast<int>(ErrorKind::file);
+  return held ? 0 : 1;
 }
 
 std::string stopped_text(const SweepOutcome& outcome) {

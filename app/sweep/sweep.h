@@ -31,6 +31,8 @@ struct SweepOutcome {
   bool interrupted = false;        // by SIGINT or SIGTERM; the finished points are stored
   int64_t measured = 0, kept = 0;  // points: by this run, and from earlier runs
   std::string counts() const;      // "1 point measured, 2 kept"
+  // Of `run` and `check`: incomplete if interrupted, file if a frame is refused, 1 if something is broken, otherwise 0.
+  int exit_code(bool held) const;
   std::vector<SummaryPicture> worst_pixels;
   // For each planned point: the digest of the contents of its scene's file. Empty if the scene is built in.
   std::vector<std::string> scenes;

@@ -108,6 +108,7 @@ void SweepRun::open() {
   note_each(scenes.notes());
   const AskedPoints asked{experiment_, planned_, wanted_, scenes};
   if (!folder_.ours() && !options_.overwrite) require_own_results(folder_.path(), opened_as, asked);
+  if (folder_.ours()) last_bounds_ = ResultStore::bounds_of(folder_.path() + "/results.sqlite");
   folder_.take();
   store_.emplace(open_store(folder_, opened_as, options_.overwrite));
   note_each(store_->repair(static_cast<int64_t>(planned_.size()), has_what_a_sweep_reads));
@@ -246,7 +247,7 @@ void SweepRun::tell() {
 }
 
 void SweepRun::judge() {
-  if (!options_.shard) noonmark::judge(experiment_, outcome_.results);
+  if (!options_.shard) noonmark::judge(experiment_, outcome_.results, last_bounds_);
   store_->set_bounds(outcome_.results.bounds);
   store_->set_laws(outcome_.results.laws);
 }

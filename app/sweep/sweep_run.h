@@ -65,6 +65,7 @@ class SweepRun {
   std::optional<ResultStore> store_;
   std::vector<PhasePlan> diagrams_;
   std::vector<const PhasePlan*> undrawn_;  // of the diagrams: those that the store does not have
+  std::vector<BoundResult> last_bounds_;   // of the run before
   std::vector<PhaseDiagram> earlier_;      // stored ones; their measurement can be used again
   std::vector<int64_t> before_;            // the ids of the points that the store has already, in ascending order
   int64_t done_ = 0;                       // of the wanted points: those that are stored

@@ -8,6 +8,7 @@
 #include "app/definition/experiment_list.h"
 #include "app/definition/experiment_text.h"
 #include "app/pictures/point_pictures.h"
+#include "app/sweep/annotations.h"
 #include "app/sweep/baseline_file.h"
 #include "app/sweep/judging.h"
 #include "app/sweep/plan.h"
@@ -18,12 +19,14 @@
 #include "app/verbs/checked_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
+#include "app/verbs/terminal_text.h"
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/failure.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "compare/judge/deliveries.h"
 #include "compare/report/index_page.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
@@ -51,6 +54,7 @@ std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& out
 struct Checked {
   int exit_code = 0;
   std::string text;
+  std::string annotations;  // under GitHub Actions
   nlohmann::ordered_json json;
 };
 
@@ -84,12 +88,13 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
   write_file_atomically(out + "/summary.md", to_summary(outcome.results, comparison, outcome.worst_pixels));
   const Results& results = outcome.results;
   const bool held = all_held(results) && (!compared || compared->held());
+  const bool judged = refused_frames(results.points).empty();
   entry.report = page.report_of(listed);
   entry.numbers = worst_numbers(results);
   const std::string broken = broken_in_words(results);
   entry.words = outcome.interrupted ? "stopped before its end"
                                     : (broken.empty() ? "" : broken + "; ") + verdict_words(results, comparison);
-  if (!outcome.interrupted) entry.verdict = held ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
+  if (!outcome.interrupted) entry.verdict = held && judged ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
   if (const std::string picture = picture_of_index(results); !picture.empty()) {
     try {
       entry.thumbnail = read_picture(out, picture, results.points);
@@ -98,7 +103,9 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
     }
   }
   if (!outcome.interrupted) page.atlas().add(experiment, out, results, held);
-  checked.exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : held ? 0 : 1;
+  checked.exit_code = outcome.exit_code(held);
+  if (under_github_actions() && !outcome.interrupted)
+    checked.annotations = github_annotations(path, results, comparison);
   if (arguments.json)
     checked.json = results_json(outcome, {path, out, checked.exit_code, true, comparison});
   else
@@ -146,10 +153,11 @@ class Answers {
   }
   void add(const Checked& checked) {
     worst_ = std::max(worst_, checked.exit_code);
+    fmt::print(arguments_.json ? stderr : stdout, "{}", checked.annotations);
     if (arguments_.json)
       printed_.push_back(checked.json);
     else
-      fmt::print("{}", checked.text);
+      fmt::print("{}", terminal_has_colours() ? with_coloured_verdicts(checked.text) : checked.text);
   }
   // What is wrong with a page about all experiments.
   void add(const Failure& failure) { worst_ = std::max(worst_, tell(failure)); }

@@ -31,6 +31,7 @@
 #include "raytrace/tracer.h"
 #include "scenes/library.h"
 #include "technique/setting_json.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {
@@ -44,6 +45,7 @@ struct JudgeOptions {
   std::optional<double> edge_m, contact_m;
   double edge_pixels = JudgeRules().edge_pixels;
   bool edge_pixels_given = false;
+  bool without_map = false;
   ExperimentArguments arguments;
 };
 
@@ -72,6 +74,21 @@ Bound bound_of(const std::string& text) {
   return bound;
 }
 
+// A setting of Noonmark's own technique or picture says nothing about a frame that is there already.
+void require_used(const std::string& assignment) {
+  const std::string name = assignment.substr(0, assignment.find('='));
+  const auto starts = [&](std::string_view group) { return name.starts_with(group); };
+  if (name == "scene.name")
+    throw Error(ErrorKind::usage, "--set scene.name: the scene is the argument before --picture");
+  const bool of_picture = name == "view.width_px" || name == "view.height_px";
+  if (!of_picture && (starts("scene.") || starts("view.") || starts("light.") || starts("truth."))) return;
+  find_setting(name);  // an unknown name has its own message
+  throw Error(ErrorKind::usage, fmt::format("--set {}: {}", name,
+                                            of_picture ? "the picture's own size counts; leave it out"
+                                                       : "judge draws nothing, so only scene.*, view.*, light.* and "
+                                                         "truth.* have an effect; leave it out"));
+}
+
 // What is judged: the scene, and the frame that shows it.
 struct Subject {
   Scene scene;
@@ -83,6 +100,11 @@ Subject subject_of(const JudgeOptions& options) {
   const bool is_file = ends_with_any_case(options.subject, ".json");
   if (std::error_code none; std::filesystem::is_directory(options.subject, none))
     throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the frame.json in it", options.subject));
+  if (options.picture.empty())
+    for (const char* ending : {".exr", ".png", ".npy"})
+      if (ends_with_any_case(options.subject, ending))
+        throw Error(ErrorKind::usage, fmt::format("{} is a picture; write noonmark judge SCENE --picture {}",
+                                                  options.subject, options.subject));
   if (is_file != options.picture.empty())
     throw Error(ErrorKind::usage, is_file
                                       ? "a frame.json names its picture itself; --picture is for a scene"
@@ -95,11 +117,15 @@ Subject subject_of(const JudgeOptions& options) {
       throw Error(
           ErrorKind::usage,
           "a frame.json says camera, light and encoding itself; --set and --srgb are for a scene with --picture");
-    const FrameFile file = read_frame_file(options.subject);
+    FrameFile file = read_frame_file(options.subject);
+    if (options.without_map) file.map.reset();
     Scene scene = scene_of(file);
     GivenFrame frame = given_frame(file, scene);
     subject.emplace(Subject{std::move(scene), std::move(frame), rules_of(file)});
   } else {
+    for (const std::string& assignment : options.arguments.sets) require_used(assignment);
+    if (options.without_map)
+      throw Error(ErrorKind::usage, "--without-map is for a frame.json that names a map; leave it out");
     ExperimentArguments arguments = options.arguments;
     arguments.sets.push_back("scene.name=" + options.subject);
     const Settings settings = points(experiment_from("", arguments)).at(0);
@@ -157,7 +183,7 @@ void print_causes(const FrameVerdict& verdict, const Ladder& ladder) {
         found != verdict.metrics.end() && cause.name != "aliasing" && cause.name != "coverage")  // sums of others
       fmt::print("  {:<14}{:>11.5f}%   {}\n", cause.name, 100 * found->second, cause.label);
   fmt::print("  at {:.5f}% of the receivers the frame is not what that lookup gives\n",
-             100 * verdict.metrics.at("frame_lookup_differs"));
+             100 * verdict.metrics.at(std::string(frame_lookup_differs)));
 }
 
 std::string judge_json(const Subject& subject, const FrameVerdict& verdict, const std::vector<BoundResult>& bounds,
@@ -192,6 +218,12 @@ int judge_one(const JudgeOptions& options) {
   std::vector<Bound> bounds;
   for (const std::string& text : options.most) bounds.push_back(bound_of(text));
   const Subject subject = subject_of(options);
+  for (const Bound& bound : bounds)
+    if (needs_own_map(bound.metric) && !subject.frame.map)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--max {}: known only of a frame with its own shadow map; {}", bound.metric,
+                              options.without_map ? "leave out --without-map"
+                                                  : fmt::format("add the key 'map' to {}", options.subject)));
   const raytrace::Tracer tracer(subject.scene);
   FrameVerdict verdict = judge_frame(subject.scene, tracer, subject.frame, subject.rules);
   std::optional<Ladder> climbed;
@@ -199,11 +231,6 @@ int judge_one(const JudgeOptions& options) {
     climbed = FrameMap(subject.scene, tracer).climb(subject.frame, subject.rules.accepted.contains("map"), verdict);
   const Ladder* const ladder = climbed ? &*climbed : nullptr;
 
-  for (const Bound& bound : bounds)
-    if (!verdict.refused() && !verdict.metrics.contains(bound.metric))
-      throw Error(ErrorKind::usage,
-                  fmt::format("--max {}: known only of a frame with its own shadow map; add the key 'map' to {}",
-                              bound.metric, options.subject));
   PointRecord record;
   record.metrics = verdict.metrics;
   const std::vector<BoundResult> judged =
@@ -280,6 +307,8 @@ RunVerb add_judge(CLI::App& verb) {
                   "How near an occluder is where light leaks at a contact; without it 1% of the scene's diagonal")
       ->check(above_zero())
       ->type_name(value_kind::number);
+  verb.add_flag("--without-map", options->without_map,
+                "Judge by place alone, though frame.json names the frame's shadow map; needs no OpenGL");
   add_sets(verb, arguments);
   add_threads(verb, arguments);
   add_json(verb, arguments, "Print what judge.json says");

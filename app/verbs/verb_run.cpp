@@ -7,6 +7,7 @@
 #include "app/definition/default_folder.h"
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_text.h"
+#include "app/sweep/judging.h"
 #include "app/sweep/plan.h"
 #include "app/sweep/results_json.h"
 #include "app/sweep/sweep.h"
@@ -49,7 +50,7 @@ int run_experiment(const std::string& path, const ExperimentArguments& arguments
                                           .quiet = arguments.quiet,
                                           .shard = arguments.shard,
                                           .points = share});
-  const int exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : 0;
+  const int exit_code = outcome.exit_code(true);
   if (arguments.json)
     fmt::print("{}",
                results_text(arguments.command, exit_code,
@@ -57,7 +58,7 @@ int run_experiment(const std::string& path, const ExperimentArguments& arguments
   else if (outcome.interrupted)
     fmt::print("{}\n", stopped_text(outcome));
   else
-    fmt::print("{}{}; the report is {}/report.html\n",
+    fmt::print("{}{}{}; the report is {}/report.html\n", refused_text(outcome.results),
                arguments.shard ? fmt::format("share {}: ", arguments.shard->text()) : "", outcome.counts(),
                printable(out));
   return exit_code;

@@ -94,11 +94,13 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
   result.join = bound.join;
   result.where = bound.where;
   result.warns = bound.level == "warn";
+  result.location = bound.location;
 
   const PlacedNames placed = placed_names(bound.metric);
   Values values;
   for (const PointRecord& point : points) {
     if (!matches(point, bound.where)) continue;
+    if (!point.delivery.refused.empty()) continue;  // its verdict is that no bound is judged
     double high = quantity(point, bound.metric).value_or(not_a_number), low = high;
     if (!placed.largest.empty() && has_placements(point)) {
       result.placement = bound.placement;
@@ -321,7 +323,10 @@ std::string found_text(const BoundResult& bound) {
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
   std::string text = fmt::format("{}: {}", verdict_of(bound), printable(bound_text(bound)));
   if (!bound.part.empty()) text += fmt::format(" in part {}", printable(bound.part));
-  if (bound.points == 0) return text + "\n  no finished point matches it; change its where, or the swept values\n";
+  if (bound.points == 0)
+    return text +
+           "\n  no finished point matches it; change its where, or the swept values (a refused frame matches "
+           "nothing)\n";
   text += fmt::format("; found {} ({} of {} point{}{}{})\n", found_text(bound), bound.join, bound.points,
                       bound.points == 1 ? "" : "s", bound.placement.empty() ? "" : ", at ",
                       bound.placement == "worst" ? "the worst placement of the grid" : placement_text(bound));

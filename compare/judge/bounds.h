@@ -7,7 +7,7 @@
 //   for (const BoundResult& r : results) if (!r.held) print(describe(r, find_point(points, r.point)));
 //
 // A bound is broken by a joined value beyond max or min, by a value that is missing or not finite at any of its points,
-// and if no point matches it.
+// and if no point matches it. A frame whose delivery was refused (PointRecord::Delivery) has no values, so it matches none.
 #pragma once
 #include <functional>
 #include <map>
@@ -36,6 +36,7 @@ struct Bound {
   // settings place it. A quantity that is measured once for all placements is the same with both.
   std::string placement = "worst";
   std::string level = "error";  // "warn": broken, it is a warning and does not break the verdict
+  std::string location{};       // BoundResult::location
 };
 
 // Throws Error(usage) for an unknown metric, setting or join (with the nearest name as a suggestion), for a value that

@@ -9,6 +9,8 @@
 
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/deliveries.h"
+#include "compare/judge/last_run.h"
 #include "compare/judge/machines.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
@@ -133,16 +135,26 @@ Markup unsound_items(const Results& results) {
 Markup note_item(std::string_view kind, const std::string& note) { return note.empty() ? "" : item(kind, note + "."); }
 
 Markup health_items(const Results& results) {
-  Markup out = unsound_items(results);
+  Markup out = unsound_items(results), refused, deliveries;
   size_t not_finite = 0;
   double ambiguous = 0;
   for (const PointRecord& point : results.points) {
+    if (!point.delivery.refused.empty()) {
+      refused += item("bad", prose("{}: {}.", point_link(point.id, frame_name(point)),
+                                   "its shadows are not judged: " + point.delivery.refused));
+      continue;
+    }
+    if (const PointRecord::Delivery& delivery = point.delivery;
+        !delivery.accepted.empty() || !delivery.not_checked.empty())
+      deliveries +=
+          item("note", prose("The delivery of {}: {}.", point_link(point.id, frame_name(point)), delivery_text(point)));
     bool finite = true;
     for (const auto& [name, value] : point.metrics) finite = finite && std::isfinite(value);
     not_finite += !finite;
     if (const double value = metric_of(point, "ambiguous"); std::isfinite(value))
       ambiguous = std::max(ambiguous, value);
   }
+  out += refused;
   if (not_finite)
     out += item("bad", prose("{} ha{} a metric that is {}: it could not be measured, which breaks every bound on it.",
                              points_text(not_finite), not_finite == 1 ? "s" : "ve", bold("not finite")));
@@ -157,10 +169,17 @@ Markup health_items(const Results& results) {
   for (const std::string& note : machines.warnings) out += note_item("bad", note);
   for (const std::string& note : machines.machines) out += note_item("note", note);
   for (const std::string& note : results.info.scene_notes) out += item("note", prose("About the scene {}.", note));
+  out += deliveries;
   return out;
 }
 
-Markup bound_row(const BoundResult& bound, std::string_view unit) {
+std::string last_run_or_new(const BoundResult& bound, const Results& results) {
+  const std::string text = since_last_run(bound, results);
+  return text.empty() ? "new" : text;
+}
+
+// since: of the last column; empty: the table has none.
+Markup bound_row(const BoundResult& bound, std::string_view unit, const std::string& since) {
   std::string where;
   for (const auto& [name, values] : bound.where)
     where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", name, fmt::join(values, " | "));
@@ -181,7 +200,7 @@ Markup bound_row(const BoundResult& bound, std::string_view unit) {
                              : "✗ broken"),
             row_head(metric_label(bound.metric)), td(limit), td(found),
             td(bound.join, bound.placement.empty() ? "" : prose(", {}", placement_text(bound))),
-            td(where.empty() ? "all" : where, prose(" ({})", bound.points)));
+            td(where.empty() ? "all" : where, prose(" ({})", bound.points)), since.empty() ? Markup() : td(since));
 }
 
 // The bias at which a broken bound was judged, its worst pixel, and the command that shows it.
@@ -202,12 +221,16 @@ Markup broken_bound_rows(const BoundResult& bound, const Results& results) {
 
 Markup bounds_section(const Results& results) {
   if (results.bounds.empty()) return "";
+  const bool since = std::any_of(results.bounds.begin(), results.bounds.end(),
+                                 [](const BoundResult& bound) { return bound.before.has_value(); });
   Markup rows;
   for (const BoundResult& bound : results.bounds) {
-    rows += bound_row(bound, unit_of(bound.metric, results));
+    rows += bound_row(bound, unit_of(bound.metric, results), since ? last_run_or_new(bound, results) : "");
     if (!bound.held) rows += broken_bound_rows(bound, results);
   }
-  const Markup head = heads({"Verdict", "Metric", "Allowed", "Found", "Joined by", "Points"});
+  const Markup head =
+      since ? heads({"Verdict", "Metric", "Allowed", "Found", "Joined by", "Points", "Since the last run"})
+            : heads({"Verdict", "Metric", "Allowed", "Found", "Joined by", "Points"});
   return element("h3", "Bounds") + div(css("scroll"), table("bounds", head, rows)) + "\n";
 }
 
@@ -241,6 +264,7 @@ Markup verdict_line(const Results& results) {
     judge(results.laws, "law", "The law holds", "", [](const LawResult& law) { return !law.held; });
   }
   if (pills.empty()) add("none", "No bounds were set");
+  if (const std::string refused = refused_words(results.points); !refused.empty()) add("broken", refused);
   if (static_cast<int64_t>(results.points.size()) < results.planned_points)
     add("broken", prose("Incomplete: {} of {} points", results.points.size(), results.planned_points));
   return paragraph(css("verdict"), joined(pills, " "));

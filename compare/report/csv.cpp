@@ -58,12 +58,14 @@ std::vector<Column> columns(const Results& results) {
                       return with_value(field, p, [](const auto& value) { return fmt::format("{}", value); });
                     }});
   };
+  const auto any_has = [&](const RecordField& field) {
+    return std::any_of(results.points.begin(), results.points.end(), [&](const PointRecord& p) {
+      return with_value(field, p, [](const auto& value) { return !fmt::format("{}", value).empty(); });
+    });
+  };
   // The part: left out if no point has one.
   for (const RecordField& field : record_fields())
-    if (field.group.empty() && std::any_of(results.points.begin(), results.points.end(), [&](const PointRecord& p) {
-          return with_value(field, p, [](const auto& value) { return !fmt::format("{}", value).empty(); });
-        }))
-      field_column(field);
+    if (field.group.empty() && any_has(field)) field_column(field);
   for (const std::string& name : names(settings, present_settings))
     list.push_back({name, [name](const PointRecord& p) {
                       const auto found = p.settings.find(name);
@@ -79,7 +81,8 @@ std::vector<Column> columns(const Results& results) {
                       return value ? exact_number(*value) : std::string();
                     }});
   for (const RecordField& field : record_fields())
-    if (!field.group.empty() && field.group != machine_group) field_column(field);
+    if (!field.group.empty() && field.group != machine_group && (field.group != delivery_group || any_has(field)))
+      field_column(field);
   list.insert(list.end(), at_the_end.begin(), at_the_end.end());
   // After the times, the kind of machine. The host and its clock stand in the store alone.
   for (const RecordField& field : record_fields())

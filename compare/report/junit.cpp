@@ -8,9 +8,11 @@
 
 #include "base/text.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/deliveries.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/report/escape.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {
@@ -29,6 +31,8 @@ std::string timestamp(const std::string& started) {
 std::string to_junit(const Results& results, const BaselineComparison* baseline) {
   const auto finished = static_cast<int64_t>(results.points.size());
   const bool incomplete = finished < results.planned_points;
+  const bool frames = judges_frames(results.points);
+  const size_t refused = refused_frames(results.points).size();
   const auto failures =
       std::count_if(results.bounds.begin(), results.bounds.end(), breaks) +
       std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; }) +
@@ -39,8 +43,10 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
   xml += fmt::format(
       "  <testsuite name=\"{}\" package=\"noonmark\" id=\"0\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"0\" "
       "timestamp=\"{}\" hostname=\"localhost\">\n",
-      xml_text(suite), results.bounds.size() + results.laws.size() + (baseline ? 1 : 0) + (incomplete ? 1 : 0),
-      failures, incomplete ? 1 : 0, xml_text(timestamp(results.info.started)));
+      xml_text(suite),
+      results.bounds.size() + results.laws.size() + (frames ? results.points.size() : 0) + (baseline ? 1 : 0) +
+          (incomplete ? 1 : 0),
+      failures, refused + (incomplete ? 1 : 0), xml_text(timestamp(results.info.started)));
   xml += "    <properties>\n";
   const std::pair<std::string_view, const std::string&> properties[] = {
       {"experiment", results.info.experiment},   {"command", results.info.command},
@@ -65,6 +71,19 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
       xml += fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
                          xml_text(printable(message())), type, xml_text(text()));
   };
+  // Each frame is a test case of its own: a server shows which was refused. What was not checked is in its output.
+  for (const PointRecord& frame : results.points) {
+    if (!frames) break;
+    const std::string name = printable("the delivery of " + frame_name(frame));
+    taken.insert(name);
+    xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\">\n", xml_text(suite), xml_text(name));
+    if (!frame.delivery.refused.empty())
+      xml += fmt::format("      <error message=\"{}\" type=\"refused\">{}</error>\n",
+                         xml_text(printable(frame.delivery.refused)), xml_text(printable(why_refused(frame))));
+    else
+      xml += fmt::format("      <system-out>{}</system-out>\n", xml_text(printable(delivery_text(frame))));
+    xml += "    </testcase>\n";
+  }
   for (const BoundResult& bound : results.bounds)
     testcase(
         bound_text(bound), bound.held, bound.warns, "bound",

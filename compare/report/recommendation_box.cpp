@@ -7,6 +7,7 @@
 
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/deliveries.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
 #include "compare/report/blocks.h"
@@ -189,9 +190,12 @@ Markup answer_sentence(const Results& results, const ShownPoints& shown) {
   if (judges_frames(results.points)) {
     const auto kept =
         std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& one) { return one.held; });
-    return !broken.empty()          ? broken
-           : results.bounds.empty() ? Markup("No bound says what is good enough.")
-                                    : prose("{} of {} bounds hold.", kept, results.bounds.size());
+    const std::string refused = refused_words(results.points);
+    const Markup verdict = !broken.empty() ? broken
+                           : results.bounds.empty()
+                               ? Markup("No bound says what is good enough.")
+                               : prose("{} of {} hold.", kept, counted(results.bounds.size(), "bound"));
+    return refused.empty() ? verdict : prose("{}. ", refused) + verdict;
   }
   return (broken.empty() ? broken : broken + " ") + what_to_set(results, shown);
 }

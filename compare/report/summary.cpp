@@ -9,6 +9,7 @@
 
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/deliveries.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/judge/machines.h"
@@ -65,6 +66,9 @@ std::string verdict(const Results& results) {
   else if (finished < results.planned_points)
     text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to continue.", finished,
                        results.planned_points);
+  else if (const std::string refused = refused_words(results.points); !refused.empty())
+    text = fmt::format("**{}{}.** The bounds are judged over the other frames.", refused,
+                       broken.empty() ? "" : "; broken: " + broken);
   else if (!broken.empty())
     text = fmt::format("**Broken: {}.**", broken);
   else if (!held.empty())
@@ -101,7 +105,7 @@ std::string laws_table(const Results& results) {
 std::string baseline_list(const BaselineComparison& baseline) {
   std::string text = fmt::format("\n## Baseline\n\n{}{}.\n", baseline.held() ? "" : "**Worse.** ",
                                  markdown(baseline_verdict(baseline)));
-  for (const auto* lines : {&baseline.worse, &baseline.better, &baseline.notes}) {
+  for (const auto* lines : {&baseline.changed, &baseline.worse, &baseline.better, &baseline.notes}) {
     if (!lines->empty()) text += "\n";
     for (const std::string& line : *lines) text += fmt::format("- {}\n", markdown(line));
   }
@@ -143,7 +147,7 @@ std::string curve_parameter(const Results& results) {
 
 // Of frames: the error of each, and where it is.
 std::string frames_table(const Results& results) {
-  std::vector<std::string> heading = {"frame"}, metrics;
+  std::vector<std::string> heading = {"frame", "delivery"}, metrics;
   for (const Metric& row : metrics_of(results.points))
     if (row.of_frames) {
       metrics.emplace_back(row.name);
@@ -152,11 +156,12 @@ std::string frames_table(const Results& results) {
   std::string text = "\n## Frames\n\n";
   add_heading(text, heading);
   for (const PointRecord& point : results.points) {
-    const auto name = point.settings.find("given.frame");
-    std::vector<std::string> cells = {markdown(name == point.settings.end() ? "–" : name->second)};
+    std::vector<std::string> cells = {markdown(frame_name(point)), markdown(delivery_text(point))};
     for (const std::string& metric : metrics) cells.push_back(short_or_missing(quantity(point, metric), "fraction"));
     add_row(text, cells);
   }
+  for (const PointRecord* frame : refused_frames(results.points))
+    text += fmt::format("\n{}.\n", markdown(why_refused(*frame)));
   return text;
 }
 

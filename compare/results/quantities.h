@@ -48,6 +48,8 @@ bool is_free_name(std::string_view name);
 inline constexpr std::string_view frame_rung = "the frame";
 // The cause of a frame with its own map that the map does not explain, and its metric.
 inline constexpr std::string_view frame_lookup = "frame_lookup";
+// The share of its receivers at which the frame is not what its declared lookup gives.
+inline constexpr std::string_view frame_lookup_differs = "frame_lookup_differs";
 // Whether the points are frames of another renderer (frames/judge.h). All points of a store are, or none.
 bool judges_frames(std::span<const PointRecord> points);
 // Whether the causes of the ladder are known at a point: everywhere but in frames without their own map.

@@ -4,6 +4,7 @@ namespace noonmark {
 namespace {
 
 using Worst = PointRecord::Worst;
+using Delivery = PointRecord::Delivery;
 
 constexpr RecordField fields_of_records[] = {
     {"part", "", "", "The experiment's part; empty if it has no parts.", &PointRecord::part},
@@ -12,6 +13,12 @@ constexpr RecordField fields_of_records[] = {
     {"worst_y", "worst", "px", "The worst pixel's row, 0 on top.", &Worst::y},
     {"worst_error", "worst", "fraction", "The worst pixel's error.", &Worst::error},
     {"worst_cause", "worst", "", "The worst pixel's cause.", &Worst::cause},
+    {"delivery_refused", delivery_group, "", "Why another renderer's frame is not judged; empty if it is.",
+     &Delivery::refused},
+    {"delivery_accepted", delivery_group, "", "The checks of another renderer's frame that failed and were accepted.",
+     &Delivery::accepted},
+    {"delivery_not_checked", delivery_group, "", "The checks of another renderer's frame that had too little to go on.",
+     &Delivery::not_checked},
     {"machine_host", "machine", "", "The name of the host that measured the point.", &Machine::host},
     {"machine_cpu", "machine", "", "The processor of the host that measured the point.", &Machine::cpu},
     {"machine_driver", "machine", "", "The OpenGL that drew the point: vendor, renderer and version.",

@@ -16,8 +16,9 @@ struct RecordField {
       group;              // "worst": point.json has the fields of a group as one object; "": only tables have the field
   std::string_view unit;  // "px", "fraction"; text: ""
   std::string_view help;  // one sentence
-  using Member = std::variant<std::string PointRecord::*, int PointRecord::Worst::*, double PointRecord::Worst::*,
-                              std::string PointRecord::Worst::*, std::string Machine::*>;
+  using Member =
+      std::variant<std::string PointRecord::*, int PointRecord::Worst::*, double PointRecord::Worst::*,
+                   std::string PointRecord::Worst::*, std::string PointRecord::Delivery::*, std::string Machine::*>;
   Member member;
 
   // The name within its group: "x".
@@ -25,22 +26,28 @@ struct RecordField {
 };
 std::span<const RecordField> record_fields();
 
-// The struct of the record that has the member.
-template <class T>
-const PointRecord& owner(const PointRecord& record, T PointRecord::*) {
+// The struct of the record that has the member. Record: PointRecord, or const PointRecord.
+template <class Record, class T>
+Record& owner(Record& record, T PointRecord::*) {
   return record;
 }
-template <class T>
-const PointRecord::Worst& owner(const PointRecord& record, T PointRecord::Worst::*) {
+template <class Record, class T>
+auto& owner(Record& record, T PointRecord::Worst::*) {
   return record.worst;
 }
-template <class T>
-const Machine& owner(const PointRecord& record, T Machine::*) {
+template <class Record, class T>
+auto& owner(Record& record, T PointRecord::Delivery::*) {
+  return record.delivery;
+}
+template <class Record, class T>
+auto& owner(Record& record, T Machine::*) {
   return record.machine;
 }
 
 // The group of the fields that say where and when a point was measured. They are no results: two runs differ in them.
 inline constexpr std::string_view machine_group = "machine";
+// The group of the fields that only another renderer's frame has.
+inline constexpr std::string_view delivery_group = "delivery";
 
 // Calls use(value) with the field's value: a text, an int or a double.
 template <class Use>

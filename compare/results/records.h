@@ -125,6 +125,12 @@ struct PointRecord : PointPictures {
     double size = 0;     // in the metric's unit
   };
   std::vector<WorstOf> worst_of;
+  // What was found out about another renderer's frame before it was judged.
+  struct Delivery {
+    std::string refused;      // why its shadows are not judged; empty: they are. Then no bound is judged at this point
+    std::string accepted;     // the checks that failed and were accepted: "coverage: the frame is flipped in y; ..."
+    std::string not_checked;  // the names of the checks that had too little to go on: "inverted, match"
+  } delivery;
   Machine machine;  // the points of a joined store can be of several (compare/store/join.h)
 };
 
@@ -143,6 +149,9 @@ struct BoundResult {
   std::string placement{};
   std::string part{};  // the experiment's part; empty if it has no parts
   bool warns = false;  // broken, it is a warning and does not break the verdict
+  std::optional<double>
+      before{};            // what the run before found (compare/judge/last_run.h); empty: it did not have this bound
+  std::string location{};  // where its experiment gives it: "file:line:column"; empty: not known. The store has it not
 };
 
 enum class LawRelation { equal, at_most, at_least };

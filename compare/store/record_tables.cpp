@@ -29,22 +29,13 @@ Column<PointRecord> record_column(std::string_view name, Member PointRecord::*me
   made.type = "TEXT NOT NULL";
   return made;
 }
-// The column of a member of the worst pixel.
-template <class Member>
-Column<PointRecord> record_column(std::string_view name, Member PointRecord::Worst::*member) {
-  const Column<PointRecord::Worst> inner = column(name, member);
+// The column of a member of a struct of the record.
+template <class Part, class Member>
+Column<PointRecord> record_column(std::string_view name, Member Part::*member) {
+  const Column<Part> inner = column(name, member);
   return {name, inner.type,
-          [inner](Statement& row, int index, const PointRecord& record) { inner.bind(row, index, record.worst); },
-          [inner](const Statement& row, int index, PointRecord& record) { inner.read(row, index, record.worst); }};
-}
-
-// The column of a member of the machine.
-template <class Member>
-Column<PointRecord> record_column(std::string_view name, Member Machine::*member) {
-  const Column<Machine> inner = column(name, member);
-  return {name, inner.type,
-          [inner](Statement& row, int index, const PointRecord& record) { inner.bind(row, index, record.machine); },
-          [inner](const Statement& row, int index, PointRecord& record) { inner.read(row, index, record.machine); }};
+          [=](Statement& row, int index, const PointRecord& record) { inner.bind(row, index, owner(record, member)); },
+          [=](const Statement& row, int index, PointRecord& record) { inner.read(row, index, owner(record, member)); }};
 }
 
 std::vector<Column<PointRecord>> record_columns() {
@@ -151,7 +142,8 @@ const Table<BoundResult>& bounds_table() {
       {column("part", &B::part), column("metric", &B::metric), column("max", &B::max), column("min", &B::min),
        where_column, column("join_by", &B::join), column("placement", &B::placement), column("held", &B::held),
        column("found", &B::found), column("point", &B::point), column("points", &B::points),
-       column("reproduce", &B::reproduce), column("warns", &B::warns)});
+       column("reproduce", &B::reproduce), column("warns", &B::warns),
+       column("before", &B::before)});
   return table;
 }
 

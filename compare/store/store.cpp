@@ -167,6 +167,14 @@ std::string ResultStore::experiment_file(const std::string& path) try {
   return "";
 }
 
+std::vector<BoundResult> ResultStore::bounds_of(const std::string& path) try {
+  const ResultStore store = open(path);
+  const bool whole = static_cast<int64_t>(store.finished().size()) >= store.facts().planned_points;
+  return whole ? load_bounds(*store.db_) : std::vector<BoundResult>();
+} catch (const Error&) {
+  return {};
+}
+
 std::vector<int64_t> ResultStore::finished() const {
   std::vector<int64_t> ids;
   for (Statement rows(*db_, "SELECT point FROM finished ORDER BY point"); rows.step();)

@@ -61,6 +61,9 @@ class ResultStore {
   // RunInfo::file of the store at this path, also of one that open() refuses. Empty if there is no store, if it does not say,
   // or if it cannot be read.
   static std::string experiment_file(const std::string& path);
+  // The bounds and their results in the store at this path; none if there is no store, if open() refuses it, or if its run was
+  // interrupted.
+  static std::vector<BoundResult> bounds_of(const std::string& path);
 
   ~ResultStore();
   ResultStore(ResultStore&&) noexcept;

@@ -238,5 +238,24 @@ TEST_F(JudgeWithMap, CheckKnowsTheCausesToo) {
   EXPECT_EQ(text("refused/report.html").find("<i class=\"c-acne\""), std::string::npos);
 }
 
+TEST_F(JudgeWithMap, WithoutOpenGLItSaysHowToJudgeByPlace) {
+  measure({{"bias.constant", "0.01"}});
+  write("frame.json", deliver({}).dump());
+  const auto no_driver = [] { setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1); };
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}, no_driver), 4) << output_;
+  EXPECT_TRUE(says("the causes of a frame with its own map need OpenGL")) << output_;
+  EXPECT_TRUE(says("--without-map")) << output_;
+  EXPECT_EQ(run({"judge", "frame.json", "--without-map", "--out", "out"}, no_driver), 0) << output_;
+  EXPECT_TRUE(says("frame_acne")) << output_;
+  EXPECT_FALSE(says("by cause")) << output_;
+  EXPECT_EQ(run({"judge", "frame.json", "--without-map", "--max", "acne=1%", "--out", "out"}), 2) << output_;
+  EXPECT_TRUE(says("leave out --without-map")) << output_;
+  write("frames.toml",
+        "[[frame]]\nfile = \"frame.json\"\nwithout_map = true\n[[bound]]\nmetric = "
+        "\"frame_error\"\nmax = 0\n");
+  EXPECT_EQ(run({"check", "frames.toml", "--out", "checked"}, no_driver), 1) << output_;
+  EXPECT_TRUE(says("reproduce: noonmark judge frame.json --without-map --max frame_error=0")) << output_;
+}
+
 }  // namespace
 }  // namespace noonmark::acceptance

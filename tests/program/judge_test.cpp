@@ -8,66 +8,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/pictures/image_file.h"
-#include "measure/workbench.h"
-#include "tests/program/fixture.h"
+#include "tests/program/own_frame.h"
 
 namespace noonmark::acceptance {
 namespace {
 
-constexpr int frame_width = 320, frame_height = 180;
-
-class JudgeVerb : public Program {
- protected:
-  JudgeVerb() {
-    Workbench bench(gl::DebugMode::fatal);
-    Settings settings;
-    settings.view.width_px = frame_width;
-    settings.view.height_px = frame_height;
-    settings.bias["constant"] = 0.01;
-    const Measurement m = bench.measure(settings, {});
-    visibility_ = m.ladder.shown();
-    error_ = m.record.metrics.at("error");
-    positions_ = m.receivers.position;
-    primitive_ = m.receivers.primitive;
-    for (size_t i = 0; i < visibility_.size(); ++i)
-      if (primitive_[i] == no_primitive) visibility_[i] = -1;
-    camera_ = m.camera;
-    light_ = m.scene.light;
-  }
-
-  // frame.json beside the pictures. positions: whether they are handed over.
-  nlohmann::json frame(bool positions) {
-    write_exr((folder_ / "V.exr").string(), {{"Y", visibility_}});
-    nlohmann::json json{{"noonmark_frame", 1}, {"scene", "cube-room"}, {"visibility", {{"file", "V.exr"}}}};
-    const glm::dmat4 m = make_camera_frame(camera_, frame_width, frame_height).clip_from_world();
-    std::vector<double> numbers;
-    for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
-    json["camera"] = {{"clip_from_world", numbers}, {"order", "column"}, {"depth_range", "-1..1"}, {"reversed", false}};
-    const glm::dvec3 way = light_.target_m - light_.position_m;
-    json["light"] = {{"kind", "directional"}, {"direction", {way.x, way.y, way.z}}};
-    if (positions) {
-      std::vector<Channel> channels;
-      for (int axis = 0; axis < 3; ++axis) {
-        Image<float> values(frame_width, frame_height, std::numeric_limits<float>::quiet_NaN());
-        for (size_t i = 0; i < values.size(); ++i)
-          if (primitive_[i] != no_primitive) values[i] = positions_[i][axis];
-        channels.push_back({std::string(1, static_cast<char>('X' + axis)), values});
-      }
-      write_exr((folder_ / "P.exr").string(), channels);
-      json["positions"] = {{"file", "P.exr"}};
-    }
-    return json;
-  }
-  nlohmann::json said() const { return nlohmann::json::parse(read_file((folder_ / "out/judge.json").string())); }
-
-  Image<float> visibility_;
-  Image<glm::vec3> positions_;
-  Image<uint32_t> primitive_;
-  double error_ = 0;
-  Camera camera_;
-  Light light_;
-};
+class JudgeVerb : public OwnFrame {};
 
 TEST_F(JudgeVerb, FindsTheErrorOfTheLadder) {
   write("frame.json", frame(true).dump());
@@ -189,6 +135,24 @@ TEST_F(JudgeVerb, NeedsNoOpenGL) {
   EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}, no_driver), 0) << output_;
 }
 
+TEST_F(JudgeVerb, ASettingThatJudgeDoesNotReadIsRefused) {
+  frame(false);
+  const auto refused = [&](const std::vector<std::string>& more, const char* words) {
+    std::vector<std::string> all = {"judge", "cube-room", "--picture", "V.exr", "--out", "out"};
+    all.insert(all.end(), more.begin(), more.end());
+    EXPECT_EQ(run(all), 2) << output_;
+    EXPECT_TRUE(says(words)) << output_;
+  };
+  refused({"--set", "bias.constant=3"}, "only scene.*, view.*, light.* and truth.* have an effect");
+  refused({"--set", "motion.frame=3"}, "judge draws nothing");
+  refused({"--set", "bias.constnt=3"}, "did you mean 'bias.constant'");
+  refused({"--set", "view.width_px=320"}, "the picture's own size counts");
+  refused({"--set", "scene.name=hills"}, "the argument before --picture");
+  refused({"--without-map"}, "is for a frame.json");
+  EXPECT_EQ(run({"judge", "V.exr", "--out", "out"}), 2) << output_;
+  EXPECT_TRUE(says("V.exr is a picture; write noonmark judge SCENE --picture V.exr")) << output_;
+}
+
 // One array of numpy, by its bytes.
 TEST_F(JudgeVerb, ReadsNpy) {
   frame(false);
@@ -251,103 +215,6 @@ TEST_F(JudgeVerb, APictureThatCannotBeReadEndsWithOneError) {
   EXPECT_EQ(run({"judge", "cube-room", "--picture", ""}), 2);
   EXPECT_EQ(run({"render", "--picture", "whole.exr"}), 2);
   EXPECT_TRUE(says("judge")) << "render had this option: " << output_;
-}
-
-class CheckFrames : public JudgeVerb {
- protected:
-  void frames_with_stripe_in(int which) {
-    fs::create_directories(folder_ / "checks");
-    const Image<float> good = visibility_;
-    std::string experiment = "title = \"Three frames\"\n";
-    for (int n = 0; n < 3; ++n) {
-      visibility_ = good;
-      int drawn = 0;
-      for (int y = frame_height - 12; n == which && y < frame_height && drawn < 60; ++y)
-        for (int x = 40; x < 50; ++x)
-          if (float& v = visibility_.at(x, y); v == 1) {
-            v = 0;
-            ++drawn;
-          }
-      const std::string name = std::to_string(n);
-      nlohmann::json json = frame(true);
-      fs::rename(folder_ / "V.exr", folder_ / "checks" / (name + ".exr"));
-      fs::rename(folder_ / "P.exr", folder_ / "checks" / ("P" + name + ".exr"));
-      json["visibility"]["file"] = name + ".exr";
-      json["positions"]["file"] = "P" + name + ".exr";
-      write("checks/" + name + ".json", json.dump());
-      experiment += "[[frame]]\nfile = \"" + name + ".json\"\nname = \"frame " + name + "\"\n";
-    }
-    visibility_ = good;
-    write("checks/frames.toml", experiment + "[[bound]]\nmetric = \"frame_acne\"\nmax = \"0.05%\"\n");
-  }
-};
-
-TEST_F(CheckFrames, AFolderEndsWithOneWhenAStripeIsDrawnIntoOneFrame) {
-  frames_with_stripe_in(-1);
-  ASSERT_EQ(run({"check", "checks", "--out", "out"}), 0) << output_;
-  frames_with_stripe_in(1);
-  ASSERT_EQ(run({"check", "checks", "--out", "out"}), 1) << output_;
-  EXPECT_TRUE(says("given.frame = frame 1")) << output_;
-  EXPECT_TRUE(says("reproduce: noonmark judge checks/1.json")) << output_;
-  const std::string out = "out/";
-  EXPECT_NE(text(out + "junit.xml").find("failures=\"1\""), std::string::npos);
-  EXPECT_NE(text(out + "summary.md").find("frame 1"), std::string::npos);
-  EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
-  const std::string page = text(out + "report.html");
-  std::string report = page.substr(page.find("<body"));  // what a reader sees: without the scripts
-  for (size_t at = report.find("<script"); at != report.npos; at = report.find("<script", at))
-    report.erase(at, report.find("</script>", at) - at);
-  ASSERT_NE(report.find("Acne (lit in truth"), std::string::npos);
-  for (const char* ours : {"Peter Panning", "Aliasing", "usable window"})
-    EXPECT_EQ(report.find(ours), std::string::npos) << ours;
-  EXPECT_EQ(run({"report", "out"}), 0) << output_;
-}
-
-TEST_F(CheckFrames, ABaselineIsCompared) {
-  frames_with_stripe_in(-1);
-  ASSERT_EQ(run({"check", "checks/frames.toml", "--baseline", "b.json", "--update-baseline", "--out", "out"}), 0)
-      << output_;
-  ASSERT_EQ(run({"check", "checks/frames.toml", "--baseline", "b.json", "--out", "out"}), 0) << output_;
-  frames_with_stripe_in(2);
-  EXPECT_EQ(run({"check", "checks/frames.toml", "--baseline", "b.json", "--out", "out"}), 1) << output_;
-}
-
-TEST_F(CheckFrames, AWrongDeliveryIsExitCodeThreeAndTheOthersAreReported) {
-  frames_with_stripe_in(-1);
-  for (float& v : visibility_.pixels)
-    if (v >= 0) v = 1 - v;
-  write_exr((folder_ / "checks/1.exr").string(), {{"Y", visibility_}});
-  EXPECT_EQ(run({"check", "checks/frames.toml", "--out", "out"}), 3) << output_;
-  EXPECT_TRUE(says("frame 1: inverted")) << output_;
-  EXPECT_FALSE(says("more failed")) << output_;
-  EXPECT_NE(text("out/report.html").find("frame 2"), std::string::npos);
-  write("checks/accepted.toml", "[[frame]]\nfile = \"1.json\"\naccept = [\"inverted\"]\n" +
-                                    std::string("[[bound]]\nmetric = \"frame_error\"\nmax = 1\n"));
-  write("checks/two.toml", "[[frame]]\nfile = \"1.json\"\nname = \"a\"\n[[frame]]\nfile = \"1.json\"\nname = \"b\"\n");
-  EXPECT_EQ(run({"run", "checks/two.toml", "--out", "two"}), 3) << output_;
-  EXPECT_TRUE(says("a: inverted")) << output_;
-  EXPECT_TRUE(says("(and 1 more failed check, which the report lists)")) << output_;
-  EXPECT_NE(text("two/report.html").find("b: inverted"), std::string::npos);
-  EXPECT_EQ(run({"check", "checks/accepted.toml", "--out", "accepted"}), 0) << output_;
-  EXPECT_NE(text("accepted/report.html").find("(accepted)"), std::string::npos);
-}
-
-TEST_F(CheckFrames, NothingElseIsMeasuredBesideFrames) {
-  frames_with_stripe_in(-1);
-  const std::string frames = text("checks/frames.toml");
-  for (const auto& [more, says_so] : std::vector<std::pair<std::string, std::string>>{
-           {"[map]\nresolution = 512\n", "no map"},
-           {"[sweep]\nmap.resolution = [1, 2]\n", "no sweep"},
-           {"[[frame]]\nfile = \"0.json\"\nname = \"frame 0\"\n", "two frames have the name"},
-           {"[[frame]]\nname = \"x\"\n", "needs a file"},
-           {"[[bound]]\nmetric = \"error\"\nmax = 0.1\n", "its own is 'frame_error'"},
-           {"[[frame]]\nfile = \"0.json\"\naccept = [\"all\"]\n", "no check 'all'"}}) {
-    write("checks/more.toml", frames + more);
-    EXPECT_EQ(run({"check", "checks/more.toml", "--out", "more"}), 2) << more << output_;
-    EXPECT_TRUE(says(says_so)) << output_;
-  }
-  EXPECT_EQ(run({"render", "--set", "given.frame=x", "--out", "render"}), 2) << output_;
-  EXPECT_EQ(run({"check", "checks/frames.toml", "--shard", "1/2", "--out", "out"}), 2) << output_;
 }
 
 }  // namespace

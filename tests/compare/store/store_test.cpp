@@ -208,7 +208,8 @@ TEST_F(Store, KeepsTheTextOfTheTableOfPoints) {
   sqlite::Database db(path, sqlite::Database::Mode::existing);
   EXPECT_EQ(db.ask("SELECT sql FROM sqlite_schema WHERE name = 'finished'"),
             "CREATE TABLE finished (\n  point INTEGER PRIMARY KEY, part TEXT NOT NULL, scene_digest TEXT NOT NULL, "
-            "worst_x INTEGER, worst_y INTEGER, worst_error REAL, worst_cause TEXT, "
+            "worst_x INTEGER, worst_y INTEGER, worst_error REAL, worst_cause TEXT, delivery_refused TEXT, "
+            "delivery_accepted TEXT, delivery_not_checked TEXT, "
             "machine_host TEXT, machine_cpu TEXT, machine_driver TEXT, machine_ray_tracer TEXT, machine_clock TEXT)");
 }
 
