@@ -1,9 +1,8 @@
 // What the pages of all adapters share: settings from the address, and pictures and frame.json to shoot.mjs.
 const query = new URLSearchParams(location.search);
-export const text = (name, otherwise) => query.get(name) ?? otherwise;
-export const number = (name, otherwise) => Number(query.get(name) ?? otherwise);
-export const vector = (name, otherwise) => (query.get(name) ?? otherwise).split(",").map(Number);
-export const width = number("width", 1280), height = number("height", 720);
+export const model = query.get("model"); // its address
+export const settings = JSON.parse(query.get("settings")); // each by its name, checked; null is "not given" (settings.mjs)
+export const { width, height } = settings;
 
 function send(name, body) {
   return fetch("/save/" + name, { method: "POST", body });
@@ -30,7 +29,7 @@ export function picked(rgba, channels, covered = rgba) {
   return picture;
 }
 export async function done(frame) {
-  await send("frame.json", JSON.stringify({ noonmark_frame: 1, scene: text("scene"), visibility: { file: "visibility.npy" }, positions: { file: "positions.npy" }, ...frame }, null, 1));
+  await send("frame.json", JSON.stringify({ noonmark_frame: 1, scene: query.get("scene"), visibility: { file: "visibility.npy" }, positions: { file: "positions.npy" }, ...frame }, null, 1));
 }
 window.addEventListener("error", (event) => send("failed", String(event.message)));
 window.addEventListener("unhandledrejection", (event) => send("failed", String(event.reason?.stack ?? event.reason)));

@@ -1,6 +1,6 @@
 // Shows a page in headless Chromium and keeps what the page hands over: the shared part of the adapters.
 //   node shoot.mjs three/page.html model.glb OUT [name=value ...]
-// The page gets its settings in location.search and calls save(name, array, shape) for each picture (NPY) and done(frame)
+// The page gets its settings (settings.mjs) in location.search and calls save(name, array, shape) for each picture (NPY) and done(frame)
 // with the object of frame.json. Chromium draws with its software renderer (SwiftShader), so no GPU is needed.
 import { spawn } from "node:child_process";
 import { createReadStream, existsSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -8,14 +8,23 @@ import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
+import { settings_of } from "./settings.mjs";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-const [page, model, out, ...settings] = process.argv.slice(2);
-if (!out) {
-  console.error("usage: node shoot.mjs PAGE MODEL.glb OUT [name=value ...]");
+const [page, model, out, ...given] = process.argv.slice(2);
+function wrong(message) {
+  console.error(message);
   process.exit(2);
 }
-mkdirSync(out, { recursive: true });
+if (!out) wrong("usage: node shoot.mjs PAGE MODEL.glb OUT [name=value ...]");
+if (!existsSync(path.join(here, page))) wrong(`There is no page ${page} in ${here}.`);
+if (!existsSync(model)) wrong(`There is no model ${model}.`);
+let settings;
+try {
+  settings = settings_of(page, given);
+} catch (error) {
+  wrong(error.message);
+}
 
 const types = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".wasm": "application/wasm" };
 const modules = process.env.NODE_MODULES ?? path.join(here, "node_modules");
@@ -40,8 +49,13 @@ const finished = new Promise((resolve) => (finish = resolve));
 const server = createServer(async (request, response) => {
   if (request.method === "POST") {
     const name = path.basename(request.url), body = await body_of(request);
-    if (name === "failed") finish(body.toString());
-    else writeFileSync(path.join(out, name), body);
+    if (name === "failed") finish(body.toString() + "\n" + log.split("\n").filter((line) => line.includes("CONSOLE")).slice(-20).join("\n"));
+    else if (name === "refused") finish(body.toString());
+    else if (name === "note") console.log(body.toString());
+    else {
+      mkdirSync(out, { recursive: true });
+      writeFileSync(path.join(out, name), body);
+    }
     response.end();
     if (name === "frame.json") finish("");
     return;
@@ -58,8 +72,7 @@ const server = createServer(async (request, response) => {
 await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
 
 const profile = mkdtempSync(path.join(tmpdir(), "shoot-"));
-const query = new URLSearchParams({ model: "/model/" + path.basename(model), scene: path.relative(out, model) });
-for (const one of settings) query.set(one.slice(0, one.indexOf("=")), one.slice(one.indexOf("=") + 1));
+const query = new URLSearchParams({ model: "/model/" + path.basename(model), scene: path.relative(out, model), settings: JSON.stringify(settings) });
 const chromium = spawn(process.env.CHROMIUM ?? "chromium", [
   "--headless", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--enable-logging=stderr", `--user-data-dir=${profile}`,
@@ -81,7 +94,7 @@ for (let i = 0; i < 50 && existsSync(profile); ++i) // its child processes end a
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
 if (failure) {
-  console.error(failure + "\n" + log.split("\n").filter((line) => line.includes("CONSOLE")).slice(-20).join("\n"));
+  console.error(failure);
   process.exit(1);
 }
 console.log(path.join(out, "frame.json"));

@@ -4,25 +4,80 @@ EEVEE draws with OpenGL and needs a display; xvfb-run gives it one, with Mesa's 
 import json
 import math
 import os
+import pathlib
 import sys
 
-import bpy
-import numpy as np
-from mathutils import Matrix, Vector
+
+def settings_of(given):
+    """All settings with their values (None is "not given") from the "name=value" of a command line: those of settings.json here
+    and beside the folders of the engines. Ends the program with a list of them if one is unknown, given twice, or is not
+    what it takes."""
+    here, rows, values = pathlib.Path(__file__).resolve().parent, {}, {}
+    for folder in (here.parent, here):
+        rows.update(json.loads((folder / "settings.json").read_text()))
+
+    def otherwise(row):
+        return row["choices"][0] if "choices" in row else row.get("default")
+
+    def count(row):
+        return row.get("numbers") or (len(row["default"]) if isinstance(row["default"], list) else 1)
+
+    def takes(row):
+        if "choices" in row:
+            return " | ".join(row["choices"])
+        kind = "whole number" if row.get("whole") else "number"
+        return (f"a {kind}" if count(row) == 1 else f"{count(row)} {kind}s with commas") + (f" above {row['above']}" if "above" in row else "")
+
+    def value(row, text):
+        """None if the text is not what the setting takes."""
+        if "choices" in row:
+            return text if text in row["choices"] else None
+        try:
+            numbers = [(int if row.get("whole") else float)(part) for part in text.split(",")]
+        except ValueError:
+            return None
+        if len(numbers) != count(row) or not all(math.isfinite(x) and x > row.get("above", -math.inf) for x in numbers):
+            return None
+        return numbers[0] if len(numbers) == 1 else numbers
+
+    def fail(what):
+        print(f"{what} The settings of eevee/shoot.py are", file=sys.stderr)
+        for name, row in rows.items():
+            default = row.get("default")
+            default = "" if default is None else f" ({','.join(map(str, default)) if isinstance(default, list) else default})"
+            print(f"  {name}={takes(row)}{default}{', ' + row['means'] if 'means' in row else ''}", file=sys.stderr)
+        sys.exit(2)
+
+    for one in given:
+        name, equals, text = one.partition("=")
+        if not equals:
+            fail(f'"{one}" is no name=value.')
+        if name not in rows:
+            fail(f'"{one}": there is no setting "{name}".')
+        if name in values:
+            fail(f'"{one}": "{name}" is given twice.')
+        values[name] = value(rows[name], text)
+        if values[name] is None:
+            fail(f'"{one}": "{name}" takes {takes(rows[name])}.')
+    return {name: values.get(name, otherwise(row)) for name, row in rows.items()}
+
 
 model, out, *rest = sys.argv[sys.argv.index("--") + 1:]
-settings = dict(one.split("=", 1) for one in rest)
+settings = settings_of(rest)
+if not os.path.exists(model):
+    print(f"There is no model {model}.", file=sys.stderr)
+    sys.exit(2)
+
+import bpy  # noqa: E402  (a wrong setting is told without Blender)
+import numpy as np  # noqa: E402
+from mathutils import Matrix, Vector  # noqa: E402
+
 os.makedirs(out, exist_ok=True)
 
 
-def number(name, otherwise):
-    return float(settings.get(name, otherwise))
-
-
-def vector(name, otherwise):  # Blender has Z up, the file Y
-    if name not in settings:
-        return Vector(otherwise)
-    x, y, z = map(float, settings[name].split(","))
+def of_file(numbers):
+    """A place or a direction of the file, which has Y up, in Blender, which has Z up."""
+    x, y, z = numbers
     return Vector((x, -z, y))
 
 
@@ -66,29 +121,29 @@ for mesh in {one.data for one in scene.objects if one.type == "MESH"}:
 
 camera = scene.camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
 scene.collection.objects.link(camera)
-eye = vector("eye", middle + 0.6 * size * Vector((1, -1, 1)))
-turn = (vector("target", middle) - eye).to_track_quat("-Z", "Y")
+eye = of_file(settings["eye"]) if settings["eye"] else middle + 0.6 * size * Vector((1, -1, 1))
+turn = ((of_file(settings["target"]) if settings["target"] else middle) - eye).to_track_quat("-Z", "Y")
 camera.matrix_world = Matrix.Translation(eye) @ turn.to_matrix().to_4x4()
-near, tan = number("near", size / 100), math.tan(math.radians(number("fov_y_deg", 45)) / 2)
+near, tan = settings["near"] or size / 100, math.tan(math.radians(settings["fov_y_deg"]) / 2)
 camera.data.sensor_fit, camera.data.angle = "VERTICAL", 2 * math.atan(tan)
 camera.data.clip_start, camera.data.clip_end = near, 10 * size
 
 # EEVEE fits its map to a sphere about the camera's frustum from `near` to `distance`, so its width cannot be set.
 lamp = bpy.data.lights.new("sun", "SUN")
-distance = number("distance", (eye - middle).length + size / 2)
-lamp.angle, lamp.energy, lamp.shadow_buffer_bias = 0, math.pi, number("bias", 1)
+distance = settings["distance"] or (eye - middle).length + size / 2
+lamp.angle, lamp.energy, lamp.shadow_buffer_bias = 0, math.pi, settings["bias"]
 lamp.shadow_cascade_count, lamp.shadow_cascade_max_distance, lamp.shadow_cascade_fade = 1, distance, 0
 sun = bpy.data.objects.new("sun", lamp)
 scene.collection.objects.link(sun)
-way = vector("direction", (-0.4, 0.3, -0.8)).normalized()
+way = of_file(settings["direction"]).normalized()
 sun.rotation_euler = way.to_track_quat("-Z", "Y").to_euler()
 
-render, width, height, resolution = scene.render, int(number("width", 1280)), int(number("height", 720)), int(number("resolution", 1024))
+render, width, height, resolution = scene.render, settings["width"], settings["height"], settings["resolution"]
 render.engine, render.film_transparent = "BLENDER_EEVEE", True
 render.resolution_x, render.resolution_y, render.resolution_percentage = width, height, 100
 render.filter_size, scene.eevee.taa_render_samples = 0, 1  # one sample at each pixel's centre
 scene.eevee.shadow_cascade_size = str(resolution)
-scene.eevee.use_shadow_high_bitdepth = settings.get("high_bitdepth", "true") == "true"
+scene.eevee.use_shadow_high_bitdepth = settings["high_bitdepth"] == "true"
 scene.eevee.use_soft_shadows = False
 
 # The compositor writes each layer to a file of floats.
