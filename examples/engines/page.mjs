@@ -4,6 +4,17 @@ export const model = query.get("model"); // its address
 export const settings = JSON.parse(query.get("settings")); // each by its name, checked; null is "not given" (settings.mjs)
 export const { width, height } = settings;
 
+// Ends the page with one message and no frame.
+export function refuse(message) {
+  throw Object.assign(Error(message), { refused: true });
+}
+// The direction of a light to be made, or null: then the file's first directional light, `found`, is the light.
+export function direction_beside(found) {
+  if (settings.light === "file" && settings.direction) refuse("light=file and direction are given, and a frame has one light. Leave one of them out.");
+  if (settings.light === "file" && !found) refuse(`light=file: ${model.slice("/model/".length)} has no directional light (KHR_lights_punctual). Give direction=x,y,z in place of it.`);
+  return settings.direction ?? (found ? null : [-0.4, -0.8, -0.3]);
+}
+
 function send(name, body) {
   return fetch("/save/" + name, { method: "POST", body });
 }
@@ -31,5 +42,6 @@ export function picked(rgba, channels, covered = rgba) {
 export async function done(frame) {
   await send("frame.json", JSON.stringify({ noonmark_frame: 1, scene: query.get("scene"), visibility: { file: "visibility.npy" }, positions: { file: "positions.npy" }, ...frame }, null, 1));
 }
-window.addEventListener("error", (event) => send("failed", String(event.message)));
-window.addEventListener("unhandledrejection", (event) => send("failed", String(event.reason?.stack ?? event.reason)));
+const ended = (error, otherwise) => (error?.refused ? send("refused", error.message) : send("failed", String(error?.stack ?? otherwise)));
+window.addEventListener("error", (event) => ended(event.error, event.message));
+window.addEventListener("unhandledrejection", (event) => ended(event.reason, event.reason));

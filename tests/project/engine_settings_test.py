@@ -43,8 +43,8 @@ for page in PAGES:
     cells = ", ".join(cell(*one) for one in own.items())
     expect(any(line.startswith(f"| `{page}` |") and line.endswith(f"| {cells} |") for line in readme.splitlines()),
            f"the README's row of {page} does not end with: | {cells} |")
-    code = (engines / page).read_text()
-    read = set(re.findall(r"\bsettings\.(\w+)" if page.endswith("html") else r'\bsettings\["(\w+)"\]', code)) | {"width", "height"}
+    code = (engines / page).read_text() + ("" if page.endswith("py") else (engines / "page.mjs").read_text())
+    read = set(re.findall(r"\bsettings\.(?!mjs)(\w+)" if page.endswith("html") else r'\bsettings\["(\w+)"\]', code)) | {"width", "height"}
     expect(read == set(shared) | set(own), f"{page} reads {sorted(read)}; settings.json declares {sorted(set(shared) | set(own))}")
 
 shutil.rmtree(folder, ignore_errors=True)

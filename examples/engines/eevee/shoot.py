@@ -72,8 +72,6 @@ import bpy  # noqa: E402  (a wrong setting is told without Blender)
 import numpy as np  # noqa: E402
 from mathutils import Matrix, Vector  # noqa: E402
 
-os.makedirs(out, exist_ok=True)
-
 
 def of_file(numbers):
     """A place or a direction of the file, which has Y up, in Blender, which has Z up."""
@@ -86,8 +84,14 @@ if not hasattr(np, "bool"):
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=os.path.abspath(model))
 scene = bpy.context.scene
-for other in [one for one in scene.objects if one.type in ("LIGHT", "CAMERA")]:
-    bpy.data.objects.remove(other)
+lights = [one for one in scene.objects if one.type == "LIGHT"]
+found = next((one for one in lights if one.data.type == "SUN"), None)
+if settings["light"] == "file" and (settings["direction"] or not found):
+    print("light=file and direction are given, and a frame has one light. Leave one of them out." if settings["direction"] else
+          f"light=file: {model} has no directional light (KHR_lights_punctual). Give direction=x,y,z in place of it.", file=sys.stderr)
+    sys.exit(1)
+for other in lights:
+    other.hide_render = settings["direction"] is not None or other is not found
 corners = [one.matrix_world @ Vector(corner) for one in scene.objects if one.type == "MESH" for corner in one.bound_box]
 low, high = (Vector([choose(corner[i] for corner in corners) for i in range(3)]) for choose in (min, max))
 middle, size = (low + high) / 2, (high - low).length
@@ -129,14 +133,16 @@ camera.data.sensor_fit, camera.data.angle = "VERTICAL", 2 * math.atan(tan)
 camera.data.clip_start, camera.data.clip_end = near, 10 * size
 
 # EEVEE fits its map to a sphere about the camera's frustum from `near` to `distance`, so its width cannot be set.
-lamp = bpy.data.lights.new("sun", "SUN")
+own = settings["direction"] or (None if found else (-0.4, -0.8, -0.3))  # of a light that is made
+sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN")) if own else found
+if own:
+    scene.collection.objects.link(sun)
+    sun.rotation_euler = of_file(own).to_track_quat("-Z", "Y").to_euler()
+bpy.context.view_layer.update()
+way, lamp = (sun.matrix_world.to_3x3() @ Vector((0, 0, -1))).normalized(), sun.data
 distance = settings["distance"] or (eye - middle).length + size / 2
 lamp.angle, lamp.energy, lamp.shadow_buffer_bias = 0, math.pi, settings["bias"]
 lamp.shadow_cascade_count, lamp.shadow_cascade_max_distance, lamp.shadow_cascade_fade = 1, distance, 0
-sun = bpy.data.objects.new("sun", lamp)
-scene.collection.objects.link(sun)
-way = of_file(settings["direction"]).normalized()
-sun.rotation_euler = way.to_track_quat("-Z", "Y").to_euler()
 
 render, width, height, resolution = scene.render, settings["width"], settings["height"], settings["resolution"]
 render.engine, render.film_transparent = "BLENDER_EEVEE", True
@@ -147,6 +153,7 @@ scene.eevee.use_shadow_high_bitdepth = settings["high_bitdepth"] == "true"
 scene.eevee.use_soft_shadows = False
 
 # The compositor writes each layer to a file of floats.
+os.makedirs(out, exist_ok=True)
 names, scene.use_nodes = ("Image", "Below", "Above"), True
 scene.node_tree.nodes.clear()
 for name in names[1:]:
