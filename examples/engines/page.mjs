@@ -15,6 +15,9 @@ export function direction_beside(found) {
   return settings.direction ?? (found ? null : [-0.4, -0.8, -0.3]);
 }
 
+// Prints a line on the terminal.
+export const note = (line) => send("note", line);
+
 function send(name, body) {
   return fetch("/save/" + name, { method: "POST", body });
 }

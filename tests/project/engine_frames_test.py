@@ -19,6 +19,7 @@ SKIP = 77
 # The folder of the frame, the page, the package that it needs, and settings with which its shadows are good.
 ADAPTERS = [("three", "three/page.html", "three", ["bias=-0.002"]),
             ("three-map", "three/page.html", "three", ["bias=-0.002", "type=BasicShadowMap"]),
+            ("babylon-map", "babylon/page.html", "babylonjs", ["bias=0.02"]),
             ("babylon", "babylon/page.html", "babylonjs", ["bias=0.02", "filter=usePercentageCloserFiltering"]),
             ("playcanvas", "playcanvas/page.html", "playcanvas", ["bias=0.4"]),
             ("filament", "filament/page.html", "filament", []),
@@ -150,7 +151,10 @@ def refused(name, page, model, message, *settings):
 
 for name, page, _, settings in adapters:
     metrics = metrics_of(name, page, "box.glb", *settings)
-    if metrics and name == "three-map":
+    if metrics:
+        told = json.loads((folder / name / "frame.json").read_text())
+        expect(("map" in told) == name.endswith("-map"), f"{name}: frame.json has{'' if 'map' in told else ' no'} map")
+    if metrics and name.endswith("-map"):
         # Its own map, looked up as declared, is the frame; the causes of one tap exclude each other, so they sum to the error.
         causes = ("acne", "peter_panning", "aliasing_dark", "aliasing_light", "coverage_dark", "coverage_light", "precision", "frame_lookup")
         expect(metrics["frame_lookup_differs"] <= 0.001 and abs(sum(metrics[cause] for cause in causes) - metrics["frame_error"]) <= 0.001, f"{name}: the map is not the frame's")
