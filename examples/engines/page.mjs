@@ -42,6 +42,36 @@ export function picked(rgba, channels, covered = rgba) {
     }
   return picture;
 }
+// The values of a square depth texture of WebGL 2, the bottom row first. Engines let none be read back, and theirs compare as they
+// are sampled. The state of the context is another one afterwards, so this comes last.
+export function depths_of(gl, texture, side) {
+  const program = gl.createProgram();
+  for (const [type, source] of [[gl.VERTEX_SHADER, "void main() { gl_Position = vec4(4 * (gl_VertexID & 1) - 1, 2 * (gl_VertexID & 2) - 1, 0.0, 1.0); }"],
+    [gl.FRAGMENT_SHADER, "precision highp float; uniform highp sampler2D map; out vec4 depth; void main() { depth = vec4(texelFetch(map, ivec2(gl_FragCoord.xy), 0).r); }"]]) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, "#version 300 es\n" + source);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  const copy = gl.createTexture(), sampler = gl.createSampler(), pixels = new Float32Array(4 * side * side);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+  gl.activeTexture(gl.TEXTURE0);
+  gl.bindTexture(gl.TEXTURE_2D, copy);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, side, side);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, copy, 0);
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.samplerParameteri(sampler, name, gl.NEAREST);
+  gl.bindSampler(0, sampler);
+  for (const state of [gl.DEPTH_TEST, gl.CULL_FACE, gl.BLEND, gl.SCISSOR_TEST, gl.RASTERIZER_DISCARD]) gl.disable(state);
+  gl.colorMask(true, true, true, true);
+  gl.viewport(0, 0, side, side);
+  gl.useProgram(program);
+  gl.bindVertexArray(gl.createVertexArray());
+  gl.drawArrays(gl.TRIANGLES, 0, 3);
+  gl.readPixels(0, 0, side, side, gl.RGBA, gl.FLOAT, pixels);
+  return pixels.filter((_, i) => i % 4 === 0);
+}
 export async function done(frame) {
   await send("frame.json", JSON.stringify({ noonmark_frame: 1, scene: query.get("scene"), visibility: { file: "visibility.npy" }, positions: { file: "positions.npy" }, ...frame }, null, 1));
 }
