@@ -11,6 +11,7 @@
 #include "compare/judge/soundness.h"
 #include "compare/ladder/measure.h"
 #include "measure/stages.h"
+#include "scenes/surfaces.h"
 
 namespace noonmark {
 namespace {
@@ -32,9 +33,12 @@ double quantile(std::vector<double>& values, double share) {
 }  // namespace
 
 struct GivenLookup::Impl {
-  Impl(const Scene& of, const raytrace::Tracer& its) : scene(of), tracer(its) { renderer.load_scene(scene); }
+  Impl(const Scene& of, const raytrace::Tracer& its) : scene(of), tracer(its), surfaces(surfaces_of(of)) {
+    renderer.load_scene(scene);
+  }
   const Scene& scene;
   const raytrace::Tracer& tracer;
+  std::vector<uint32_t> surfaces;
   gl::Renderer renderer{gl::DebugMode::log};
   Pipeline stages;
 };
@@ -62,7 +66,7 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   const Image<float> occluders =
       impl_->tracer.occluder_distance(view.receivers, technique.frame, peter_panning_mask(made.ladder));
   made.metrics = measure_ladder({made.ladder, view.receivers, technique.frame, lookup.probe, technique.bias,
-                                 lookup.edge_distance_texels, occluders, technique.moves_casters()});
+                                 lookup.edge_distance_texels, occluders, technique.moves_casters(), impl_->surfaces});
   made.metrics.insert(climbed.soundness.begin(), climbed.soundness.end());
   std::vector<double> off, depths;
   for (size_t texel = 0; texel < lookup.exact_depth.depth.size(); ++texel) {

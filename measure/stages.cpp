@@ -6,6 +6,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
+#include "scenes/surfaces.h"
 #include "technique/casters.h"
 
 namespace noonmark {
@@ -81,7 +82,8 @@ SceneStage Pipeline::load_scene(gl::Renderer& renderer, const Settings& settings
   renderer.load_scene(*scene);
   std::string identity = scene_digest(*scene);
   const uint64_t open_edges = tracer->open_edges();
-  return {std::move(scene), std::move(identity), std::move(tracer), open_edges};
+  std::vector<uint32_t> surfaces = surfaces_of(*scene);
+  return {std::move(scene), std::move(identity), std::move(tracer), open_edges, std::move(surfaces)};
 }
 
 // Draws again without the parts that can hide surfaces, and only if something could be hidden.

@@ -35,6 +35,7 @@ struct SceneStage {
   std::string identity;          // scene_digest
   std::unique_ptr<raytrace::Tracer> tracer;
   uint64_t open_edges = 0;
+  std::vector<uint32_t> surfaces;  // surfaces_of()
 };
 
 struct ViewStage {

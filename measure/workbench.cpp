@@ -68,16 +68,15 @@ void add_time(PointRecord& record, const std::string& stage, const StageTime& ti
 }
 
 // The point's numbers and times, without its curve.
-PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, const ViewStage& view,
-                      const TruthStage& truth, const LookupStage& lookup,
-                      const std::map<std::string, double>& soundness) {
+PointRecord record_of(const Measurement& m, const SceneStage& loaded, const ViewStage& view, const TruthStage& truth,
+                      const LookupStage& lookup, const std::map<std::string, double>& soundness) {
   const Technique& t = m.technique;
-  const Image<float> occluders = tracer.occluder_distance(m.receivers, t.frame, peter_panning_mask(m.ladder));
+  const Image<float> occluders = loaded.tracer->occluder_distance(m.receivers, t.frame, peter_panning_mask(m.ladder));
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   PointRecord record;
   record.settings = settings_map(t.settings);
-  const MeasureInput input{m.ladder,  m.receivers,      t.frame, m.probe, t.bias, lookup.edge_distance_texels,
-                           occluders, t.moves_casters()};
+  const MeasureInput input{m.ladder,  m.receivers,       t.frame,        m.probe, t.bias, lookup.edge_distance_texels,
+                           occluders, t.moves_casters(), loaded.surfaces};
   record.metrics = measure_ladder(input);
   record.metrics.merge(
       measure_laws({m.ladder, m.scene, m.receivers, m.camera, t.frame, t.settings.map.format, m.probe}));
@@ -384,7 +383,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   if (placements) placements->finish();
   Measurement m{{},           technique, std::move(climbed.ladder), view.camera,        scene, view.receivers,
                 lookup.probe, {},        std::move(shown.stored),   lookup.exact_depth, {}};
-  m.record = record_of(m, *loaded.tracer, view, truth, lookup, climbed.soundness);
+  m.record = record_of(m, loaded, view, truth, lookup, climbed.soundness);
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);

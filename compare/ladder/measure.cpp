@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "compare/ladder/distance.h"
 #include "compare/ladder/numbers.h"
+#include "compare/ladder/shadow_edges.h"
 
 namespace noonmark {
 namespace {
@@ -33,27 +33,6 @@ double gap_m(const MeasureInput& in, size_t i) {
 
 bool is_aliased(const Ladder& ladder, size_t i) {
   return ladder[Cause::aliasing_dark][i] != 0 || ladder[Cause::aliasing_light][i] != 0;
-}
-
-// The largest distance in the picture from an aliased pixel to the nearest pixel whose truth is the answer that the map
-// gave here. If no such pixel is visible, the picture has no such distance, and the aliased pixel is left out.
-double edge_displacement_pixels(const Ladder& ladder) {
-  const int width = ladder.flags.width, height = ladder.flags.height;
-  double largest = 0;
-  for (int lit = 0; lit < 2; ++lit) {
-    const Image<float>& step = ladder[lit ? Cause::aliasing_light : Cause::aliasing_dark];
-    Image<uint8_t> mask(width, height);
-    bool any = false;
-    for (size_t i = 0; i < mask.size(); ++i) {
-      mask[i] = (ladder.flags[i] & flag_facing) && (ladder.truth()[i] != 0) == (lit == 1);
-      any = any || step[i] != 0;
-    }
-    if (!any) continue;
-    const Image<float> distance = distance_to(mask);
-    for (size_t i = 0; i < mask.size(); ++i)
-      if (is_counted(ladder, i) && step[i] != 0 && std::isfinite(distance[i])) raise(largest, distance[i]);
-  }
-  return largest;
 }
 
 // Converts a bias in window depth to metres of the map's depth measure, before `depth_m`.
@@ -108,7 +87,8 @@ double error_of(const Ladder& ladder) {
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
   uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
-  double doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
+  double doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
+         edge_sum = 0;
   std::vector<double> size(ladder.causes.size());
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     receivers += in.receivers.primitive[i] != no_primitive;
@@ -135,6 +115,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     }
   }
 
+  const EdgeDisplacements edges = edge_displacements(ladder, in.receivers, in.surfaces);
   // Without a counted receiver nothing was measured, and no metric may look like a perfect result.
   const auto measured = [&](double value) { return base == 0 ? std::numeric_limits<double>::quiet_NaN() : value; };
   const auto share = [&](double sum) { return measured(sum / static_cast<double>(base)); };
@@ -162,7 +143,9 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"peter_panning_gap_m", measured(gap)},
       {"edge_displacement_texels", measured(edge_max)},
       {"edge_displacement_mean_texels", measured(aliased == 0 ? 0 : edge_sum / static_cast<double>(aliased))},
-      {"edge_displacement_pixels", measured(edge_displacement_pixels(ladder))},
+      {"edge_displacement_pixels", measured(edges.largest)},
+      {"edge_displacement_mean_pixels", measured(edges.mean)},
+      {"edge_displacement_p95_pixels", measured(edges.p95)},
       {"receivers", static_cast<double>(receivers)},
       {"facing", static_cast<double>(facing)},
       {"counted", static_cast<double>(base)},

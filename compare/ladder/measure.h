@@ -1,6 +1,8 @@
 // The metrics of one point: pure functions of the ladder's images. Names and meanings: compare/results/metrics.h.
 #pragma once
+#include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 
 #include "compare/ladder/ladder.h"
@@ -19,6 +21,7 @@ struct MeasureInput {
   const Image<float>& edge_distance_texels;  // raytrace::LookupTruth
   const Image<float>& occluder_distance_m;   // read only at the pixels of peter_panning_mask
   bool casters_moved = false;                // moves_casters(), technique/casters.h
+  std::span<const uint32_t> surfaces = {};   // surfaces_of() (scenes/surfaces.h); empty: all receivers are of one
 };
 
 // The largest distance before a receiver, in metres along its light ray, at which Peter Panning can occur. It is the

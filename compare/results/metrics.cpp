@@ -71,8 +71,19 @@ constexpr Metric measured_once[] = {
      "rays, in texels there.",
      true},
     {"edge_displacement_pixels", "pixels",
-     "Largest distance in the picture from an aliased pixel to a pixel where its verdict is true. With a normal offset "
-     "it includes the displacement.",
+     "Largest distance in the picture from an edge that filter, displacement and aliasing draw to the nearest true "
+     "shadow "
+     "edge (R1) on the same surface. A soft edge lies where it crosses one half.",
+     true},
+    {"edge_displacement_mean_pixels", "pixels",
+     "Mean over the pixels of the drawn edges of their distance in the picture to the nearest true shadow edge on the "
+     "same "
+     "surface.",
+     true},
+    {"edge_displacement_p95_pixels", "pixels",
+     "The distance in the picture to the nearest true shadow edge on the same surface that 95% of the pixels of the "
+     "drawn "
+     "edges do not exceed.",
      true},
     {"receivers", "count", "Number of pixels that see a surface.", false},
     {"facing", "count", "Number of receivers that face the light.", false},

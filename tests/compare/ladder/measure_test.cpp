@@ -82,7 +82,10 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"peter_panning_gap_m", 0},
       {"edge_displacement_texels", 1.5},
       {"edge_displacement_mean_texels", 1},
-      {"edge_displacement_pixels", std::sqrt(2.0) - std::sqrt(2.0) + 1},  // from (2, 1) to the dark (1, 1)
+      // Of the drawn edge's six pixels (0, 1), (1, 1) and (1, 2) are on the true edge, the others one beside it.
+      {"edge_displacement_pixels", 1},
+      {"edge_displacement_mean_pixels", 3 / 6.0},
+      {"edge_displacement_p95_pixels", 1},
       {"receivers", 11},
       {"facing", 10},
       {"counted", base},
@@ -141,37 +144,15 @@ TEST(WorstPixels, EachMetricHasItsOwn) {
 
 TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
   Picture p(5, 4);
-  // A shadow of two columns that is wrongly lit in one pixel, and a lit pixel far away that is wrongly dark.
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 2; ++x) p.rungs(x, y, {0, 0, 0, 0, 0, 0});
-  p.rungs(0, 0, {0, 0, 0, 1, 1, 1});
   p.step(0, 0, Cause::aliasing_light, 1);
   p.edge.at(0, 0) = 0.5f;
-  EXPECT_EQ(p.metric("edge_displacement_pixels"), 2);  // to (2, 0)
-  p.rungs(4, 3, {1, 1, 1, 0, 0, 0});
   p.step(4, 3, Cause::aliasing_dark, -1);
   p.edge.at(4, 3) = 2;
-  EXPECT_EQ(p.metric("edge_displacement_pixels"), 3);  // to (1, 3)
   EXPECT_EQ(p.metric("edge_displacement_texels"), 2);
   EXPECT_EQ(p.metric("edge_displacement_mean_texels"), 1.25);
-  // Receivers that face away do not count as dark. So the two dark columns are not in the picture any more.
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 2; ++x)
-      if (x + y > 0) attach(p, x, y);
-  attach(p, 2, 0);
-  EXPECT_NEAR(p.metric("edge_displacement_pixels"), 5, 1e-6);  // (4, 3) to (0, 0), the one dark receiver left
   p.edge.at(0, 0) = nan_float;
   EXPECT_TRUE(std::isnan(p.metric("edge_displacement_texels")));
   EXPECT_TRUE(std::isnan(p.metric("edge_displacement_mean_texels")));
-}
-
-TEST(Measure, LeavesOutPixelsWhoseTruthThePictureDoesNotShow) {
-  Picture p(3, 2);  // all are lit and one is wrongly dark, so no dark receiver is in view
-  p.rungs(1, 1, {1, 1, 1, 0, 0, 0});
-  p.step(1, 1, Cause::aliasing_dark, -1);
-  p.edge.at(1, 1) = 1;
-  EXPECT_EQ(p.metric("edge_displacement_pixels"), 0);
-  EXPECT_EQ(p.metric("edge_displacement_texels"), 1);
 }
 
 TEST(Measure, SaysNaNWhereNothingWasCounted) {
@@ -242,8 +223,8 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   }
   std::set<std::string> measured = times;
   for (const char* name :
-       {"shaded_rmse", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes", "map_texels",
-        "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations"})
+       {"shaded_rmse", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes",
+        "map_texels", "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations"})
     measured.insert(name);  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);
