@@ -9,6 +9,7 @@
 
 #include "compare/ladder/numbers.h"
 #include "compare/ladder/shadow_edges.h"
+#include "compare/ladder/wrong_patch.h"
 
 namespace noonmark {
 namespace {
@@ -124,6 +125,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"error", error_of(ladder)},
       {"error_soft", share(error_soft)},
       {"wrong", share(static_cast<double>(wrong))},
+      {"wrong_patch", share(static_cast<double>(largest_wrong_patch(ladder)))},
       {"light_size", caused(Cause::light_size)},
       {"filter", caused(Cause::filter)},
       {"displacement", caused(Cause::displacement)},

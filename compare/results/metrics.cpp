@@ -17,6 +17,11 @@ constexpr Metric measured_once[] = {
     {"error_soft", "fraction",
      "Mean |R5 - R0|: what the GPU shows compared with the truth for the light with its size.", true},
     {"wrong", "fraction", "Share of the counted receivers whose R5 differs from R1.", true},
+    {"wrong_patch", "fraction",
+     "Share of the counted receivers in the largest patch of wrong ones: pixels that touch at a side or a corner, and "
+     "whose "
+     "R5 and R1 are not on the same side of one half.",
+     true},
     {"light_size", "fraction", "Mean |R1 - R0|: the error of a hard shadow, which ignores the size of the light.",
      true},
     {"filter", "fraction",

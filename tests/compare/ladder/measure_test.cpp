@@ -62,6 +62,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"error", (0.5 + 1 + 1 + 1) / base},
       {"error_soft", (0 + 1 + 1 + 1) / base},
       {"wrong", 4 / base},
+      {"wrong_patch", 3 / base},  // (1, 1), (2, 1), (3, 1); at (0, 1) the picture shows one half, which is lit
       {"light_size", 0.5 / base},
       {"filter", 0.25 / base},
       {"displacement", 0.125 / base},
