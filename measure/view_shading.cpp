@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/srgb.h"
+#include "compare/ladder/flip.h"
+
 namespace noonmark {
 
 double clay_response(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye) {
@@ -56,6 +59,28 @@ double shaded_rmse(const ReceiverImage& receivers, const LightFrame& light, cons
     sum += d * d;
   }
   return count == 0 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(sum / static_cast<double>(count));
+}
+
+Image<glm::u8vec3> shown_frame(const ReceiverImage& receivers, const Image<float>& frame) {
+  Image<glm::u8vec3> shown(frame.width, frame.height, {background_srgb[0], background_srgb[1], background_srgb[2]});
+  for (size_t i = 0; i < shown.size(); ++i)
+    if (receivers.primitive[i] != no_primitive) shown[i] = glm::u8vec3(srgb_encoded(frame[i]));
+  return shown;
+}
+
+double shaded_flip(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
+                   const Image<float>& visibility, const Image<float>& other) {
+  bool any = false;
+  for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+    if (receivers.primitive[i] == no_primitive) continue;
+    any = true;
+    if (std::isnan(visibility[i]) || std::isnan(other[i])) return std::numeric_limits<double>::quiet_NaN();
+  }
+  if (!any) return std::numeric_limits<double>::quiet_NaN();
+  const auto shown = [&](const Image<float>& lit) {
+    return shown_frame(receivers, shaded_frame(receivers, light, camera, lit));
+  };
+  return flip(shown(visibility), shown(other)).mean;
 }
 
 }  // namespace noonmark

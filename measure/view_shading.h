@@ -33,4 +33,12 @@ Image<float> shaded_frame(const ReceiverImage& receivers, const LightFrame& ligh
 double shaded_rmse(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
                    const Image<float>& visibility, const Image<float>& other);
 
+// The frame as pictures show it: 8-bit sRGB, and background_srgb where there is no surface. NaN is black.
+Image<glm::u8vec3> shown_frame(const ReceiverImage& receivers, const Image<float>& frame);
+
+// The mean FLIP of two such frames as they are shown (compare/ladder/flip.h): the metric flip. NaN without receivers, and
+// if a visibility at a receiver is NaN.
+double shaded_flip(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
+                   const Image<float>& visibility, const Image<float>& other);
+
 }  // namespace noonmark

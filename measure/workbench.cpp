@@ -83,6 +83,7 @@ PointRecord record_of(const Measurement& m, const SceneStage& loaded, const View
   record.metrics.insert(soundness.begin(), soundness.end());
   record.metrics.insert(view.metrics.begin(), view.metrics.end());
   record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
+  record.metrics["flip"] = shaded_flip(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
   add_cost(record, frame_cost(t.settings, t.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
                               static_cast<int64_t>(m.scene.triangles.size())));
   add_time(record, "hard_truth", truth.hard);

@@ -34,7 +34,7 @@ Image<Color> paint(const Measurement& m, const std::function<Color(size_t)>& fac
 Image<Color> shaded(const Measurement& m, const Image<float>& visibility) {
   return paint(m, [&](size_t i) {
     const bool facing = m.ladder.flags[i] & flag_facing;
-    return Color(encoded(clay(m, i, facing ? visibility[i] : 0)));
+    return grey(clay(m, i, facing ? visibility[i] : 0));
   });
 }
 
@@ -73,10 +73,6 @@ Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
   });
   draw_frustum(picture, m.technique.frame, camera, m.receivers);
   return picture;
-}
-
-Image<Color> greys(const Measurement& m, const Image<float>& frame) {
-  return paint(m, [&](size_t i) { return grey(frame[i]); });
 }
 
 // What changes from this frame of a motion to the next although the truth does not. A pixel without flicker is grey, one
@@ -209,14 +205,15 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
       map_picture(m.stored_rows, m.technique.frame));
   add("frustum", std::string(m.technique.frame.light().frustum_caption()), frustum(m, camera));
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
-  add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).", greys(m, truth));
+  add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).",
+      shown_frame(m.receivers, truth));
   if (sized)
     add("shaded-soft-truth", "Grey clay with the true shadow of the light with its size (R0).",
-        greys(m, shaded_with(m.ladder.soft_truth())));
+        shown_frame(m.receivers, shaded_with(m.ladder.soft_truth())));
   add("shaded-map",
       fmt::format("Grey clay as a renderer shows it, with the {} shadow ({}).", given ? "given picture's" : "map's",
                   judged),
-      greys(m, map));
+      shown_frame(m.receivers, map));
   Image<Color> apart(map.width, map.height);
   for (size_t i = 0; i < apart.size(); ++i)
     apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/pictures/image_file.h"
+#include "base/srgb.h"
 #include "compare/ladder/ladder.h"
 #include "compare/report/cause_colors.h"
 
@@ -24,12 +25,7 @@ inline Color color_of(const Ladder& ladder, size_t cause) {
   return {r, g, b};
 }
 
-// IEC 61966-2-1: the 8-bit value of a linear light, where 1 is white. NaN is black.
-inline uint8_t encoded(double linear) {
-  const double v = linear > 0 ? std::min(linear, 1.0) : 0;
-  return static_cast<uint8_t>(std::lround(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055)));
-}
-inline Color grey(double linear) { return Color(encoded(linear)); }
+inline Color grey(double linear) { return Color(srgb_encoded(linear)); }
 
 // A grey for a depth from 0, the nearest, to 1. Steps are even in sRGB, so they look even. NaN is black.
 inline Color depth_grey(double depth) {

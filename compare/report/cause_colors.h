@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/srgb.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -41,7 +42,7 @@ inline constexpr std::array<CauseColor, 5> pixel_state_colors{{
     {"shadowed", 128, 130, 134, "Right, shadowed"},
     {"attached", 74, 76, 82, "Faces away from the light"},
     {"ambiguous", 255, 250, 200, "Ambiguous truth, left out"},
-    {"background", 30, 32, 38, "No surface"},
+    {"background", background_srgb[0], background_srgb[1], background_srgb[2], "No surface"},
 }};
 
 // The classes of flicker (compare/ladder/flicker.h), by the metrics that measure them.

@@ -204,6 +204,7 @@ std::string bias_in_unit(double value, const std::string& unit) {
 
 std::string metric_label(std::string_view name) {
   if (name == "peter_panning") return "Peter Panning";
+  if (name == "flip") return "FLIP";
   std::string label(name);
   if (label.starts_with("peter_panning_")) label = "Peter Panning" + label.substr(13);
   for (std::string_view suffix : {"_ms", "_texels", "_pixels"}) strip_suffix(label, suffix);

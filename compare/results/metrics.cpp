@@ -180,6 +180,11 @@ constexpr Metric measured_once[] = {
      "Root mean square difference over the receivers of two shaded frames (Blinn-Phong clay, linear light, 1 is "
      "white): one with the map's shadow (R5), one with the true shadow (R1).",
      true},
+    {"flip", "",
+     "Mean FLIP over the picture of the two shaded frames as they are shown (8-bit sRGB, 67 pixels per degree): from "
+     "0, "
+     "nobody sees a difference, to 1.",
+     true},
     {"texel_work", "count",
      "Cost of the technique, the same on every machine: the texels of the map, each written once, and the texture "
      "instructions of the lookups of all facing receivers.",

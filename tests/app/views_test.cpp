@@ -9,6 +9,7 @@
 #include "app/pictures/view_colors.h"
 #include "app/pictures/view_frustum.h"
 #include "app/pictures/view_map.h"
+#include "compare/ladder/flip.h"
 #include "measure/view_shading.h"
 #include "scenes/library.h"
 
@@ -216,6 +217,34 @@ TEST(ShadedFrame, DarkensDiffuseAndSpecularOnly) {
     EXPECT_NEAR(frame.at(2, 4), 0.105 + 0.25 * full, 1e-6);
     EXPECT_TRUE(std::isnan(frame.at(3, 4)));
   }
+}
+
+TEST(ShadedFlip, ComparesTheFramesAsTheyAreShown) {
+  const Scene scene = make_scene({.name = "plane"});
+  const LightFrame light = make_light_frame(scene, {});
+  const CameraFrame camera = make_camera_frame({.eye_m = {0, 5, 5}, .target_m = {0, 0, 0}}, 40, 30);
+  ReceiverImage floor = floor_receivers(40, 30, camera, 0);
+  for (int x = 0; x < 40; ++x) floor.primitive.at(x, 0) = no_primitive;
+  Image<float> lit(40, 30, 1), dark = lit;
+  for (int y = 10; y < 20; ++y) dark.at(15, y) = 0;
+  const auto shown = [&](const Image<float>& visibility) {
+    return shown_frame(floor, shaded_frame(floor, light, camera, visibility));
+  };
+  const Image<glm::u8vec3> picture = shown(dark);
+  EXPECT_EQ(picture.at(7, 0), glm::u8vec3(30, 32, 38)) << "the background";
+  // Ambient 0.15 of albedo 0.7, by IEC 61966-2-1.
+  EXPECT_EQ(picture.at(15, 15), glm::u8vec3(std::lround(255 * (1.055 * std::pow(0.105, 1 / 2.4) - 0.055))));
+  const double found = shaded_flip(floor, light, camera, dark, lit);
+  EXPECT_EQ(found, flip(shown(lit), picture).mean);
+  EXPECT_GT(found, 0.01);
+  EXPECT_EQ(shaded_flip(floor, light, camera, dark, dark), 0);
+  dark.at(3, 0) = nan;  // no surface there
+  EXPECT_EQ(shaded_flip(floor, light, camera, dark, lit), found);
+  dark.at(3, 1) = nan;
+  EXPECT_TRUE(std::isnan(shaded_flip(floor, light, camera, dark, lit)));
+  EXPECT_TRUE(std::isnan(shaded_flip(floor, light, camera, lit, dark)));
+  for (uint32_t& p : floor.primitive.pixels) p = no_primitive;
+  EXPECT_TRUE(std::isnan(shaded_flip(floor, light, camera, lit, lit))) << "no surface, so nothing can differ";
 }
 
 TEST(ShadedRmse, IsThatOfTheTwoFramesWhereThereIsASurface) {

@@ -224,7 +224,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   }
   std::set<std::string> measured = times;
   for (const char* name :
-       {"shaded_rmse", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes",
+       {"shaded_rmse", "flip", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes",
         "map_texels", "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations"})
     measured.insert(name);  // likewise
   const Picture picture(1, 1);

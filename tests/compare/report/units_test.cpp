@@ -26,8 +26,9 @@ TEST(ReportUnits, ShowResidualsPlainly) {
 }
 
 TEST(ReportUnits, FollowTheMetricsTable) {
-  const std::set<std::string_view> plain = {"residual", "tap_residual", "rounding_excess", "map_error_quanta",
-                                            "map_bits", "shaded_rmse",  "scene_behind"};
+  const std::set<std::string_view> plain = {
+      "residual",    "tap_residual", "rounding_excess", "map_error_quanta", "map_bits",
+      "shaded_rmse", "flip",         "scene_behind"};
   for (const Metric& metric : metrics_table()) {
     EXPECT_EQ(metric.unit.empty(), plain.contains(metric.name)) << metric.name;
     const std::string shown = report::quantity(0.25, metric.unit);
