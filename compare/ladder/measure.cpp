@@ -88,7 +88,7 @@ double error_of(const Ladder& ladder) {
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
   uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
-  double doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
+  double doubt = 0, error_soft = 0, pcf = 0, pcf_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
          edge_sum = 0;
   std::vector<double> size(ladder.causes.size());
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
@@ -103,6 +103,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     doubt += ladder.doubt[i];
     const double hard = static_cast<double>(ladder.shown()[i]) - ladder.truth()[i];
     error_soft += std::abs(static_cast<double>(ladder.shown()[i]) - ladder.soft_truth()[i]);
+    pcf += std::abs(static_cast<double>(ladder[Rung::shown][i]) - ladder.truth()[i]);
+    pcf_soft += std::abs(static_cast<double>(ladder[Rung::shown][i]) - ladder.soft_truth()[i]);
     wrong += hard != 0;
     for (size_t c = 0; c < size.size(); ++c) size[c] += std::abs(static_cast<double>(ladder.causes[c].step[i]));
     const double aliasing = static_cast<double>(ladder[Cause::aliasing_dark][i]) + ladder[Cause::aliasing_light][i];
@@ -126,6 +128,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"error_soft", share(error_soft)},
       {"wrong", share(static_cast<double>(wrong))},
       {"wrong_patch", share(static_cast<double>(largest_wrong_patch(ladder)))},
+      {"pcf_error", share(pcf)},
+      {"pcf_error_soft", share(pcf_soft)},
       {"light_size", caused(Cause::light_size)},
       {"filter", caused(Cause::filter)},
       {"displacement", caused(Cause::displacement)},
@@ -195,6 +199,11 @@ std::vector<PointRecord::WorstOf> worst_pixels(const MeasureInput& in) {
     add(ladder.causes[c].name,
         [&image = ladder.causes[c].step](size_t i) { return std::abs(static_cast<double>(image[i])); });
   add("error_soft", soft);
+  const auto pcf = [&](const Image<float>& truth) {
+    return [&](size_t i) { return std::abs(static_cast<double>(ladder[Rung::shown][i]) - truth[i]); };
+  };
+  add("pcf_error", pcf(ladder.truth()));
+  add("pcf_error_soft", pcf(ladder.soft_truth()));
   add("aliasing", [&](size_t i) { return step(Cause::aliasing_dark, i) + step(Cause::aliasing_light, i); });
   add("coverage", [&](size_t i) { return step(Cause::coverage_dark, i) + step(Cause::coverage_light, i); });
   add("peter_panning_lit", [&](size_t i) { return ladder.truth()[i] != 0 ? step(Cause::peter_panning, i) : 0; });

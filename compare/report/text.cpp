@@ -206,6 +206,7 @@ std::string metric_label(std::string_view name) {
   if (name == "peter_panning") return "Peter Panning";
   if (name == "flip") return "FLIP";
   std::string label(name);
+  if (label.starts_with("pcf_")) label = "PCF" + label.substr(3);
   if (label.starts_with("peter_panning_")) label = "Peter Panning" + label.substr(13);
   for (std::string_view suffix : {"_ms", "_texels", "_pixels"}) strip_suffix(label, suffix);
   if (name.ends_with("_gap_m")) strip_suffix(label, "_m");

@@ -22,6 +22,16 @@ constexpr Metric measured_once[] = {
      "whose "
      "R5 and R1 are not on the same side of one half.",
      true},
+    {"pcf_error", "fraction",
+     "The PCF error, mean |R5 - R1|: the error of the filtered lookup against the hard truth, also of a ladder with a "
+     "rung "
+     "on top of R5. Its parts are filter, displacement, the causes of the taps and precision.",
+     true},
+    {"pcf_error_soft", "fraction",
+     "The PCF error against the truth for the light with its size, mean |R5 - R0|, also of a ladder with a rung on top "
+     "of "
+     "R5.",
+     true},
     {"light_size", "fraction", "Mean |R1 - R0|: the error of a hard shadow, which ignores the size of the light.",
      true},
     {"filter", "fraction",
