@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "compare/judge/bounds.h"
@@ -134,27 +135,44 @@ Markup unsound_items(const Results& results) {
 // A note that is a clause without its full stop; nothing if it is empty.
 Markup note_item(std::string_view kind, const std::string& note) { return note.empty() ? "" : item(kind, note + "."); }
 
+Markup refused_items(const Results& results) {
+  Markup out;
+  for (const PointRecord* frame : refused_frames(results.points))
+    out += item("bad", prose("{}: its shadows are not judged: {}.", point_link(frame->id, frame_name(*frame)),
+                             frame->delivery.refused));
+  return out;
+}
+
+// What was accepted and what could not be checked. Frames of which the same is said share a line.
+Markup delivery_items(const Results& results) {
+  std::map<std::string, std::vector<Markup>> frames;
+  for (const PointRecord& point : results.points)
+    if (const PointRecord::Delivery& delivery = point.delivery;
+        delivery.refused.empty() && !(delivery.accepted.empty() && delivery.not_checked.empty()))
+      frames[delivery_text(point)].push_back(point_link(point.id, frame_name(point)));
+  Markup out;
+  for (auto& [text, links] : frames) {
+    constexpr size_t most_named = 8;
+    const size_t more = links.size() - std::min(links.size(), most_named);
+    links.resize(links.size() - more);
+    out += item("note", prose("The delivery of {}{}: {}.", joined(links, ", "),
+                              more ? fmt::format(" and {} more", more) : "", text));
+  }
+  return out;
+}
+
 Markup health_items(const Results& results) {
-  Markup out = unsound_items(results), refused, deliveries;
+  Markup out = unsound_items(results) + refused_items(results);
   size_t not_finite = 0;
   double ambiguous = 0;
   for (const PointRecord& point : results.points) {
-    if (!point.delivery.refused.empty()) {
-      refused += item("bad", prose("{}: {}.", point_link(point.id, frame_name(point)),
-                                   "its shadows are not judged: " + point.delivery.refused));
-      continue;
-    }
-    if (const PointRecord::Delivery& delivery = point.delivery;
-        !delivery.accepted.empty() || !delivery.not_checked.empty())
-      deliveries +=
-          item("note", prose("The delivery of {}: {}.", point_link(point.id, frame_name(point)), delivery_text(point)));
+    if (!point.delivery.refused.empty()) continue;
     bool finite = true;
     for (const auto& [name, value] : point.metrics) finite = finite && std::isfinite(value);
     not_finite += !finite;
     if (const double value = metric_of(point, "ambiguous"); std::isfinite(value))
       ambiguous = std::max(ambiguous, value);
   }
-  out += refused;
   if (not_finite)
     out += item("bad", prose("{} ha{} a metric that is {}: it could not be measured, which breaks every bound on it.",
                              points_text(not_finite), not_finite == 1 ? "s" : "ve", bold("not finite")));
@@ -169,8 +187,7 @@ Markup health_items(const Results& results) {
   for (const std::string& note : machines.warnings) out += note_item("bad", note);
   for (const std::string& note : machines.machines) out += note_item("note", note);
   for (const std::string& note : results.info.scene_notes) out += item("note", prose("About the scene {}.", note));
-  out += deliveries;
-  return out;
+  return out + delivery_items(results);
 }
 
 std::string last_run_or_new(const BoundResult& bound, const Results& results) {
