@@ -3,15 +3,18 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "app/advise/engines/cover.h"
 #include "app/advise/engines/engine.h"
 #include "app/advise/engines/engine_settings.h"
 #include "base/file.h"
+#include "scenes/camera_fit.h"
 #include "scenes/library.h"
 #include "technique/filters.h"
 #include "technique/setting_rules.h"
@@ -127,26 +130,53 @@ TEST(Engines, BabylonGivesTheBiasBack) {
   expect_written(typed(advice(constant_m(0.06, LightChoice::spot), "Babylon.js"), ".bias = ") * (42 - 2), 0.06);
 }
 
+// The picture's frustum of these settings: half its diagonal at one metre, and the farthest that is in view.
+struct Frustum {
+  double half_diagonal, farthest_m;
+};
+
+Frustum frustum(const Settings& settings) {
+  const Case c = make(settings);
+  const Camera camera = effective_camera(c.scene, settings.view);
+  const double tangent = std::tan(camera.fov_y_deg * std::numbers::pi / 360);
+  const double aspect = static_cast<double>(settings.view.width_px) / settings.view.height_px;
+  return {tangent * std::sqrt(1 + aspect * aspect), farthest_in_view_m(settings, c.scene)};
+}
+
+// The width of Filament's and Godot's map without its border: a sphere about the middle of the frustum's corners.
+double middle_sphere_m(const Frustum& seen, double far_m) {
+  return 2 * std::sqrt(far_m * far_m / 4 + seen.half_diagonal * seen.half_diagonal * far_m * far_m);
+}
+
 // Godot: bias / 100 * range * blur * quality radius, with a range of the cascade's diameter and 20 m; a spot light's
 // clip depth (near 0.025 m) times range / distance.
 TEST(Engines, GodotGivesTheBiasBack) {
   Settings s = constant_m(0.06);
+  s.filter = FilterSettings("hardware", {});
   EngineAdvice got = advice(s, "Godot");
-  expect_written(typed(got, "shadow_bias = ") / 100 * (16 + 20) * typed(got, "shadow_blur = ") * 1, 0.06);
+  const Frustum seen = frustum(s);
+  const double far_m = typed(got, "max_distance = "), size = typed(got, "atlas_set_size(");
+  expect_written(far_m, seen.farthest_m);
+  const double wide_m = middle_sphere_m(seen, far_m) * size / (size - 2);
+  EXPECT_LE(wide_m / size, texel_m * (1 + written)) << "its texels are no wider than the recommended ones";
+  EXPECT_TRUE(size == 512 || wide_m / size > texel_m / 2.1) << "and no finer than needed";
+  expect_written(typed(got, "shadow_bias = ") / 100 * (wide_m + 20) * typed(got, "shadow_blur = ") * 1, 0.06);
   s.filter = FilterSettings("box", {{"size", 5}});
   got = advice(s, "Godot");
-  EXPECT_NE(joined(got.lines).find("soft_shadow_filter_quality\", 2)"), std::string::npos);
-  expect_written(typed(got, "shadow_bias = ") / 100 * (16 + 20) * typed(got, "shadow_blur = ") * 2, 0.06);
+  EXPECT_NE(joined(got.lines).find("SHADOW_QUALITY_SOFT_LOW"), std::string::npos);
+  expect_written(typed(got, "shadow_bias = ") / 100 * (wide_m + 20) * typed(got, "shadow_blur = ") * 2, 0.06);
   expect_written(1 + 2 * typed(got, "shadow_blur = ") * std::sqrt(3.5 / 4), 2.5);  // the reach of a box of 5 x 5
 
   s = constant_m(0.06, LightChoice::spot);
+  s.filter = FilterSettings("hardware", {});
   s.bias["normal_offset_turned"] = 1.5;
   got = advice(s, "Godot");
   const double shift = typed(got, "shadow_bias = ") / 100 * (42.0 / 10) / 10;  // of z / w, at 10 m
   expect_written(shift * (10.0 * 10 * (42 - 0.025)) / (42 * 0.025), 0.06);
   const double spot_texel_m = 2 * 10 * std::tan(std::numbers::pi / 6) / 512;
   expect_written(typed(got, "shadow_normal_bias = ") * 10 / 512 * 10, 1.5 * spot_texel_m);
-  expect_written(typed(advice(constant_m(0.06, LightChoice::point), "Godot"), "shadow_bias = "), 0.06);
+  // One linear fetch reaches twice as far as the one tap of these settings.
+  expect_written(typed(advice(constant_m(0.06, LightChoice::point), "Godot"), "shadow_bias = "), 2 * 0.06);
 }
 
 // Bevy: metres towards the light; sqrt(2) texels along the normal, of a spot light 2 tan(outer) / size of the distance.
@@ -154,42 +184,64 @@ TEST(Engines, BevyGivesTheBiasBack) {
   Settings s = constant_m(0.06);
   s.bias["normal_offset"] = 1.5;
   EngineAdvice got = advice(s, "Bevy");
-  expect_written(typed(got, "shadow_depth_bias: "), 0.06);
-  expect_written(typed(got, "shadow_normal_bias: ") * std::numbers::sqrt2, 1.5);
+  const Frustum seen = frustum(s);
+  const double far_m = typed(got, "maximum_distance: "), size = typed(got, "size: ");
+  expect_written(far_m, seen.farthest_m);
+  const double wide_m = std::ceil(far_m * std::max(2 * seen.half_diagonal, std::hypot(1, seen.half_diagonal)));
+  EXPECT_LE(wide_m / size, texel_m * (1 + written));
+  ASSERT_TRUE(got.emulated) << got.why_not_emulated;
+  EXPECT_EQ(*got.emulated->map.extent_m, wide_m);
+  // One linear fetch reaches twice as far as the one tap of the settings, so law 1 doubles both.
+  expect_written(typed(got, "shadow_depth_bias: "), 2 * 0.06);
+  expect_written(typed(got, "shadow_normal_bias: ") * std::numbers::sqrt2, 2 * 1.5);
   s.light.kind = LightChoice::spot;
   s.map.extent_m.reset();
   got = advice(s, "Bevy");
-  expect_written(typed(got, "shadow_normal_bias: ") * std::numbers::sqrt2, 1.5);
+  expect_written(typed(got, "shadow_normal_bias: ") * std::numbers::sqrt2, 2 * 1.5);
   expect_written(typed(got, "outer_angle: "), std::numbers::pi / 6);
 }
 
-// Filament: metres away from the light; half texels of extent / (size - 2) times the sine of the slope.
+// Filament: metres away from the light; half texels of diameter / (size - 2) times |N.u| + |N.v|.
 TEST(Engines, FilamentGivesTheBiasBack) {
   Settings s = constant_m(0.06);
-  s.bias["normal_offset_sin"] = 1.5;
+  s.filter = FilterSettings("castano", {{"size", 3}});
+  s.bias["normal_offset_axes"] = 1.5;
   s.bias["polygon_factor"] = 2;
   s.bias["polygon_units"] = 3;
   const EngineAdvice got = advice(s, "Filament");
+  const Frustum seen = frustum(s);
+  const double far_m = typed(got, "shadowFar = "), size = typed(got, "mapSize = ");
+  expect_written(far_m, seen.farthest_m);
+  const double engine_texel_m = middle_sphere_m(seen, far_m) / (size - 2);
+  EXPECT_LE(engine_texel_m, texel_m * (1 + written));
   expect_written(typed(got, "constantBias = "), 0.06);
-  expect_written(0.5 * typed(got, "normalBias = ") * 16 / 510, 1.5 * texel_m);
+  expect_written(0.5 * typed(got, "normalBias = ") * engine_texel_m, 1.5 * engine_texel_m);
   EXPECT_EQ(typed(got, "polygonOffsetSlope = "), 2);
   EXPECT_EQ(typed(got, "polygonOffsetConstant = "), 3);
 }
 
-// URP: texels times 1, 1.5, 2.5 or 3.5 by the soft shadows; a spot light's unit is tan(half) * range / size.
+// URP: texels of the least sphere around the frustum, times 1, 1.5, 2.5 or 3.5 by the soft shadows; a spot light's unit is
+// tan(half) * range / size.
 TEST(Engines, UrpGivesTheBiasBack) {
   Settings s = constant_m(0);
+  s.filter = FilterSettings("tent", {{"size", 5}});
   s.bias["caster_offset"] = 2;
   s.bias["caster_normal_offset_turned"] = 1.5;
   EngineAdvice got = advice(s, "Unity URP");
-  EXPECT_EQ(typed(got, "Depth: "), 2);
-  EXPECT_EQ(typed(got, "Normal: "), 1.5);
-  s.filter = FilterSettings("tent", {{"size", 5}});
-  got = advice(s, "Unity URP");
-  expect_written(typed(got, "Depth: ") * 2.5, 2);
+  const Frustum seen = frustum(s);
+  const double far_m = typed(got, "Max Distance: "), size = typed(got, "Shadow Resolution: ");
+  expect_written(far_m, seen.farthest_m);
+  const double half = seen.half_diagonal * far_m;  // of the far plane; the sphere goes through the eye and its corners
+  ASSERT_LT(half, far_m);
+  const double engine_texel_m = (far_m * far_m + half * half) / far_m / size;
+  EXPECT_LE(engine_texel_m, texel_m * (1 + written));
+  expect_written(typed(got, "Depth: ") * 2.5, 2);  // texels of the engine's own map
+  expect_written(typed(got, "Normal: ") * 2.5, 1.5);
   s.filter = FilterSettings("tent", {{"size", 7}});
   expect_written(typed(advice(s, "Unity URP"), "Normal: ") * 3.5, 1.5);
-  got = advice(constant_m(0.06, LightChoice::spot), "Unity URP");
+  s = constant_m(0.06, LightChoice::spot);
+  s.filter = FilterSettings("hardware", {});
+  got = advice(s, "Unity URP");
   expect_written(typed(got, "Depth: ") * std::tan(std::numbers::pi / 6) * 42 / 512, 0.06);
 }
 
@@ -247,11 +299,14 @@ TEST(Engines, OpenGlSamplesAsTheFilterReads) {
   }
 }
 
-// A filter that reaches further needs the greater bias of law 1: k 1 of hardware against 2 of Castano's 3 x 3.
-TEST(Engines, AWiderFilterNeedsAGreaterBias) {
-  Settings s = simple();
+// A filter that reaches further needs the greater bias of law 1: k 1 of hardware against 2 of Castano's 3 x 3. The numbers
+// hold it.
+TEST(Engines, AWiderFilterGetsAGreaterBias) {
+  Settings s = constant_m(0.06);
   s.filter = FilterSettings("hardware", {});
-  EXPECT_NE(joined(advice(s, "Filament").cannot).find("multiply the bias by 2,"), std::string::npos);
+  const EngineAdvice got = advice(s, "Filament");
+  expect_written(typed(got, "constantBias = "), 2 * 0.06);
+  EXPECT_NE(joined(got.cannot).find("the lines hold 2 times"), std::string::npos);
   EXPECT_EQ(joined(advice(s, "Bevy").cannot).find("filter.kind"), std::string::npos) << "it has this filter";
 }
 
@@ -259,21 +314,132 @@ TEST(Engines, AWiderFilterNeedsAGreaterBias) {
 TEST(Engines, APartOfTheSameLawIsTypedAndSaid) {
   Settings s = simple();
   s.bias.unit = BiasUnit::texel;
-  s.bias["tan"] = 1.5;  // b tan(theta) as an offset b sin(theta) along the normal
-  const EngineAdvice got = advice(s, "Filament");
-  expect_written(0.5 * typed(got, "normalBias = ") * 16 / 510, 1.5 * texel_m);
+  s.bias["tan"] = 1.5;  // b tan(theta) as an offset b sin(theta) against the normal
+  const EngineAdvice got = advice(s, "Babylon.js");
+  expect_written(typed(got, "normalBias = "), 1.5 * texel_m);
   EXPECT_NE(joined(got.cannot).find("bias.tan acts on"), std::string::npos);
 }
 
-// The number to add instead: at 45 degrees, (1 - c) b of the slope part equals d / c of a plain normal offset.
-TEST(Engines, APartWithoutAFieldHasAnEqualAt45Degrees) {
+// An offset by axes gives k w A tan(theta), A at most sqrt(2). A plain normal offset d gives d / cos(theta), which is at least
+// as much at every slope only from sqrt(2) k w on; one by the sine gives d tan(theta), so sqrt(2) k w too.
+TEST(Engines, AnOffsetByAxesIsReplacedByItsLeastUpperBound) {
+  Settings s = simple();
+  s.bias["normal_offset_axes"] = 0.5;
+  const double least_m = std::numbers::sqrt2 * 0.5 * texel_m;
+  expect_written(typed(advice(s, "three.js"), "normalBias = "), least_m);
+  expect_written(typed(advice(s, "Babylon.js"), "normalBias = "), least_m);
+  // Bevy's one linear fetch reaches k = 1, and its texels are its own: texels of sqrt(2) each.
+  expect_written(typed(advice(s, "Bevy"), "shadow_normal_bias: "), 1);
+}
+
+// A plane of law 1 for the reference of a tap's own texel: the same offset, of the filter's whole reach.
+TEST(Engines, APlaneOfReferenceIsReplacedByTheKernelsReach) {
+  Settings s = simple();
+  s.bias.reference = "texel_plane";  // and the filter none, which reaches half a texel
+  expect_written(typed(advice(s, "three.js"), "normalBias = "), std::numbers::sqrt2 * 0.5 * texel_m);
+}
+
+// (1 - c) b is at most b, but also at most b / 4 of a normal offset, because (1 - c) c is greatest at 60 degrees; at 45
+// degrees the offset is less (sqrt(2) / 4 against 1), so it is taken.
+TEST(Engines, ASlopeIsReplacedByTheLesserOfTwoFields) {
   Settings s = constant_m(0);
   s.bias["slope"] = 0.1;
-  const std::string said = joined(advice(s, "three.js").cannot);
-  const size_t at = said.find("add ");
-  ASSERT_NE(at, std::string::npos) << said;
-  const double c = std::numbers::sqrt2 / 2;
-  expect_written(std::stod(said.substr(at + 4)) / c, 0.1 * (1 - c));
+  expect_written(typed(advice(s, "three.js"), "normalBias = "), 0.1 / 4);
+  EXPECT_EQ(typed(advice(s, "three.js"), "shadow.bias = "), 0);
+}
+
+// Godot's normal bias is d s t, which no d makes A t at small slopes, and a constant is none at grazing ones; together they
+// are, and at no slope is what they give less.
+TEST(Engines, TwoFieldsReplaceWhatNoOneCan) {
+  const double needed = std::numbers::sqrt2;
+  const auto cover = least_cover({BiasForm::constant, BiasForm::sideways},
+                                 [&](double theta, double phi) { return gain(BiasForm::axes, theta, phi); });
+  ASSERT_TRUE(cover);
+  const double c = (*cover)[0], d = (*cover)[1];
+  EXPECT_GE(d, needed * (1 - 1e-5)) << "at 90 degrees";
+  double least = 1;
+  for (int i = 1; i < 9000; ++i) {
+    const double theta = i * std::numbers::pi / 18000;
+    const double given = c + d * std::sin(theta) * std::tan(theta);
+    least = std::min(least, given / (needed * std::tan(theta)));
+  }
+  EXPECT_GE(least, 1 - 1e-5);
+  EXPECT_LE(least, 1 + 1e-5) << "and it touches, so it is the least";
+  EXPECT_FALSE(least_cover({BiasForm::constant}, [&](double theta, double) { return std::tan(theta); }));
+}
+
+// URP gives a point light no normal bias, and no constant gives as much as a tangent at every slope: there are no lines, and
+// the first sentence says why.
+TEST(Engines, WhereNothingSufficesThereAreNoLines) {
+  Settings s = simple(LightChoice::point);
+  s.bias["normal_offset_axes"] = 1;
+  const EngineAdvice got = advice(s, "Unity URP");
+  EXPECT_TRUE(got.lines.empty());
+  EXPECT_EQ(got.cannot.front().find("There are no lines: no fields"), 0u) << joined(got.cannot);
+  EXPECT_NE(got.cannot.front().find("bias.normal_offset_axes = 1"), std::string::npos);
+  EXPECT_FALSE(got.emulated);
+}
+
+// What three.js does with its lines: the same map, the constant as it is, and a plain normal offset in place of that by axes.
+TEST(Engines, TheReplacementIsSettingsLikeAnyOther) {
+  Settings s = constant_m(0.06);
+  s.bias["normal_offset_axes"] = 0.5;
+  const EngineAdvice got = advice(s, "three.js");
+  ASSERT_TRUE(got.emulated) << got.why_not_emulated;
+  const Settings& does = *got.emulated;
+  EXPECT_NEAR(does.bias["normal_offset"], std::numbers::sqrt2 / 2, written);
+  EXPECT_EQ(does.bias["normal_offset_axes"], 0);
+  EXPECT_EQ(does.bias["constant"], 0.06);
+  EXPECT_EQ(does.bias.unit, BiasUnit::m);
+  EXPECT_EQ(does.map.resolution, 512);
+  EXPECT_EQ(does.filter.kind, "none");
+  EXPECT_EQ(as_engine(got, s).map.extent_m, 16);
+}
+
+// What URP does: its own extent and power of two, one linear fetch, 16 bits, and the polygon offset that is always on. That
+// gives 2.5 w max(|cos|, |sin|) t, at least 1.25 w A t, more than the k w A t of one linear fetch: no normal bias is left.
+TEST(Engines, AnEngineThatFitsItsMapIsEmulatedWithIt) {
+  Settings s = simple();
+  s.bias["normal_offset_axes"] = 0.5;
+  const EngineAdvice got = advice(s, "Unity URP");
+  ASSERT_TRUE(got.emulated) << got.why_not_emulated;
+  const Settings does = as_engine(got, s);
+  EXPECT_EQ(does.map.fit, MapFit::sphere);
+  EXPECT_NEAR(*does.map.reach_m, typed(got, "Max Distance: "), written * *does.map.reach_m);
+  EXPECT_EQ(does.map.resolution, typed(got, "Shadow Resolution: "));
+  EXPECT_EQ(does.map.format, DepthFormat::d16);
+  EXPECT_EQ(does.bias["polygon_factor"], 2.5);
+  EXPECT_EQ(typed(got, "Normal: "), 0);
+  EXPECT_EQ(does.filter.kind, "hardware");
+  const Frustum seen = frustum(s);
+  const double far_m = *does.map.reach_m, half = seen.half_diagonal * far_m;
+  expect_written(make(does).frame.extent_m, (far_m * far_m + half * half) / far_m);
+}
+
+// Godot's normal bias has no part of Noonmark; turned and slope together gain its d sin tan on every plane.
+TEST(Engines, GodotsNormalBiasIsEmulatedByTwoParts) {
+  Settings s = simple();
+  s.bias["normal_offset_axes"] = 0.5;
+  const EngineAdvice got = advice(s, "Godot");
+  ASSERT_TRUE(got.emulated) << got.why_not_emulated;
+  const double d = typed(got, "shadow_normal_bias = "),
+               engine_texel_m = make(as_engine(got, s)).frame.texel_m({0, 0, 2});
+  EXPECT_GT(d, std::numbers::sqrt2 * (1 - written)) << "at 90 degrees only the normal bias is left";
+  for (double theta : {0.2, 0.8, 1.4}) {
+    const double gained = got.emulated->bias["normal_offset_turned"] * engine_texel_m * gain(BiasForm::turned, theta) +
+                          got.emulated->bias["slope"] * gain(BiasForm::slope, theta);
+    expect_written(gained, d * engine_texel_m * gain(BiasForm::sideways, theta));
+  }
+}
+
+// A map that not even the engine's largest makes fine enough needs cascades, and the advice says so.
+TEST(Engines, WhatNeedsCascadesIsSaid) {
+  Settings s = simple();
+  s.map.resolution = 8192;
+  s.map.extent_m = 1;
+  EXPECT_NE(joined(advice(s, "Unity URP").cannot).find("needs cascades"), std::string::npos);
+  EXPECT_EQ(typed(advice(s, "Unity URP"), "Shadow Resolution: "), 4096);
+  EXPECT_EQ(joined(advice(simple(), "Unity URP").cannot).find("needs cascades"), std::string::npos);
 }
 
 // Whether the text names it, not as the beginning of a longer name.
@@ -347,7 +513,10 @@ RC_GTEST_PROP(Engines, NothingIsDropped, ()) {
       if (!names(text, name)) RC_FAIL(one.engine + " drops " + name + "\n" + text);
     RC_ASSERT(text.find("nan") == std::string::npos);
     for (const char* infinite : {"= inf", "= -inf", "{}", ": inf"}) RC_ASSERT(text.find(infinite) == std::string::npos);
-    RC_ASSERT(!one.lines.empty() && !one.version.empty() && !one.source.empty());
+    RC_ASSERT(one.lines.empty() == (one.cannot.front().find("There are no lines") == 0));
+    RC_ASSERT(!one.version.empty() && !one.source.empty() && !one.comment.empty());
+    RC_ASSERT(one.emulated.has_value() == one.why_not_emulated.empty());
+    if (one.emulated) make_light_frame(c.scene, as_engine(one, c.settings));  // they are settings
   }
 }
 

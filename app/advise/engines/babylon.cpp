@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "app/advise/engines/engine.h"
 
@@ -31,43 +32,65 @@ EngineFilter filter(const AdvicePlace& place) {
   const EngineFilter none{{"shadowGenerator.filter = BABYLON.ShadowGenerator.FILTER_NONE;"},
                           "FILTER_NONE, one nearest tap",
                           0.5,
-                          filter_is(place, "none")};
+                          filter_is(place, "none"),
+                          1,
+                          FilterSettings()};
   if (place.kind() == LightKind::point) return none;  // a cube map has no PCF
-  const auto pcf = [](const char* quality, const char* what, double reach, bool same) {
+  const auto pcf = [](const char* quality, const char* what, double reach, bool same, FilterSettings as) {
     return EngineFilter{
         {"shadowGenerator.usePercentageCloserFiltering = true;",
          fmt::format("shadowGenerator.filteringQuality = BABYLON.ShadowGenerator.QUALITY_{};", quality)},
         what,
         reach,
         same,
-        2};
+        2,
+        std::move(as)};
   };
-  return nearest_reach(place, {none, pcf("LOW", "one linear fetch", 1, filter_is(place, "hardware")),
-                               pcf("MEDIUM", "Castano's kernel of 3 x 3", 2, filter_is(place, "castano", 3)),
-                               pcf("HIGH", "Castano's kernel of 5 x 5", 3, filter_is(place, "castano", 5))});
+  return nearest_reach(
+      place, {none, pcf("LOW", "one linear fetch", 1, filter_is(place, "hardware"), {"hardware", {}}),
+              pcf("MEDIUM", "Castano's kernel of 3 x 3", 2, filter_is(place, "castano", 3), {"castano", {{"size", 3}}}),
+              pcf("HIGH", "Castano's kernel of 5 x 5", 3, filter_is(place, "castano", 5), {"castano", {{"size", 5}}})});
 }
 
+// A glTF file's light is a child of a node, and its position and direction are that node's until the parent is null. The third
+// argument of ShadowGenerator asks for a float map: without PCF the engine stores half floats otherwise, whose step is up
+// to 1/2048 of near to far.
 std::vector<std::string> map_lines(const AdvicePlace& place) {
   const CulledFaces cull = place.settings.map.cull;
   std::vector<std::string> lines = {
-      fmt::format("const shadowGenerator = new BABYLON.ShadowGenerator({}, light);", place.frame.resolution),
-      fmt::format("light.shadowMinZ = {};", number(place.frame.near_m)),
-      fmt::format("light.shadowMaxZ = {};", number(place.frame.far_m)),
-      fmt::format("shadowGenerator.forceBackFacesOnly = {};", cull == CulledFaces::front)};
-  lines.push_back(fmt::format("light.position = new BABYLON.Vector3({});", numbers(place.frame.origin_m)));
+      fmt::format("// scene: the BABYLON.Scene; light: a BABYLON.{}Light", place.kind() == LightKind::point ? "Point"
+                                                                           : place.kind() == LightKind::spot
+                                                                               ? "Spot"
+                                                                               : "Directional"),
+      "light.parent = null;  // also out of a glTF file's node",
+      fmt::format("light.position = new BABYLON.Vector3({});", numbers(place.frame.origin_m))};
   if (place.kind() != LightKind::point)
     lines.push_back(fmt::format("light.direction = new BABYLON.Vector3({});", numbers(place.frame.forward)));
-  if (place.kind() == LightKind::directional)
+  if (place.kind() == LightKind::directional) {
+    lines.push_back("light.autoUpdateExtends = false; light.autoCalcShadowZBounds = false;");
     lines.push_back(fmt::format("light.shadowFrustumSize = {};", number(place.frame.extent_m)));
+  }
   if (place.kind() == LightKind::spot)
     lines.push_back(fmt::format("light.shadowAngleScale = {};  // the map's angle divided by light.angle",
                                 number(std::atan(place.frame.tan_half_fov) / std::atan(place.cone_tan))));
+  lines.push_back(fmt::format("light.shadowMinZ = {};", number(place.frame.near_m)));
+  lines.push_back(fmt::format("light.shadowMaxZ = {};", number(place.frame.far_m)));
+  lines.push_back("light.getShadowGenerator()?.dispose();");
+  lines.push_back(fmt::format(
+      "const shadowGenerator = new BABYLON.ShadowGenerator({}, light, true);  // true: floats, not half floats",
+      place.frame.resolution));
+  lines.push_back(fmt::format("shadowGenerator.forceBackFacesOnly = {};", cull == CulledFaces::front));
+  lines.push_back("for (const mesh of scene.meshes) {");
+  lines.push_back("  shadowGenerator.addShadowCaster(mesh, false);");
+  lines.push_back("  mesh.receiveShadows = true;");
+  lines.push_back("}");
   return lines;
 }
 
 std::vector<std::string> limits(const AdvicePlace& place) {
   std::vector<std::string> said = {
-      "The format of the map is chosen by the engine: a half float colour without PCF, a depth texture with it."};
+      "map.format: the map is a float colour without PCF, and a depth texture with it. A device that cannot draw into "
+      "float textures gets half floats: then the bias must exceed 1/2048 of near to far."};
   if (place.kind() != LightKind::point)
     said.push_back(
         "The light's position and direction are those of a right-handed scene (scene.useRightHandedSystem).");
@@ -86,7 +109,7 @@ Engine babylon_js() {
   using namespace babylon_engine;
   return {
       "Babylon.js",
-      "9.34",
+      "9.35",
       "@babylonjs/core Shaders/ShadersInclude/shadowMapVertexMetric, shadowMapVertexNormalBias and shadowMapFragment",
       "//",
       knobs,

@@ -1,8 +1,12 @@
 // Bevy. Both biases move the place that the receiver is looked up at. The depth bias is in metres towards the light. The
-// normal bias is in texels along the normal, which the engine multiplies by sqrt(2) for the diagonal of a texel.
+// normal bias is in texels along the normal, which the engine multiplies by sqrt(2) for the diagonal of a texel. A
+// directional light's map is a square of whole metres around the camera's frustum up to maximum_distance.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "app/advise/engines/engine.h"
 
@@ -14,8 +18,19 @@ namespace {
 double engine_texel_m(const AdvicePlace& place) {
   if (place.kind() == LightKind::spot) return 2 * place.distance_m * place.cone_tan / place.frame.resolution;
   if (place.kind() == LightKind::point) return 2 * place.distance_m / place.frame.resolution;
-  return place.texel_m;
+  return place.map.texel_m;
 }
+
+constexpr int most_size = 8192;
+
+// bevy_light cascade.rs: the longer of the body's and the far plane's diagonal, rounded up to a whole metre, so that the texel
+// of a map with a power of two is an exact number.
+double diameter_m(const SeenFrustum& seen, double far_m, int) {
+  const double near_corner = seen.half_at(0), far_corner = seen.half_at(far_m);
+  return std::ceil(std::max(std::hypot(near_corner + far_corner, far_m), 2 * far_corner));
+}
+
+EngineMap fit(const AdvicePlace& place) { return fitted_to_view(place, diameter_m, most_size); }
 
 std::vector<EngineKnob> knobs(LightKind) {
   return {{"shadow_depth_bias", "shadow_depth_bias: {},", BiasForm::constant, BiasTarget::compared_depth,
@@ -27,24 +42,25 @@ std::vector<EngineKnob> knobs(LightKind) {
 }
 
 EngineFilter filter(const AdvicePlace& place) {
-  const auto method = [](const char* name, const char* what, double reach, bool same) {
-    return EngineFilter{{fmt::format("ShadowFilteringMethod::{}", name)}, what, reach, same};
+  const auto method = [](const char* name, const char* what, double reach, bool same, FilterSettings as) {
+    return EngineFilter{{fmt::format("ShadowFilteringMethod::{}", name)}, what, reach, same, 1, std::move(as)};
   };
   const bool point = place.kind() == LightKind::point;
   return nearest_reach(
-      place, {method("Hardware2x2", "Hardware2x2, one linear fetch", 1, filter_is(place, "hardware")),
-              method("Gaussian", "Gaussian, Castano's kernel of 5 x 5", 3, !point && filter_is(place, "castano", 5))});
+      place, {method("Hardware2x2", "Hardware2x2, one linear fetch", 1, filter_is(place, "hardware"), {"hardware", {}}),
+              method("Gaussian", "Gaussian, Castano's kernel of 5 x 5", 3, !point && filter_is(place, "castano", 5),
+                     {"castano", {{"size", 5}}})});
 }
 
 std::vector<std::string> map_lines(const AdvicePlace& place) {
   const bool point = place.kind() == LightKind::point;
   std::vector<std::string> lines = {
-      fmt::format("{}LightShadowMap {{ size: {} }}", point ? "Point" : "Directional", place.frame.resolution),
+      fmt::format("{}LightShadowMap {{ size: {} }}", point ? "Point" : "Directional", place.map.resolution),
       "shadow_maps_enabled: true,"};
   if (place.kind() == LightKind::directional) {
-    lines.push_back(
-        fmt::format("CascadeShadowConfigBuilder {{ num_cascades: 1, maximum_distance: {}, ..default() }}.build()",
-                    number(place.frame.extent_m)));
+    lines.push_back(fmt::format(
+        "CascadeShadowConfigBuilder {{ num_cascades: 1, maximum_distance: {}, ..default() }}.build()  // {} m wide",
+        number(*place.map.reach_m), number(place.map.extent_m)));
     return lines;
   }
   lines.push_back(fmt::format("range: {},", number(place.frame.far_m)));
@@ -56,11 +72,7 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
 std::vector<std::string> limits(const AdvicePlace& place) {
   std::vector<std::string> said = {"map.format: the map is always a 32 bit float with reversed depth."};
   if (place.kind() == LightKind::directional)
-    said.push_back(
-        fmt::format("map.extent_m = {}, near and far: the engine fits the map around the visible part of each cascade. "
-                    "maximum_distance must be changed until its diameter is this extent; shadow_normal_bias is right "
-                    "at that width.",
-                    number(place.frame.extent_m)));
+    said.push_back(fitted_text(place, "maximum_distance") + " The engine rounds the width up to whole metres.");
   else
     said.push_back(
         "shadow_depth_bias is in metres along the ray, not along the axis of the map; on the axis both are the same.");
@@ -84,7 +96,10 @@ Engine bevy() {
           filter,
           map_lines,
           limits,
-          {}};
+          {},
+          fit,
+          {},
+          [](Settings& settings) { settings.map.format = DepthFormat::d32f; }};
 }
 
 }  // namespace noonmark

@@ -2,8 +2,10 @@
 // numbers for them.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/advise/engines/engine_settings.h"
@@ -29,19 +31,20 @@ enum class BiasForm {
 // Throws std::logic_error if the part has no form yet.
 BiasForm form_of(const BiasPart& part);
 
-// The depth that one metre of the form gains at this slope along a texel axis (A = 1); for polygon_factor one texel,
-// and for polygon_resolution one step. theta_rad: 0 to less than pi / 2.
-double gain(BiasForm form, double theta_rad);
+// The depth that one metre of the form gains at this slope and azimuth; for polygon_factor one texel, and for
+// polygon_resolution one step. theta_rad: 0 to less than pi / 2. phi_rad: 0 is along a texel's axis (A = 1).
+double gain(BiasForm form, double theta_rad, double phi_rad = 0);
 
 // A part of the bias that acts, in metres at the place of the advice; a polygon offset has no unit.
 struct AdvisedPart {
   const BiasPart* part;
   BiasForm form;
-  double amount = 0;                       // metres
-  double set = 0;                          // as in the settings
-  double floor = 0, cap = 0;               // metres; cap: infinity without a cap
-  double depth_m(double theta_rad) const;  // along the light, on a plane; needs `step_m` for a polygon offset
-  double step_m = 1;                       // metres of one texel or of one step of the format
+  double amount = 0;          // metres
+  double set = 0;             // as in the settings
+  double floor = 0, cap = 0;  // metres; cap: infinity without a cap
+  // Along the light, on a plane; needs `step_m` for a polygon offset.
+  double depth_m(double theta_rad, double phi_rad = 0) const;
+  double step_m = 1;  // metres of one texel or of one step of the format
 };
 
 // The filter of an engine that is nearest to the recommended one.
@@ -49,8 +52,26 @@ struct EngineFilter {
   std::vector<std::string> lines;
   std::string what;  // its kernel, for a sentence
   double reach_texels = 0.5;
-  bool same = false;  // it has the same taps and weights
-  double scale = 1;   // the factor by which the engine multiplies its bias because of this filter
+  bool same = false;                      // it has the same taps and weights
+  double scale = 1;                       // the factor by which the engine multiplies its bias because of this filter
+  std::optional<FilterSettings> as = {};  // the filter of Noonmark that has its taps and weights, if there is one
+};
+
+// The map that the engine draws.
+struct EngineMap {
+  int resolution = 0;
+  double extent_m = 0;                 // directional: of all its texels
+  double texel_m = 0;                  // at the place of the advice
+  std::optional<double> reach_m = {};  // if the engine fits it to the picture's frustum: from the camera to here
+  bool coarser = false;                // not even the engine's largest map has the recommended texels
+};
+
+// The picture's frustum, to which many engines fit their map.
+struct SeenFrustum {
+  bool perspective = true;
+  double half_diagonal = 0;  // of the picture: perspective: a tangent; orthographic: metres
+  double farthest_m = 0;     // along the view, of what is in view
+  double half_at(double z_m) const { return perspective ? half_diagonal * z_m : half_diagonal; }
 };
 
 // The recommendation at one place of the light, in double, because the settings are double.
@@ -63,6 +84,8 @@ struct AdvicePlace {
   double cone_tan = 1;       // spot: tangent of half the light's cone
   double reach_texels = 0;   // of the recommended filter
   EngineFilter filter = {};  // of the engine
+  EngineMap map = {};        // of the engine
+  SeenFrustum seen = {};
 
   LightKind kind() const { return frame.kind; }
   double range_m() const { return frame.far_m - frame.near_m; }
@@ -88,7 +111,19 @@ struct Engine {
   std::vector<std::string> (*map_lines)(const AdvicePlace&);
   std::vector<std::string> (*limits)(const AdvicePlace&);  // sentences that do not depend on the parts of the bias
   std::vector<std::string_view> maps;  // further settings of the map that map_lines() expresses: "map.cull"
+  // What the engine makes of the map's size and place; null: it draws the map that it is given.
+  EngineMap (*fit)(const AdvicePlace&) = nullptr;
+  // Parts of the bias that the engine always adds, as settings: {"polygon_factor", 2.5}.
+  std::vector<std::pair<std::string_view, double>> always = {};
+  // Further settings that describe what the engine always does; null: none.
+  void (*emulate)(Settings&) = nullptr;
+  std::vector<std::string> last = {};  // lines that stand after all others
 };
+
+// The map of an engine that fits a square of diameter_m(seen, reach_m, resolution) to the picture's frustum from the camera
+// to what is farthest in view, or to map.reach_m: the recommended resolution or the next powers of two, up to `most`, until
+// its texels are no wider than the recommended ones. For a directional light.
+EngineMap fitted_to_view(const AdvicePlace& place, double (*diameter_m)(const SeenFrustum&, double, int), int most);
 
 Engine three_js();
 Engine babylon_js();
@@ -96,6 +131,9 @@ Engine godot();
 Engine bevy();
 Engine filament();
 Engine unity_urp();
+
+// What to know of a map that fitted_to_view() describes. field: which sets how far it reaches.
+std::string fitted_text(const AdvicePlace& place, const std::string& field);
 
 // OpenGL has no fields: the application's shader computes each part. So it has no knobs.
 EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPart>& parts);

@@ -7,7 +7,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "app/advise/engines/cover.h"
 #include "app/advise/engines/engine.h"
+#include "app/advise/engines/engine_emulated.h"
 #include "app/advise/engines/unexpressed.h"
 #include "technique/filters.h"
 #include "technique/tap_pattern.h"
@@ -42,6 +44,7 @@ AdvicePlace advice_place(const Settings& settings, const LightFrame& frame, cons
   place.depth_slope = frame.window_depth_slope(point);
   place.cone_tan = std::tan(std::acos(std::clamp(frame.cos_half_cone, 0.0, 1.0)));
   place.reach_texels = reach_of(settings, place.texel_m);
+  place.seen = seen_frustum(settings, scene);
   return place;
 }
 
@@ -100,31 +103,106 @@ const EngineKnob* knob_for(const std::vector<EngineKnob>& knobs, const AdvisedPa
   return found;
 }
 
-EngineAdvice advice_of(const Engine& engine, AdvicePlace place, const std::vector<AdvisedPart>& parts) {
-  place.filter = engine.filter(place);
-  EngineAdvice advice{engine.name, engine.version, engine.map_lines(place), {}, engine.source};
-  for (const std::string& line : place.filter.lines)
-    advice.lines.push_back(fmt::format("{}  {} filter.kind = {}", line, engine.comment, place.settings.filter.kind));
-  const std::vector<EngineKnob> knobs = engine.knobs(place.kind());
-  std::vector<double> metres(knobs.size(), 0);
-  std::vector<std::string> from(knobs.size());
+// Law 1: what a part must cover grows with the reach of the filter and with the texel. A part in metres or in depth, which
+// also covers rounding, is never made less.
+double factor_of(const AdvisedPart& part, const AdvicePlace& place) {
+  const double reach = std::max(1.0, place.filter.reach_texels / place.reach_texels);
+  const double texel = place.map.texel_m / place.texel_m;
+  return reach * (part.part->unit == "texels" ? texel : std::max(1.0, texel));
+}
+
+// The depth that the engine's other fields must give: of the parts without a field, and of a reference that it does not
+// have, less what it always adds.
+double needed_m(const Engine& engine, const AdvicePlace& place, const std::vector<AdvisedPart>& without, double theta,
+                double phi) {
+  double depth = 0;
+  for (const AdvisedPart& part : without) depth += factor_of(part, place) * part.depth_m(theta, phi);
+  if (tap_reference(place.settings.bias.reference).plane)  // law 1
+    depth +=
+        std::max(place.reach_texels, place.filter.reach_texels) * place.map.texel_m * gain(BiasForm::axes, theta, phi);
+  for (const auto& [name, amount] : engine.always)
+    if (const BiasForm form = form_of(bias_part(name)); form == BiasForm::polygon_factor)
+      depth -= amount * place.map.texel_m * gain(form, theta, phi);
+  return depth;
+}
+
+// The metres of each knob, and what of the settings each holds.
+struct Typed {
+  std::vector<double> metres;
+  std::vector<std::string> from;
+  std::vector<AdvisedPart> replaced;  // parts without a field of their form
+  bool suffices = true;
+};
+
+void add_from(std::string& from, const std::string& comment, const std::string& what) {
+  from += (from.empty() ? "  " + comment + " " : ", ") + what;
+}
+
+Typed typed_amounts(const Engine& engine, const AdvicePlace& place, const std::vector<EngineKnob>& knobs,
+                    const std::vector<AdvisedPart>& parts) {
+  Typed typed{std::vector<double>(knobs.size(), 0), std::vector<std::string>(knobs.size()), {}, true};
   for (const AdvisedPart& part : parts) {
     const EngineKnob* knob = knob_for(knobs, part);
-    if (knob) {
-      const size_t i = static_cast<size_t>(knob - knobs.data());
-      metres[i] += part.amount;
-      from[i] += fmt::format("{}bias.{}", from[i].empty() ? "  " + engine.comment + " " : " + ", part.part->name);
+    if (!knob) {
+      typed.replaced.push_back(part);
+      continue;
     }
-    const std::vector<std::string> said = unexpressed_part(part, knob, knobs, place);
-    advice.cannot.insert(advice.cannot.end(), said.begin(), said.end());
+    const size_t i = static_cast<size_t>(knob - knobs.data());
+    typed.metres[i] += factor_of(part, place) * part.amount;
+    add_from(typed.from[i], engine.comment, fmt::format("bias.{}", part.part->name));
   }
-  for (size_t i = 0; i < knobs.size(); ++i)
-    advice.lines.push_back(fmt::format(fmt::runtime(knobs[i].line), number(knobs[i].typed(metres[i], place))) +
-                           from[i]);
-  for (const std::vector<std::string>& said :
-       {unexpressed_reference(knobs, place), unexpressed_filter(place), unexpressed_map(place, engine.maps),
-        unexpressed_distance(place), engine.limits(place)})
+  const bool plane = tap_reference(place.settings.bias.reference).plane;
+  if (typed.replaced.empty() && !plane) return typed;
+  std::vector<size_t> offered;
+  std::vector<BiasForm> offered_forms;
+  for (size_t i = 0; i < knobs.size(); ++i) {
+    if (knobs[i].form == BiasForm::polygon_factor || knobs[i].form == BiasForm::polygon_resolution) continue;
+    offered.push_back(i);
+    offered_forms.push_back(knobs[i].form);
+  }
+  const auto cover = least_cover(
+      offered_forms, [&](double theta, double phi) { return needed_m(engine, place, typed.replaced, theta, phi); });
+  typed.suffices = cover.has_value();
+  for (size_t k = 0; cover && k < offered.size(); ++k) {
+    if ((*cover)[k] == 0) continue;
+    typed.metres[offered[k]] += (*cover)[k];
+    for (const AdvisedPart& part : typed.replaced)
+      add_from(typed.from[offered[k]], engine.comment, fmt::format("in place of bias.{}", part.part->name));
+    if (plane) add_from(typed.from[offered[k]], engine.comment, "in place of bias.reference");
+  }
+  return typed;
+}
+
+EngineAdvice advice_of(const Engine& engine, AdvicePlace place, const std::vector<AdvisedPart>& parts) {
+  place.filter = engine.filter(place);
+  place.map = engine.fit && place.kind() == LightKind::directional
+                  ? engine.fit(place)
+                  : EngineMap{place.frame.resolution, place.frame.extent_m, place.texel_m};
+  EngineAdvice advice{engine.name, engine.version, {}, {}, engine.source, engine.comment};
+  const std::vector<EngineKnob> knobs = engine.knobs(place.kind());
+  const Typed typed = typed_amounts(engine, place, knobs, parts);
+  if (typed.suffices) {
+    advice.lines = engine.map_lines(place);
+    for (const std::string& line : place.filter.lines)
+      advice.lines.push_back(fmt::format("{}  {} filter.kind = {}", line, engine.comment, place.settings.filter.kind));
+    for (size_t i = 0; i < knobs.size(); ++i)
+      advice.lines.push_back(fmt::format(fmt::runtime(knobs[i].line), number(knobs[i].typed(typed.metres[i], place))) +
+                             typed.from[i]);
+    advice.lines.insert(advice.lines.end(), engine.last.begin(), engine.last.end());
+    emulate(engine, place, knobs, typed.metres, advice);
+  } else {
+    advice.cannot.push_back(unexpressed_bias(typed.replaced, place));
+    advice.why_not_emulated = "there are no lines";
+  }
+  const auto say = [&](const std::vector<std::string>& said) {
     advice.cannot.insert(advice.cannot.end(), said.begin(), said.end());
+  };
+  for (const AdvisedPart& part : parts) say(unexpressed_part(part, knob_for(knobs, part), typed.suffices));
+  say(unexpressed_reference(place, typed.suffices));
+  say(unexpressed_filter(place));
+  say(unexpressed_map(place, engine.maps));
+  say(unexpressed_distance(place));
+  say(engine.limits(place));
   return advice;
 }
 
@@ -136,7 +214,7 @@ BiasForm form_of(const BiasPart& part) {
   throw std::logic_error("a part of a bias without its form");
 }
 
-double gain(BiasForm form, double theta_rad) {
+double gain(BiasForm form, double theta_rad, double phi_rad) {
   const double c = std::cos(theta_rad), s = std::sin(theta_rad), t = std::tan(theta_rad);
   switch (form) {
     case BiasForm::constant:
@@ -147,9 +225,11 @@ double gain(BiasForm form, double theta_rad) {
     case BiasForm::normal:
       return 1 / c;
     case BiasForm::tangent:
-    case BiasForm::axes:
-    case BiasForm::polygon_factor:
       return t;
+    case BiasForm::axes:
+      return t * (std::abs(std::cos(phi_rad)) + std::abs(std::sin(phi_rad)));
+    case BiasForm::polygon_factor:
+      return t * std::max(std::abs(std::cos(phi_rad)), std::abs(std::sin(phi_rad)));
     case BiasForm::turned:
       return (1 - c) / c;
     case BiasForm::turned_sideways:
@@ -160,8 +240,8 @@ double gain(BiasForm form, double theta_rad) {
   throw std::logic_error("a form of a bias without its gain");
 }
 
-double AdvisedPart::depth_m(double theta_rad) const {
-  return step_m * std::min(std::max(amount * gain(form, theta_rad), floor), cap);
+double AdvisedPart::depth_m(double theta_rad, double phi_rad) const {
+  return step_m * std::min(std::max(amount * gain(form, theta_rad, phi_rad), floor), cap);
 }
 
 double AdvicePlace::perspective_slope(double near_m, double far_m) const {
@@ -200,8 +280,10 @@ bool filter_is(const AdvicePlace& place, std::string_view kind, int size) {
   return filter.kind == kind && (size == 0 || filter.whole("size") == size);
 }
 
-std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene) {
-  const AdvicePlace place = advice_place(settings, frame, scene);
+std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene,
+                                        double farthest_m) {
+  AdvicePlace place = advice_place(settings, frame, scene);
+  place.seen.farthest_m = std::max(place.seen.farthest_m, farthest_m);
   const std::vector<AdvisedPart> parts = advised_parts(place);
   std::vector<EngineAdvice> all;
   for (const Engine& engine : engines()) all.push_back(advice_of(engine, place, parts));

@@ -5,8 +5,11 @@
 //     print(advice.engine, advice.lines, advice.cannot);
 //
 // Every setting of the bias that is not 0, a reference other than own_depth and the filter stand in `lines`, in `cannot`
-// or in both. What a part gives along the light on a plane is law 35 of experiments/laws.toml.
+// or in both. What a part gives along the light on a plane is law 35 of experiments/laws.toml. A part without a field of its
+// form is replaced by the least amounts of other fields that give at least its depth at every slope and azimuth. A filter
+// that reaches further, or a coarser texel, multiplies the bias as law 1 says. The numbers hold all of that.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +19,24 @@
 
 namespace noonmark {
 
+// What lines give, measured: the largest over conditions and placements.
+struct EnginePromise {
+  double error = 0, acne = 0, peter_panning = 0;  // shares
+};
+
 struct EngineAdvice {
   std::string engine, version;
-  std::vector<std::string> lines;   // code, or fields of an inspector with their values, in the engine's own language
+  // Code, or fields of an inspector with their values, in the engine's own language. Empty if nothing of the engine
+  // suffices: then the first sentence of `cannot` says why.
+  std::vector<std::string> lines;
   std::vector<std::string> cannot;  // sentences: what the engine cannot express, or expresses otherwise, and what to do
   std::string source;               // the document or the source file of the engine that defines the units
+  std::string comment;              // what begins a comment in the engine's language
+  // The settings that do what the engine does with these lines; empty if no settings can. Then why_not_emulated says why.
+  std::optional<Settings> emulated = {};
+  std::string why_not_emulated = {};
+  std::optional<EnginePromise> promise = {};  // of `emulated`; app/advise/engine_promise.h measures it
+  std::string promised = {};                  // that in words; empty: not measured
 };
 
 // One piece of advice for each engine, in the order of the table. frame: of these settings in this scene.
@@ -28,7 +44,16 @@ struct EngineAdvice {
 // Numbers are computed in double and written with 6 significant digits. A spot or point light has no single conversion
 // from depth or texels to metres. For these lights the numbers hold at one distance from the light, that of the point
 // at which the camera looks, held between near and far. A sentence in `cannot` says so.
-std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene);
+// farthest_m: the farthest that is in view from any camera, along its view; 0: of these settings' own view.
+std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene,
+                                        double farthest_m = 0);
+
+// How far from the camera along its view the farthest is that the settings' picture can show.
+double farthest_in_view_m(const Settings& settings, const Scene& scene);
+
+// The settings as the engine does them under another condition: view, light and scene of the condition, map, bias and filter of
+// advice.emulated, which must not be empty.
+Settings as_engine(const EngineAdvice& advice, Settings condition);
 
 // A bias field of an engine, for the table in docs/reference/engines.md.
 struct EngineField {

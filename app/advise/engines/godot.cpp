@@ -5,6 +5,7 @@
 // and on faces that see the light no factor of the slope is left (the factor of 1 - N.L in BIAS_FUNC reads -N).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/advise/engines/engine.h"
@@ -16,7 +17,17 @@ namespace {
 constexpr double pancake_m = 20;       // DirectionalLight3D.directional_shadow_pancake_size, its default
 constexpr double spot_near_m = 0.025;  // the near plane of a spot light's map, fixed in the engine
 
-double range_m(const AdvicePlace& place) { return place.frame.extent_m + pancake_m; }
+constexpr int most_size = 16384;  // of the directional shadow atlas
+
+// renderer_scene_cull.cpp: a sphere about the mean of the corners of the camera's frustum up to
+// directional_shadow_max_distance, and a texel on each side.
+double diameter_m(const SeenFrustum& seen, double far_m, int size) {
+  return 2 * std::hypot(far_m / 2, seen.half_at(far_m)) * size / std::max(1, size - 2);
+}
+
+EngineMap fit(const AdvicePlace& place) { return fitted_to_view(place, diameter_m, most_size); }
+
+double range_m(const AdvicePlace& place) { return place.map.extent_m + pancake_m; }
 
 // Metres of shadow_bias = 1.
 double bias_m(const AdvicePlace& place) {
@@ -44,7 +55,7 @@ std::vector<EngineKnob> knobs(LightKind kind) {
   if (kind == LightKind::directional)
     all.push_back({"shadow_normal_bias", "light.shadow_normal_bias = {}", BiasForm::sideways,
                    BiasTarget::place_looked_up, "texels along the normal, without the component along the light",
-                   [](double metres, const AdvicePlace& place) { return metres / place.texel_m; }});
+                   [](double metres, const AdvicePlace& place) { return metres / place.map.texel_m; }});
   if (kind == LightKind::spot)  // 10 / size metres for each metre of distance
     all.push_back({"shadow_normal_bias", "light.shadow_normal_bias = {}", BiasForm::turned, BiasTarget::place_looked_up,
                    "10 / size of the distance, times 1 - N.L", [](double metres, const AdvicePlace& place) {
@@ -62,18 +73,18 @@ std::vector<EngineKnob> knobs(LightKind kind) {
 // Soft Low: 4 taps of a Vogel disk with radius 2 * shadow_blur, rotated at each pixel, each a linear fetch. Its outermost
 // tap stands at sqrt(3.5 / 4) of the radius. Hard: one linear fetch; its quality radius is 1.
 EngineFilter filter(const AdvicePlace& place) {
-  const char* quality =
-      "ProjectSettings.set_setting(\"rendering/lights_and_shadows/{}/soft_shadow_filter_quality\", {})";
-  const char* group = place.kind() == LightKind::directional ? "directional_shadow" : "positional_shadow";
+  const char* quality = "RenderingServer.{}_soft_shadow_filter_set_quality(RenderingServer.SHADOW_QUALITY_{})";
+  const char* group = place.kind() == LightKind::directional ? "directional" : "positional";
   if (place.reach_texels <= 1)
-    return {{fmt::format(fmt::runtime(quality), group, 0), "light.shadow_blur = 1"},
+    return {{fmt::format(fmt::runtime(quality), group, "HARD"), "light.shadow_blur = 1"},
             "Hard, one linear fetch",
             1,
             filter_is(place, "hardware"),
-            1};
+            1,
+            FilterSettings("hardware", {})};
   const double outermost = std::sqrt(3.5 / 4);
   const double blur = (place.reach_texels - 1) / (2 * outermost);
-  return {{fmt::format(fmt::runtime(quality), group, 2), fmt::format("light.shadow_blur = {}", number(blur))},
+  return {{fmt::format(fmt::runtime(quality), group, "SOFT_LOW"), fmt::format("light.shadow_blur = {}", number(blur))},
           "Soft Low, 4 taps of a rotated disk, each blended over 2 x 2 texels",
           1 + 2 * outermost * blur,
           false,
@@ -82,25 +93,29 @@ EngineFilter filter(const AdvicePlace& place) {
 
 std::vector<std::string> map_lines(const AdvicePlace& place) {
   const bool sun = place.kind() == LightKind::directional;
-  const std::string setting = sun ? "directional_shadow" : "positional_shadow";
-  const bool bits_16 = place.settings.map.format == DepthFormat::d16;
-  const auto project = [&](const std::string& name, const std::string& value) {
-    return fmt::format("ProjectSettings.set_setting(\"rendering/lights_and_shadows/{}/{}\", {})", setting, name, value);
-  };
-  std::vector<std::string> lines = {"light.shadow_enabled = true",
-                                    project(sun ? "16_bits" : "atlas_16_bits", bits_16 ? "true" : "false"),
+  const char* bits_16 = place.settings.map.format == DepthFormat::d16 ? "true" : "false";
+  std::vector<std::string> lines = {fmt::format("# light: the {}Light3D", sun ? "Directional"
+                                                                          : place.kind() == LightKind::spot ? "Spot"
+                                                                                                            : "Omni"),
+                                    "light.shadow_enabled = true",
                                     fmt::format("light.shadow_reverse_cull_face = {}",
                                                 place.settings.map.cull == CulledFaces::front ? "true" : "false")};
   if (sun) {
-    lines.push_back(project("size", std::to_string(place.frame.resolution)));
+    lines.push_back(fmt::format("RenderingServer.directional_shadow_atlas_set_size({}, {})  # texels, 16 bits or not",
+                                place.map.resolution, bits_16));
     lines.push_back("light.directional_shadow_mode = DirectionalLight3D.SHADOW_ORTHOGONAL");
+    lines.push_back(fmt::format("light.directional_shadow_max_distance = {}  # the map is {} m wide then",
+                                number(*place.map.reach_m), number(place.map.extent_m)));
+    lines.push_back("light.directional_shadow_fade_start = 1");
     lines.push_back(fmt::format("light.directional_shadow_pancake_size = {}", number(pancake_m)));
     lines.push_back("light.light_angular_distance = 0");
     return lines;
   }
   // The first quadrant of the atlas, undivided, holds a map of half the atlas' size.
-  lines.push_back(project("atlas_size", std::to_string(2 * place.frame.resolution)));
-  lines.push_back(project("atlas_quadrant_0_subdiv", "1"));
+  lines.push_back("var viewport := light.get_viewport()");
+  lines.push_back(fmt::format("viewport.positional_shadow_atlas_size = {}", 2 * place.frame.resolution));
+  lines.push_back(fmt::format("viewport.positional_shadow_atlas_16_bits = {}", bits_16));
+  lines.push_back("viewport.positional_shadow_atlas_quad_0 = Viewport.SHADOW_ATLAS_QUADRANT_SUBDIV_1");
   lines.push_back(
       fmt::format("light.{}_range = {}", place.kind() == LightKind::spot ? "spot" : "omni", number(place.frame.far_m)));
   lines.push_back("light.light_size = 0");
@@ -109,11 +124,13 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
 
 std::vector<std::string> limits(const AdvicePlace& place) {
   if (place.kind() == LightKind::directional)
-    return {fmt::format(
-        "map.extent_m = {0}, near and far: the engine fits the map around the visible part of the scene. Change "
-        "directional_shadow_max_distance until the sphere around that part has a diameter of {0} m; only then the "
-        "texel is as wide as recommended and the depth range is {1} m, which shadow_bias needs.",
-        number(place.frame.extent_m), number(range_m(place)))};
+    return {
+        fitted_text(place, "directional_shadow_max_distance") +
+            fmt::format(" Its depth range is {} m, which shadow_bias needs.", number(range_m(place))),
+        "The error is measured with parts of a bias that give the depth of shadow_normal_bias on every plane; it moves "
+        "the outline of a shadow further than they do.",
+        "The lines are a script. The inspector rounds shadow_bias and shadow_normal_bias to 0.001.",
+        "Faces that a material culls are missing in the map too; with Cast Shadow: Double-Sided none are."};
   if (place.kind() == LightKind::spot)
     return {
         fmt::format("The near plane of a spot light's map is fixed at {} m, so shadow_bias is {} m of distance for "
@@ -140,7 +157,10 @@ Engine godot() {
           filter,
           map_lines,
           limits,
-          {"map.cull"}};
+          {"map.cull"},
+          fit,
+          {},
+          [](Settings& settings) { settings.map.pancake = true; }};
 }
 
 }  // namespace noonmark

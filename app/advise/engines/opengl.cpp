@@ -161,7 +161,9 @@ EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPa
                       "3.3 and later",
                       map_lines(place),
                       {},
-                      "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)"};
+                      "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)",
+                      "//"};
+  advice.emulated = place.settings;  // the application's shader does exactly this
   advice.lines.push_back(sampler_line(place.settings.filter));
   bool polygon_offset = false, shader = false;
   for (const AdvisedPart& part : parts) {

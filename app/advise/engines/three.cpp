@@ -30,37 +30,58 @@ std::vector<EngineKnob> knobs(LightKind) {
 // of the outermost tap from the centre is sqrt(0.9) of the radius. Its fetch reads texels up to one texel further away.
 EngineFilter filter(const AdvicePlace& place) {
   if (filter_is(place, "none"))
-    return {{"renderer.shadowMap.type = THREE.BasicShadowMap;"}, "one nearest tap", 0.5, true};
+    return {{"renderer.shadowMap.type = THREE.BasicShadowMap;"}, "one nearest tap", 0.5, true, 1, FilterSettings()};
   const double radius = std::max(0.0, place.reach_texels - 1) / std::sqrt(0.9);
+  std::optional<FilterSettings> as;
+  if (radius == 0) as = FilterSettings("hardware", {});
   return {{"renderer.shadowMap.type = THREE.PCFShadowMap;", fmt::format("light.shadow.radius = {};", number(radius))},
           "PCFShadowMap, 5 taps of a rotated disk, each blended over 2 x 2 texels",
           1 + std::sqrt(0.9) * radius,
-          filter_is(place, "hardware")};  // radius 0: all five taps are one linear fetch
+          filter_is(place, "hardware"),  // radius 0: all five taps are one linear fetch
+          1,
+          as};
 }
 
+// The lines work in a running page, whatever it was before. Object3D.add() takes the light and its target from the node of a
+// glTF file that they are children of, so that their positions are the world's. A map that was drawn before keeps its size
+// and its projection until it is made anew.
 std::vector<std::string> map_lines(const AdvicePlace& place) {
-  const MapSettings& map = place.settings.map;
+  const CulledFaces cull = place.settings.map.cull;
+  const bool point = place.kind() == LightKind::point;
   std::vector<std::string> lines = {
-      fmt::format("light.shadow.mapSize.set({0}, {0});", place.frame.resolution),
-      fmt::format("light.shadow.camera.near = {};", number(place.frame.near_m)),
-      fmt::format("light.shadow.camera.far = {};", number(place.frame.far_m)),
-      fmt::format("material.shadowSide = THREE.{};", map.cull == CulledFaces::none   ? "DoubleSide"
-                                                     : map.cull == CulledFaces::back ? "FrontSide"
-                                                                                     : "BackSide")};
-  const std::string half = number(place.frame.extent_m / 2);
-  lines.push_back(fmt::format("light.position.set({});", numbers(place.frame.origin_m)));
-  if (place.kind() != LightKind::point)
+      fmt::format("// scene: the THREE.Scene, not moved; light: a THREE.{}Light; renderer: a THREE.WebGLRenderer",
+                  point                             ? "Point"
+                  : place.kind() == LightKind::spot ? "Spot"
+                                                    : "Directional"),
+      "renderer.shadowMap.enabled = true;", "light.castShadow = true;",
+      point ? "scene.add(light);" : "scene.add(light, light.target);  // also out of a glTF file's node",
+      fmt::format("light.position.set({});", numbers(place.frame.origin_m))};
+  if (!point)
     lines.push_back(fmt::format("light.target.position.set({});",
                                 numbers(place.frame.origin_m + place.frame.far_m * place.frame.forward)));
+  lines.push_back(fmt::format("light.shadow.mapSize.set({0}, {0});", place.frame.resolution));
   if (place.kind() == LightKind::directional) {
+    const std::string half = number(place.frame.extent_m / 2);
     lines.push_back(fmt::format("light.shadow.camera.left = -{0}; light.shadow.camera.right = {0};", half));
     lines.push_back(fmt::format("light.shadow.camera.bottom = -{0}; light.shadow.camera.top = {0};", half));
   }
+  lines.push_back(fmt::format("light.shadow.camera.near = {};", number(place.frame.near_m)));
+  lines.push_back(fmt::format("light.shadow.camera.far = {};", number(place.frame.far_m)));
   if (place.kind() == LightKind::spot) {
     const double focus = std::atan(place.frame.tan_half_fov) / std::atan(place.cone_tan);
     lines.push_back(fmt::format("light.angle = {};", number(std::atan(place.cone_tan))));
     lines.push_back(fmt::format("light.shadow.focus = {};", number(focus)));
   }
+  lines.push_back("light.shadow.camera.updateProjectionMatrix();");
+  lines.push_back("light.shadow.map?.dispose(); light.shadow.map = null;  // the next frame makes a map of this size");
+  lines.push_back("scene.traverse((mesh) => {");
+  lines.push_back("  if (!mesh.isMesh) return;");
+  lines.push_back("  mesh.castShadow = mesh.receiveShadow = true;");
+  lines.push_back(fmt::format("  for (const material of [mesh.material].flat()) material.shadowSide = THREE.{};",
+                              cull == CulledFaces::none   ? "DoubleSide"
+                              : cull == CulledFaces::back ? "FrontSide"
+                                                          : "BackSide"));
+  lines.push_back("});");
   return lines;
 }
 

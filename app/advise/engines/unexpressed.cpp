@@ -1,32 +1,13 @@
 #include "app/advise/engines/unexpressed.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace noonmark {
 namespace {
-
-// Two forms that differ in the slope can be made equal at one slope only. 45 degrees is halfway between a surface
-// that is square to the light and one along it.
-constexpr double equal_at_rad = std::numbers::pi / 4;
-
-// What to type so that a plane at 45 degrees gains this depth: by the field that grows with the slope, if there is one.
-std::string instead(double depth_m, const std::vector<EngineKnob>& knobs, const AdvicePlace& place) {
-  const EngineKnob* best = nullptr;
-  for (const EngineKnob& knob : knobs) {
-    if (knob.form == BiasForm::polygon_factor || knob.form == BiasForm::polygon_resolution) continue;
-    if (!best || (best->form == BiasForm::constant && knob.form != BiasForm::constant)) best = &knob;
-  }
-  if (!best) return "The engine has no field that can replace it.";
-  const double metres = depth_m / gain(best->form, equal_at_rad);
-  return fmt::format(
-      "Instead, add {} to {}: on a plane at 45 degrees this gives the same {} m along the light (law 35), at other "
-      "slopes it gives more or less.",
-      number(best->typed(metres, place)), best->field, number(depth_m));
-}
 
 std::string of_the_field(const AdvisedPart& part, const EngineKnob& knob) {
   return fmt::format(
@@ -38,13 +19,29 @@ std::string of_the_field(const AdvisedPart& part, const EngineKnob& knob) {
 
 }  // namespace
 
-std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineKnob* knob,
-                                          const std::vector<EngineKnob>& knobs, const AdvicePlace& place) {
+std::string unexpressed_bias(const std::vector<AdvisedPart>& parts, const AdvicePlace& place) {
+  std::vector<std::string> what;
+  for (const AdvisedPart& part : parts) what.push_back(fmt::format("bias.{} = {}", part.part->name, number(part.set)));
+  if (tap_reference(place.settings.bias.reference).plane)
+    what.push_back("bias.reference = " + place.settings.bias.reference);
+  return fmt::format(
+      "There are no lines: no fields of the engine give as much depth as {} at every slope and azimuth. Take another "
+      "technique.",
+      fmt::join(what, " and "));
+}
+
+std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineKnob* knob, bool replaced) {
   const std::string_view name = part.part->name;
   std::vector<std::string> said;
-  if (!knob)
-    said.push_back(fmt::format("bias.{} = {} has no field of its form. {}", name, number(part.set),
-                               instead(part.depth_m(equal_at_rad), knobs, place)));
+  if (!knob && replaced)
+    said.push_back(fmt::format(
+        "bias.{} = {} has no field of its form. The lines hold the least of other fields that gives at least as much "
+        "depth at every slope and azimuth (law 35).",
+        name, number(part.set)));
+  else if (!knob)
+    said.push_back(fmt::format("bias.{} = {} has no field of its form.", name, number(part.set)));
+  else if (!replaced)
+    said.push_back(fmt::format("bias.{} has a field, {}, but alone it is not enough.", name, knob->field));
   else if (knob->target != part.part->acts_on)
     said.push_back(of_the_field(part, *knob));
   if (part.floor > 0)
@@ -61,15 +58,14 @@ std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineK
   return said;
 }
 
-std::vector<std::string> unexpressed_reference(const std::vector<EngineKnob>& knobs, const AdvicePlace& place) {
+std::vector<std::string> unexpressed_reference(const AdvicePlace& place, bool replaced) {
   const std::string& reference = place.settings.bias.reference;
   if (!tap_reference(reference).plane) return {};
-  // Law 1 with A = sqrt(2), the azimuth that needs most.
-  const double needed_m = place.reach_texels * place.texel_m * std::numbers::sqrt2 * std::tan(equal_at_rad);
   std::string said = fmt::format(
       "bias.reference = {}: every tap is compared with one depth, the receiver's own. So the bias must cover the whole "
-      "kernel (law 1: k w A tan(theta), k = {} texels), which the recommended bias need not. {}",
-      reference, number(place.reach_texels), instead(needed_m, knobs, place));
+      "kernel (law 1: k w A tan(theta), k = {} texels), which the recommended bias need not.",
+      reference, number(std::max(place.reach_texels, place.filter.reach_texels)));
+  if (replaced) said += " The lines hold the least that does.";
   if (place.settings.bias.plane_cap) said += " bias.plane_cap has no meaning then.";
   return {said};
 }
@@ -80,7 +76,7 @@ std::vector<std::string> unexpressed_filter(const AdvicePlace& place) {
       "filter.kind = {} reaches k = {} texels. The nearest filter here is {}, which reaches {} texels.",
       place.settings.filter.kind, number(place.reach_texels), place.filter.what, number(place.filter.reach_texels));
   if (place.filter.reach_texels > place.reach_texels)
-    said += fmt::format(" Law 1 needs a bias in proportion to k: multiply the bias by {}, or acne can appear.",
+    said += fmt::format(" Law 1 needs a bias in proportion to k: the lines hold {} times the recommended one.",
                         number(place.filter.reach_texels / place.reach_texels));
   return {said};
 }

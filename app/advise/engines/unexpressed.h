@@ -8,10 +8,11 @@
 
 namespace noonmark {
 
-// knob: the field that takes the part; null if the engine has no field of its form.
-std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineKnob* knob,
-                                          const std::vector<EngineKnob>& knobs, const AdvicePlace& place);
-std::vector<std::string> unexpressed_reference(const std::vector<EngineKnob>& knobs, const AdvicePlace& place);
+// Why there are no lines: no one and no two fields of the engine can replace these parts, or the reference.
+std::string unexpressed_bias(const std::vector<AdvisedPart>& parts, const AdvicePlace& place);
+// knob: the field that takes the part; null if the engine has no field of its form. replaced: other fields hold it then.
+std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineKnob* knob, bool replaced);
+std::vector<std::string> unexpressed_reference(const AdvicePlace& place, bool replaced);
 std::vector<std::string> unexpressed_filter(const AdvicePlace& place);
 // expressed: further settings of the map that the engine expresses, beside resolution, format and volume.
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed);

@@ -1,9 +1,12 @@
 // Unity, Universal Render Pipeline. Both biases move the caster's vertices, in texels of the map, multiplied by a factor
 // of the soft shadows' quality. For a spot light the engine takes half the texel at the far plane at every distance. A
-// polygon offset with factor 2.5 and units 1 is always on.
+// polygon offset with factor 2.5 and units 1 is always on. A directional light's map without cascades is the square of the
+// least sphere around the camera's frustum up to Max Distance (Conservative Enclosing Sphere, on in new assets).
 #include <fmt/format.h>
 
-#include <numbers>
+#include <cmath>
+#include <optional>
+#include <utility>
 
 #include "app/advise/engines/engine.h"
 
@@ -15,8 +18,18 @@ constexpr double greatest = 10;       // of both biases in the inspector
 constexpr double fixed_factor = 2.5;  // of the polygon offset that is always on
 constexpr double fixed_units = 1;
 
+constexpr int most_size = 4096;  // of the list in the asset's inspector
+
+double diameter_m(const SeenFrustum& seen, double far_m, int) {
+  const double half = seen.half_at(far_m);
+  if (!seen.perspective) return 2 * std::hypot(far_m / 2, half);
+  return half >= far_m ? 2 * half : (far_m * far_m + half * half) / far_m;  // through the eye and the far corners
+}
+
+EngineMap fit(const AdvicePlace& place) { return fitted_to_view(place, diameter_m, most_size); }
+
 double engine_texel_m(const AdvicePlace& place) {
-  if (place.kind() == LightKind::directional) return place.texel_m;
+  if (place.kind() == LightKind::directional) return place.map.texel_m;
   const double tangent = place.kind() == LightKind::spot ? place.cone_tan : 1;
   return tangent * place.frame.far_m / place.frame.resolution;
 }
@@ -38,43 +51,51 @@ std::vector<EngineKnob> knobs(LightKind kind) {
 }
 
 EngineFilter filter(const AdvicePlace& place) {
-  const auto soft = [](const char* quality, const char* what, double reach, bool same, double scale) {
-    return EngineFilter{{fmt::format("Light > Shadow Type: Soft Shadows, Soft Shadows Quality: {}", quality)},
+  const auto soft = [](const char* quality, const char* what, double reach, bool same, double scale,
+                       std::optional<FilterSettings> as) {
+    return EngineFilter{{"URP Asset > Shadows > Soft Shadows: on",
+                         fmt::format("Light > Shadow Type: Soft Shadows, Soft Shadows Quality: {}", quality)},
                         what,
                         reach,
                         same,
-                        scale};
+                        scale,
+                        std::move(as)};
   };
   const EngineFilter hard{
-      {"Light > Shadow Type: Hard Shadows"}, "Hard Shadows, one linear fetch", 1, filter_is(place, "hardware")};
-  return nearest_reach(
-      place, {hard, soft("Low", "Soft Shadows Low, 4 linear fetches", 1.5, false, 1.5),
-              soft("Medium", "Soft Shadows Medium, a tent over 5 x 5 texels", 3, filter_is(place, "tent", 5), 2.5),
-              soft("High", "Soft Shadows High, a tent over 7 x 7 texels", 4, filter_is(place, "tent", 7), 3.5)});
+      {"Light > Shadow Type: Hard Shadows"}, "Hard Shadows, one linear fetch", 1, filter_is(place, "hardware"), 1,
+      FilterSettings("hardware", {})};
+  return nearest_reach(place, {hard, soft("Low", "Soft Shadows Low, 4 linear fetches", 1.5, false, 1.5, std::nullopt),
+                               soft("Medium", "Soft Shadows Medium, a tent over 5 x 5 texels", 3,
+                                    filter_is(place, "tent", 5), 2.5, FilterSettings("tent", {{"size", 5}})),
+                               soft("High", "Soft Shadows High, a tent over 7 x 7 texels", 4,
+                                    filter_is(place, "tent", 7), 3.5, FilterSettings("tent", {{"size", 7}}))});
 }
 
 std::vector<std::string> map_lines(const AdvicePlace& place) {
   if (place.kind() == LightKind::directional)
-    return {fmt::format("URP Asset > Lighting > Main Light > Shadow Resolution: {}", place.frame.resolution),
-            "URP Asset > Shadows > Cascade Count: 1",
-            fmt::format("URP Asset > Shadows > Max Distance: {}", number(place.frame.extent_m))};
-  return {fmt::format("URP Asset > Lighting > Additional Lights > Shadow Resolution Tier: {}", place.frame.resolution),
+    return {fmt::format("URP Asset > Lighting > Main Light > Shadow Resolution: {}", place.map.resolution),
+            "URP Asset > Shadows > Cascade Count: 1", "URP Asset > Shadows > Last Border: 0",
+            "URP Asset > Shadows > Conservative Enclosing Sphere: on",
+            fmt::format("URP Asset > Shadows > Max Distance: {}  // the map is {} m wide then",
+                        number(*place.map.reach_m), number(place.map.extent_m))};
+  return {fmt::format("URP Asset > Lighting > Additional Lights > Shadow Resolution Tiers > High: {}",
+                      place.frame.resolution),
+          "Light > Shadows > Custom Shadow Resolution: High",
           fmt::format("Light > Emission > Range: {}", number(place.frame.far_m)),
           fmt::format("Light > Shadows > Near Plane: {}", number(place.frame.near_m))};
 }
 
 std::vector<std::string> limits(const AdvicePlace& place) {
   std::vector<std::string> said = {
-      fmt::format("The engine always draws the map with a polygon offset of factor {} and units {}, which adds {} m "
-                  "along the light at 45 degrees to the recommended bias. No field switches it off.",
-                  number(fixed_factor), number(fixed_units), number(fixed_factor * place.texel_m)),
+      fmt::format("The engine always draws the map with a polygon offset of factor {} and units {}, which gives {} m "
+                  "along the light at 45 degrees. No field switches it off; of what replaces other parts it is "
+                  "subtracted.",
+                  number(fixed_factor), number(fixed_units), number(fixed_factor * place.map.texel_m)),
       fmt::format("Depth and Normal are at most {}.", number(greatest)), "map.format: the map has 16 bits of depth."};
   if (place.kind() == LightKind::directional)
     said.insert(
         said.end(),
-        {fmt::format("map.extent_m = {0}, near and far: the engine fits the map around what the camera sees. Change "
-                     "Max Distance until the map is {0} m wide; then a texel is as wide as recommended.",
-                     number(place.frame.extent_m)),
+        {fitted_text(place, "Max Distance"),
          "The engine always moves vertices before the near plane onto it (map.pancake). A large triangle across the "
          "near plane gets other depths by that, also behind the plane."});
   else
@@ -101,7 +122,13 @@ Engine unity_urp() {
           filter,
           map_lines,
           limits,
-          {}};
+          {},
+          fit,
+          {{"polygon_factor", fixed_factor}, {"polygon_units", fixed_units}},
+          [](Settings& settings) {
+            settings.map.format = DepthFormat::d16;
+            settings.map.pancake = true;
+          }};
 }
 
 }  // namespace noonmark

@@ -1,0 +1,85 @@
+#include "app/advise/engine_promise.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "base/error.h"
+#include "compare/results/quantities.h"
+#include "measure/memory_estimate.h"
+
+namespace noonmark {
+namespace {
+
+// The largest over the placements; of a metric that is not measured at each, that of the map as it lies. A NaN stays one.
+double largest_of(const PointRecord& point, const std::string& metric) {
+  double most = metric_of(point, metric);
+  if (has_placements(point))
+    for (const std::string& name : placed_names(metric).largest)
+      if (const double value = metric_of(point, name); !(value <= most)) most = value;
+  return most;
+}
+
+void raise(double& most, double value) {
+  if (!(value <= most)) most = value;
+}
+
+std::string percent_of(double share) { return fmt::format("{:.3g}%", 100 * share); }
+
+}  // namespace
+
+EnginePromise measured_promise(Workbench& bench, std::span<const Settings> conditions, const std::string& accuracy) {
+  EnginePromise promise;
+  for (const Settings& settings : conditions) {
+    require_memory(bench.memory(settings, false, false), bench.memory_of_program(false), "the engine's map");
+    const PointRecord point = bench.measure(settings, std::nullopt).record;
+    if (nothing_judged(point)) continue;
+    raise(promise.error, largest_of(point, accuracy));
+    raise(promise.acne, largest_of(point, "acne"));
+    raise(promise.peter_panning, largest_of(point, "peter_panning"));
+  }
+  return promise;
+}
+
+EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engines,
+                               std::span<const Settings> conditions, const std::string& accuracy,
+                               const std::function<void(const std::string&)>& say) {
+  std::map<std::map<std::string, std::string>, EnginePromise> known;
+  const auto promise_of = [&](const std::vector<Settings>& settings, const std::string& whose) {
+    const auto key = settings_map(settings.front());
+    if (const auto found = known.find(key); found != known.end()) return found->second;
+    say("measuring " + whose);
+    return known.emplace(key, measured_promise(bench, settings, accuracy)).first->second;
+  };
+  const EnginePromise recommended = promise_of({conditions.begin(), conditions.end()}, "the recommended settings");
+  for (EngineAdvice& advice : engines) {
+    if (!advice.emulated) continue;
+    std::vector<Settings> there;
+    for (const Settings& condition : conditions) there.push_back(as_engine(advice, condition));
+    try {
+      advice.promise = promise_of(there, "what " + advice.engine + " does with its lines");
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::usage) throw;
+      advice.emulated.reset();
+      advice.why_not_emulated = error.what();
+    }
+  }
+  return recommended;
+}
+
+std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended, const CurveOptions& bounds) {
+  if (!advice.promise) return "error not known: " + advice.why_not_emulated;
+  std::string text = fmt::format("error {} with these lines (recommended: {})", percent_of(advice.promise->error),
+                                 percent_of(recommended.error));
+  std::string broken;
+  const auto compare = [&](const char* name, double value, double bound) {
+    if (value <= bound) return;
+    broken += fmt::format("{}{} {}", broken.empty() ? "; " : ", ", name, percent_of(value));
+  };
+  compare("acne", advice.promise->acne, bounds.acne_bound);
+  compare("Peter Panning", advice.promise->peter_panning, bounds.peter_panning_bound);
+  if (!broken.empty()) text += broken + ": above the bound, so these lines are not an answer";
+  return text;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,33 @@
+// What the lines for an engine promise, measured: the settings that do what the engine does with them are settings like any
+// other.
+//
+//   measure_promises(bench, engines, answer_under_conditions(advice), "error", say);
+//   print(promise_line(engines[0], request.curve));   // "error 0.31% with these lines (recommended: 0.29%)"
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/advise/engines/engine_settings.h"
+#include "compare/ladder/bias_curves.h"
+#include "measure/workbench.h"
+
+namespace noonmark {
+
+// The largest over the conditions and their placements. conditions: at least one, with the placements and the size of the
+// picture to measure with. accuracy: a metric. Throws Error.
+EnginePromise measured_promise(Workbench& bench, std::span<const Settings> conditions, const std::string& accuracy);
+
+// Sets the promise of each piece of advice that has settings, each different technique measured once, and returns that of the
+// conditions themselves: of the recommended technique. Settings that cannot be measured (a map that does not fit into memory)
+// get the reason in why_not_emulated instead. say: progress, one line.
+EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engines,
+                               std::span<const Settings> conditions, const std::string& accuracy,
+                               const std::function<void(const std::string&)>& say);
+
+// One sentence without a full stop: the error with the lines, beside the recommended one, and which bounds they break. recommended:
+// as measure_promises() returns it.
+std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended, const CurveOptions& bounds);
+
+}  // namespace noonmark
