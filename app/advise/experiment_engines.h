@@ -1,5 +1,6 @@
 // What to type into other engines, for an experiment that has one choice of settings, such as recommended.toml.
 #pragma once
+#include <span>
 #include <string>
 
 #include "app/definition/experiment.h"
@@ -7,8 +8,12 @@
 
 namespace noonmark {
 
-// The text that `recommend` writes as engines.txt, for the settings of the experiment's first point. Empty if the experiment
-// has parts or sweeps choices, because then there is no one choice to type. first: the settings of its first point.
-std::string experiment_engines(Workbench& bench, const Experiment& experiment, const Settings& first);
+// The text that `recommend` writes as engines.txt, without the measured errors, for the settings of the first of the experiment's
+// points; the lines reach what any of the points shows. Empty if the experiment has parts or sweeps choices, because then there
+// is no one choice to type. points: at least one.
+std::string experiment_engines(Workbench& bench, const Experiment& experiment, std::span<const Settings> points);
+
+// How far the farthest is that any of these conditions shows, along the view. Throws Error.
+double farthest_in_views_m(Workbench& bench, std::span<const Settings> conditions);
 
 }  // namespace noonmark

@@ -290,11 +290,20 @@ std::string advice_experiment(const Advice& advice, const std::string& folder) {
   return text;
 }
 
+std::vector<std::string> engine_lines(const EngineAdvice& engine) {
+  std::vector<std::string> lines = engine.lines;
+  if (lines.empty())
+    lines.push_back(fmt::format("{} {}", engine.comment, engine.cannot.front()));
+  else if (!engine.promised.empty())
+    lines.push_back(fmt::format("{} {}", engine.comment, engine.promised));
+  return lines;
+}
+
 std::string advice_engines(const std::vector<EngineAdvice>& engines) {
   std::string text = "These settings in other engines, and what each cannot express. Made by Noonmark.\n";
   for (const EngineAdvice& engine : engines) {
     text += fmt::format("\n{} ({})\n", engine.engine, engine.version);
-    for (const std::string& line : engine.lines) text += fmt::format("    {}\n", line);
+    for (const std::string& line : engine_lines(engine)) text += fmt::format("    {}\n", line);
     for (const std::string& sentence : engine.cannot) text += fmt::format("  - {}\n", sentence);
     text += fmt::format("  Source: {}\n", engine.source);
   }
@@ -366,12 +375,20 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
                        {"worst_error", advice.worst_error}};
   if (advice.around) all["around"] = around_json(*advice.around);
   all["engines"] = json::array();
-  for (const EngineAdvice& engine : engines)
-    all["engines"].push_back({{"engine", engine.engine},
-                              {"version", engine.version},
-                              {"lines", engine.lines},
-                              {"cannot", engine.cannot},
-                              {"source", engine.source}});
+  for (const EngineAdvice& engine : engines) {
+    json one{{"engine", engine.engine},
+             {"version", engine.version},
+             {"lines", engine.lines},
+             {"cannot", engine.cannot},
+             {"source", engine.source}};
+    if (engine.emulated) one["settings"] = settings_map(*engine.emulated);
+    if (engine.promise)
+      one["promise"] = {{"error", engine.promise->error},
+                        {"acne", engine.promise->acne},
+                        {"peter_panning", engine.promise->peter_panning}};
+    if (!engine.why_not_emulated.empty()) one["why_not_measured"] = engine.why_not_emulated;
+    all["engines"].push_back(one);
+  }
   all["tried"] = json::array();
   for (const Tried& tried : advice.tried) all["tried"].push_back(of(tried));
   return all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";

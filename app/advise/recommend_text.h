@@ -15,6 +15,9 @@ std::vector<std::string> advice_text(const Advice& advice);
 // There must be an answer. folder: where the file will stand; the path of a scene's file is relative to it.
 std::string advice_experiment(const Advice& advice, const std::string& folder);
 
+// What to type into one engine, and as a comment what error it gives, or why there is nothing to type.
+std::vector<std::string> engine_lines(const EngineAdvice& engine);
+
 // What to type into other engines, and what each cannot express. There must be an answer.
 std::string advice_engines(const std::vector<EngineAdvice>& engines);
 

@@ -138,7 +138,7 @@ RunInfo SweepRun::info() {
   info.triangles = scene.triangles.size();
   info.scene_notes = survey_.scenes.notes();
   info.sweep_notes = survey_.idle.dead_sweeps();
-  info.engines = experiment_engines(bench_, experiment_, planned_.front());
+  info.engines = experiment_engines(bench_, experiment_, planned_);
   return info;
 }
 

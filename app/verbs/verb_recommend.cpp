@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "app/advise/engine_promise.h"
+#include "app/advise/experiment_engines.h"
 #include "app/advise/recommend_around.h"
 #include "app/advise/recommend_text.h"
 #include "app/definition/default_folder.h"
@@ -134,7 +136,7 @@ void print_advice(const AdviceRequest& request, const std::vector<EngineAdvice>&
   fmt::print("\nWhat to type (what each engine cannot express is in {}/engines.txt):\n", printable(out));
   for (const EngineAdvice& engine : engines) {
     fmt::print("  {} ({})\n", engine.engine, engine.version);
-    for (const std::string& line : engine.lines) fmt::print("    {}\n", line);
+    for (const std::string& line : engine_lines(engine)) fmt::print("    {}\n", line);
   }
   if (const std::string note = notes_line(bench.scene(request.conditions.front().scene)); !note.empty())
     fmt::print("note: {}\n", printable(note));
@@ -149,6 +151,19 @@ void print_advice(const AdviceRequest& request, const std::vector<EngineAdvice>&
       printable(out));
   if (around)
     fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
+}
+
+// What to type, and what error it gives under the searched conditions.
+std::vector<EngineAdvice> measured_engines(Workbench& bench, const Advice& advice,
+                                           const std::function<void(const std::string&)>& say) {
+  const Settings& settings = advice.answer->settings;
+  const double farthest_m = farthest_in_views_m(bench, advice.request.conditions);  // the lines must hold in each view
+  const Scene& loaded = bench.scene(settings.scene);
+  std::vector<EngineAdvice> engines = engine_advice(settings, make_light_frame(loaded, settings), loaded, farthest_m);
+  const EnginePromise recommended =
+      measure_promises(bench, engines, answer_under_conditions(advice), advice.request.accuracy, say);
+  for (EngineAdvice& engine : engines) engine.promised = promise_text(engine, recommended, advice.request.curve);
+  return engines;
 }
 
 int recommend(const RecommendOptions& options) {
@@ -172,13 +187,9 @@ int recommend(const RecommendOptions& options) {
   if (advice.answer && options.around)
     advice.around = settings_around(bench, answer_under_conditions(advice),
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
-  progress.end_line();
   std::vector<EngineAdvice> engines;
-  if (advice.answer) {
-    const Settings& settings = advice.answer->settings;
-    const Scene& loaded = bench.scene(settings.scene);
-    engines = engine_advice(settings, make_light_frame(loaded, settings), loaded);
-  }
+  if (advice.answer) engines = measured_engines(bench, advice, say);
+  progress.end_line();
   write_file_atomically(out + "/recommended.json", advice_json(advice, engines));
   if (arguments.json)
     fmt::print("{}", advice_json(advice, engines));
