@@ -153,6 +153,10 @@ void print_advice(const AdviceRequest& request, const std::vector<EngineAdvice>&
     fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
 }
 
+// Placements, along each axis, at which what an engine does is measured. There are up to seven engines, and the answer itself was
+// searched at four times as many and verified at others.
+constexpr int promised_placements = 4;
+
 // What to type, and what error it gives under the searched conditions.
 std::vector<EngineAdvice> measured_engines(Workbench& bench, const Advice& advice,
                                            const std::function<void(const std::string&)>& say) {
@@ -160,8 +164,10 @@ std::vector<EngineAdvice> measured_engines(Workbench& bench, const Advice& advic
   const double farthest_m = farthest_in_views_m(bench, advice.request.conditions);  // the lines must hold in each view
   const Scene& loaded = bench.scene(settings.scene);
   std::vector<EngineAdvice> engines = engine_advice(settings, make_light_frame(loaded, settings), loaded, farthest_m);
-  const EnginePromise recommended =
-      measure_promises(bench, engines, answer_under_conditions(advice), advice.request.accuracy, say);
+  std::vector<Settings> conditions = answer_under_conditions(advice);
+  for (Settings& condition : conditions)
+    condition.map.placements = std::min(condition.map.placements, promised_placements);
+  const EnginePromise recommended = measure_promises(bench, engines, conditions, advice.request.accuracy, say);
   for (EngineAdvice& engine : engines) engine.promised = promise_text(engine, recommended, advice.request.curve);
   return engines;
 }
