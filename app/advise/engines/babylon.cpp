@@ -81,6 +81,7 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
       place.frame.resolution));
   lines.push_back(fmt::format("shadowGenerator.forceBackFacesOnly = {};", cull == CulledFaces::front));
   lines.push_back("for (const mesh of scene.meshes) {");
+  lines.push_back("  if (mesh.getTotalVertices() === 0) continue;  // a node of a glTF file");
   lines.push_back("  shadowGenerator.addShadowCaster(mesh, false);");
   lines.push_back("  mesh.receiveShadows = true;");
   lines.push_back("}");
