@@ -34,9 +34,11 @@ void require_check(std::string_view name);
 
 // What the checks read. All images have the frame's size.
 struct CheckEvidence {
-  const raytrace::Tracer& tracer;
+  const Scene& scene;
+  const raytrace::Tracer& tracer;  // of the scene
   const GivenFrame& frame;
   const Image<uint32_t>& seen;  // what the scene shows through the frame's camera: Tracer::seen_primitives
+  const ReceiverImage& receivers;
   const Image<float>& moved_m;  // of given receivers: how far they were from the scene
   const ReceiverTruth& truth;
   const Image<uint8_t>& counted;

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "frames/alignment.h"
+#include "frames/frame_memory.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -61,22 +63,6 @@ raytrace::OnSurface find_receivers(const Scene& scene, const raytrace::Tracer& t
   return tracer.on_surface(frame.positions, present, frame.view);
 }
 
-// The width of a pixel at each receiver, across the view.
-Image<float> pixel_width_m(const GivenFrame& frame, const ReceiverImage& receivers) {
-  const int width = receivers.width(), height = receivers.height();
-  Image<float> size(width, height, 0);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const size_t i = size.index(x, y);
-      if (receivers.primitive[i] == no_primitive) continue;
-      const double depth = frame.view.pixel_of(receivers.position[i], width, height).z;
-      const glm::dvec3 here = frame.view.world_at(x, y, depth, width, height);
-      size[i] = static_cast<float>(std::max(glm::length(frame.view.world_at(x + 1, y, depth, width, height) - here),
-                                            glm::length(frame.view.world_at(x, y + 1, depth, width, height) - here)));
-    }
-  return size;
-}
-
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -104,17 +90,16 @@ void classify(const raytrace::Tracer& tracer, const GivenFrame& frame, const Jud
     else
       hard[i] = 1;
   }
+  const Image<float> pixel_m = pixel_width_m(frame.view, verdict.receivers);
   Image<float> reach(width, height, 0);
-  if (rules.edge_m)
-    std::fill(reach.pixels.begin(), reach.pixels.end(), static_cast<float>(*rules.edge_m));
-  else
-    for (size_t i = 0; const float pixel : pixel_width_m(frame, verdict.receivers).pixels)
-      reach[i++] = static_cast<float>(rules.edge_pixels) * pixel;
+  for (size_t i = 0; i < reach.size(); ++i)
+    reach[i] = static_cast<float>(rules.edge_m ? *rules.edge_m : rules.edge_pixels * pixel_m[i]);
   std::vector<double> used;
   for (size_t i = 0; i < reach.size(); ++i)
     if (verdict.counted[i]) used.push_back(reach[i]);
   verdict.edge_m = median(std::move(used));
-  const Image<uint8_t> near_edge = tracer.edge_within(verdict.receivers, verdict.truth, verdict.light, hard, reach);
+  const Image<uint8_t> near_edge =
+      tracer.edge_within(verdict.receivers, verdict.truth, verdict.light, hard, reach, pixel_m);
   for (size_t i = 0; i < hard.size(); ++i) {
     if (!hard[i]) continue;
     if (near_edge[i])
@@ -169,6 +154,7 @@ FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, con
                          const JudgeRules& rules) {
   for (const std::string& name : rules.accepted) require_check(name);
   const int width = frame.visibility.width, height = frame.visibility.height;
+  require_frame_memory(frame.name, width, height);
   const Image<uint32_t> seen = tracer.seen_primitives(frame.view, width, height);
   raytrace::OnSurface found = find_receivers(scene, tracer, frame, seen);
   FrameVerdict verdict{.receivers = std::move(found.receivers),
@@ -182,7 +168,8 @@ FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, con
   verdict.truth = tracer.receiver_truth(verdict.receivers, verdict.light, {frame.light, rules.standard_error});
   verdict.contact_m = rules.contact_m.value_or(JudgeRules::contact_share * diagonal_m(scene));
   compare_with_truth(frame, verdict);
-  verdict.checks = check_frame({tracer, frame, seen, found.moved_m, verdict.truth, verdict.counted});
+  verdict.checks =
+      check_frame({scene, tracer, frame, seen, verdict.receivers, found.moved_m, verdict.truth, verdict.counted});
   for (CheckResult& check : verdict.checks) check.accepted = rules.accepted.contains(std::string(check.name));
   classify(tracer, frame, rules, verdict);
   measure(verdict);

@@ -31,9 +31,7 @@ void require_axis(const std::string& name, glm::dvec3 found, glm::dvec3 wanted) 
 }  // namespace
 
 MapFrame map_frame(const std::string& name, const LightFrame& light, const glm::dmat4& m, int resolution) {
-  if (light.kind == LightKind::point)
-    refuse_map(name,
-               "the six maps of a point light are not read; leave the map out, and the frame is judged by places");
+  if (light.kind == LightKind::point) refuse_map(name, no_map_of_point_light);
   const glm::dmat4 inverse = glm::inverse(m);
   for (int i = 0; i < 16; ++i)
     if (!std::isfinite(inverse[i / 4][i % 4])) refuse_map(name, "the map's matrix has no inverse");

@@ -10,6 +10,9 @@
 
 namespace noonmark {
 
+inline constexpr const char* no_map_of_point_light =
+    "the six maps of a point light are not read; leave the map out, and the frame is judged by places";
+
 struct MapFrame {
   LightFrame frame;
   // The renderer's map is mirrored: its v grows against the frame's up. The rows of its image must be reversed.

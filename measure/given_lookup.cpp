@@ -76,14 +76,13 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   }
   made.map_off_m = quantile(off, 0.5);
   made.depth_spread_m = quantile(depths, 0.95) - quantile(depths, 0.05);
-  for (const SoundLimit& limit : sound_limits)
-    if (const auto found = made.metrics.find(limit.metric); found != made.metrics.end() &&
-                                                            made.metrics.at("facing") > 0 &&
-                                                            !(found->second <= limit.most))  // NaN fails, too
-      throw Error(
-          ErrorKind::defect,
-          fmt::format("the lookup of the given map contradicts itself ({} = {:.6g}, a sound one has at most {:g})",
-                      limit.metric, found->second, limit.most));
+  PointRecord record;
+  record.metrics = made.metrics;
+  if (const std::vector<Unsound> unsound = find_unsound({&record, 1}); !unsound.empty())
+    throw Error(
+        ErrorKind::defect,
+        fmt::format("the lookup of the given map contradicts itself ({} = {:.6g}, a sound one has at most {:g})",
+                    unsound[0].limit->metric, unsound[0].value, unsound[0].limit->most));
   return made;
 }
 

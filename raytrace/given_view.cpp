@@ -76,6 +76,10 @@ Image<uint32_t> Tracer::seen_primitives(const ViewMatrix& view, int width, int h
     for (int y = rows.begin(); y != rows.end(); ++y)
       for (int x = 0; x < width; ++x) {
         const Ray ray = view.pixel_ray(x, y, width, height);
+        // The near plane lies at infinity if the matrix has no far plane and its depths are not reversed as declared.
+        const double finite =
+            ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y + ray.direction.z;
+        if (!std::isfinite(finite)) continue;
         const uint32_t hit = FirstSeen(*traced_, ray)();
         if (hit == no_primitive) continue;
         const Corners t(traced_->scene, hit);
@@ -118,8 +122,11 @@ OnSurface Tracer::on_surface(const Image<glm::dvec3>& points, const Image<uint8_
   return found;
 }
 
+double edge_ring(int ring) { return (ring % 2 == 0 ? 0.25 : 0.375) * std::exp2(ring / 2); }
+
 Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTruth& truth, const LightFrame& frame,
-                                   const Image<uint8_t>& mask, const Image<float>& radius_m) const {
+                                   const Image<uint8_t>& mask, const Image<float>& radius_m,
+                                   const Image<float>& unit_m) const {
   std::optional<ReceiverImage> made;
   const ReceiverImage& receivers = on_first(given, made);
   const std::shared_ptr<LightSide> light = traced_->lit_by(frame);
@@ -130,31 +137,49 @@ Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTru
   tbb::parallel_for(tbb::blocked_range<size_t>(0, mask.size(), 256), [&](const tbb::blocked_range<size_t>& pixels) {
     Silhouettes::Nearby nearby;
     for (size_t i = pixels.begin(); i != pixels.end(); ++i) {
-      if (!mask[i]) continue;
+      const double radius = radius_m[i], unit = unit_m[i];
+      if (!mask[i] || !(radius > 0) || !(unit > 0)) continue;
       const glm::dvec3 p = receivers.position[i];
       const SurfacePoint point = surface.point(frame.to_light(p), receivers.primitive[i], truth.lit[i] != 0);
       glm::dvec3 right, up;
       frame.light().axes_across(frame, p, right, up);
-      std::array<glm::dvec3, edge_spokes> ring_places;
-      const auto places_on = [&](int ring) {
-        for (int spoke = 0; spoke < edge_spokes; ++spoke) {
-          const double turn = 2 * std::numbers::pi * (spoke + (ring % 2) / 2.0) / edge_spokes;
-          const double reach = static_cast<double>(radius_m[i]) * ring / edge_rings;
-          const glm::dvec3 at = p + reach * (std::cos(turn) * right + std::sin(turn) * up);
-          ring_places[static_cast<size_t>(spoke)] = view.place_of(frame.to_light(at));
-        }
+      const auto place = [&](int ring, int spoke, double reach) {
+        const double turn = 2 * std::numbers::pi * (spoke + (ring % 2) / 2.0) / edge_spokes;
+        return view.place_of(frame.to_light(p + reach * (std::cos(turn) * right + std::sin(turn) * up)));
       };
-      places_on(edge_rings);
-      // The rectangle around the outermost ring holds all places. A receiver that is lit and has no silhouette there is
-      // lit at all of them (OwnSurface::lit_at without a crossing). A dark one may come out of its occluder without one.
-      light->silhouettes().list_nearby(ring_places, nearby);
-      if (point.lit && nearby.none()) continue;
-      for (int ring = edge_rings; ring > 0 && !near[i]; --ring) {
-        if (ring < edge_rings) places_on(ring);
+      int last = 0;
+      while (edge_ring(last) * unit < radius) ++last;
+      std::array<glm::dvec3, edge_spokes> places;
+      const auto places_on = [&](int ring) {
+        for (int spoke = 0; spoke < edge_spokes; ++spoke)
+          places[static_cast<size_t>(spoke)] = place(ring, spoke, edge_ring(ring) * unit);
+      };
+      // Whether a change between P and this place of the last ring, found to 2^-10 of the way, lies within the radius.
+      const auto changes_within = [&](int spoke) {
+        double same = 0, other = 1;
+        const double reach = edge_ring(last) * unit;
+        for (int halving = 0; halving < 10; ++halving) {
+          const double middle = (same + other) / 2;
+          const glm::dvec3 x = place(last, spoke, middle * reach);
+          uint32_t hit = no_primitive;
+          view.first_hits(traced_->embree, 1, &x, &hit);
+          (surface.lit_at(point, x, hit, nearby).lit == point.lit ? same : other) = middle;
+        }
+        return other * reach <= radius;
+      };
+      for (int ring = 0; ring <= last && !near[i]; ++ring) {
+        places_on(ring);
+        // The rectangle around the ring holds all ways from P to it. A receiver that is lit and has no silhouette there is lit at
+        // all of its places (OwnSurface::lit_at without a crossing). A dark one may come out of its occluder without one.
+        light->silhouettes().list_nearby(places, nearby);
+        if (point.lit && nearby.none()) continue;
         std::array<uint32_t, edge_spokes> hits;
-        view.first_hits(traced_->embree, edge_spokes, ring_places.data(), hits.data());
-        for (size_t spoke = 0; spoke < edge_spokes && !near[i]; ++spoke)
-          near[i] = surface.lit_at(point, ring_places[spoke], hits[spoke], nearby).lit != point.lit;
+        view.first_hits(traced_->embree, edge_spokes, places.data(), hits.data());
+        for (int spoke = 0; spoke < edge_spokes && !near[i]; ++spoke) {
+          const auto at = static_cast<size_t>(spoke);
+          near[i] = surface.lit_at(point, places[at], hits[at], nearby).lit != point.lit &&
+                    (ring < last || changes_within(spoke));
+        }
       }
     }
   });

@@ -52,8 +52,10 @@ struct OnSurface {
   Image<float> moved_m;     // distance from the given point to its receiver
 };
 
-// Places at which Tracer::edge_within looks.
-inline constexpr int edge_rings = 4, edge_spokes = 16;
+// Tracer::edge_within looks at `edge_spokes` places on rings of fixed radii: 1/4, 3/8, 1/2, 3/4, 1, 3/2 ... units. So what is
+// near within one distance is near within any larger one.
+inline constexpr int edge_spokes = 16;
+double edge_ring(int ring);  // the radius in units; ring: from 0 on
 
 class Tracer {
  public:
@@ -84,11 +86,13 @@ class Tracer {
   OnSurface on_surface(const Image<glm::dvec3>& points, const Image<uint8_t>& present, const ViewMatrix& view) const;
 
   // Whether a true shadow edge lies within radius_m of each receiver in the mask, measured across the light's rays: V(P, x)
-  // (raytrace/own_surface.h) differs from R1 at one of edge_rings x edge_spokes places x on rings about P. An edge that is
-  // straight over the outermost ring is found if it is nearer than cos(pi / edge_spokes) = 0.98 of the radius. Other
-  // pixels: 0.
+  // (raytrace/own_surface.h) differs from R1 at one of the places x on the rings within the radius; or it does on the first ring
+  // beyond, and the change that halving finds between P and x lies within the radius. unit_m: the unit of the rings at each
+  // receiver, as small as what is told apart there, and independent of the radius. Other pixels, and those whose radius or
+  // unit is not above 0: 0.
   Image<uint8_t> edge_within(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
-                             const Image<uint8_t>& mask, const Image<float>& radius_m) const;
+                             const Image<uint8_t>& mask, const Image<float>& radius_m,
+                             const Image<float>& unit_m) const;
 
   // map: format, wrap, cull and depth_clamp are read; the resolution is the frame's. bias: the one that the probe was
   // taken with. A part that moves the lookup costs one more ray for each tap; a polygon offset is in the exact map.

@@ -10,6 +10,8 @@
 #include "app/pictures/image_file.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "frames/frame_memory.h"
+#include "frames/map_frame.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
@@ -171,11 +173,14 @@ GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
   const std::string path = path_in(file, file.visibility);
   Image<float> visibility = read_visibility(path, file.encoding);
   const int width = visibility.width, height = visibility.height;
+  require_frame_memory(path, width, height);
   GivenFrame frame{.name = path,
                    .visibility = std::move(visibility),
                    .positions = {},
                    .view = file.view(scene, width, height),
                    .light = file.light_in(scene)};
+  if (file.map && frame.light.kind == LightKind::point)
+    refuse_picture(file.path, fmt::format("'map': {}", no_map_of_point_light));
   if (file.positions) {
     frame.receivers = GivenReceivers::positions;
     const std::string of_positions = path_in(file, *file.positions);

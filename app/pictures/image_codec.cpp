@@ -129,6 +129,9 @@ Decoded decode(const ImageToDecode& file) {
       spec.height != spec.full_height)
     throw Refused("has a data window that is not its display window; write the whole picture");
   if (spec.deep || spec.depth > 1) throw Refused("has deep pixels; write a flat picture");
+  // As stored and as floats, and the floats again where the program takes them over.
+  const double values = static_cast<double>(spec.width) * spec.height * spec.nchannels;
+  if (values * 3 * sizeof(float) > static_cast<double>(file.most_bytes)) throw Refused(too_large_to_decode);
   if (spec.format == OIIO::TypeDesc::UINT8) {
     result.stored_as = StoredAs::uint8;
     result.values = read_as<uint8_t>(*input, spec, file.format, OIIO::TypeDesc::UINT8, 255);

@@ -30,7 +30,9 @@ struct ImageToDecode {
   const char* format;  // "png" or "exr"
   const void* bytes;   // of the whole file
   size_t count;
+  uint64_t most_bytes;  // that the pixels may take while they are decoded
 };
+inline constexpr const char* too_large_to_decode = "takes more memory to decode than there is";
 
 // How the file stores its values. Others become floats.
 enum class StoredAs { uint8, uint16, half, float32 };

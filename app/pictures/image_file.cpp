@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <stdexcept>
 
 #include "app/pictures/animated_png.h"
@@ -15,6 +16,7 @@
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/memory.h"
 
 namespace noonmark {
 namespace {
@@ -133,8 +135,17 @@ auto rows_of(const Image<Color>& picture) {
 
 void require_image_files() { encoder(); }
 
+void require_image_memory(const std::string& path, double bytes) {
+  if (const AvailableMemory available = available_memory(); bytes > static_cast<double>(available.bytes))
+    throw Error(ErrorKind::file, fmt::format("{}: takes {} of memory to read, and {}; write a smaller picture", path,
+                                             bytes_text(bytes), available.text()));
+}
+
 DecodedImage read_image(const std::string& path) {
   constexpr uint64_t of_a_pixel = 64, of_the_head = uint64_t{16} << 20;  // more than any picture of three floats
+  std::error_code none;
+  if (const std::uintmax_t size = std::filesystem::file_size(path, none); !none)
+    require_image_memory(path, static_cast<double>(size));
   const std::string bytes = read_file(path, of_the_head + of_a_pixel * most_image_pixels);
   if (is_npy(bytes)) return read_npy(path, bytes);
   const char* const format = bytes.starts_with("\x89PNG\r\n\x1a\n")  ? "png"
@@ -150,7 +161,8 @@ DecodedImage read_image(const std::string& path) {
   result.image.path = path;
   DecodeImage& decode = decoder();
   const Quiet quiet;
-  decode({format, bytes.data(), bytes.size()}, &result,
+  const AvailableMemory available = available_memory();
+  decode({format, bytes.data(), bytes.size(), available.bytes}, &result,
          [](void* context, const DecodedPixels* pixels, const char* why) {
            Result& into = *static_cast<Result*>(context);
            if (!pixels) {
@@ -165,6 +177,8 @@ DecodedImage read_image(const std::string& path) {
            image.stored_as = pixels->stored_as;
            image.values.assign(pixels->values, pixels->values + image.pixels() * image.channels.size());
          });
+  if (result.why == too_large_to_decode)
+    result.why = fmt::format("{}, and {}; write a smaller picture", too_large_to_decode, available.text());
   if (!result.why.empty()) throw Error(ErrorKind::file, fmt::format("{}: {}", path, result.why));
   return std::move(result.image);
 }

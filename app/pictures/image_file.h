@@ -55,8 +55,11 @@ struct DecodedImage {
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
 
+// Throws Error(file) if the program cannot take so many bytes to read the picture.
+void require_image_memory(const std::string& path, double bytes);
+
 // Reads a PNG or an EXR file, or the array of a NPY file (app/pictures/npy.h). Throws Error(file) if the file is something
-// else, or has more than most_image_pixels pixels.
+// else, has more than most_image_pixels pixels, or takes more memory than there is.
 inline constexpr uint64_t most_image_pixels = uint64_t{1} << 28;
 DecodedImage read_image(const std::string& path);
 

@@ -75,6 +75,7 @@ DecodedImage read_npy(const std::string& path, std::string_view bytes) {
       refuse(fmt::format("has {} bytes of data where its shape needs {}; write it again", bytes.size() - begin,
                          count * sizeof(T)));
     image.stored_as = stored_as;
+    require_image_memory(path, static_cast<double>(count) * sizeof(float));
     image.values.resize(count);
     for (size_t i = 0; i < count; ++i) image.values[i] = value(little_endian<T>(bytes, begin + i * sizeof(T)));
   };

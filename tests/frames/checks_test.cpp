@@ -1,42 +1,21 @@
 // Each wrong delivery is made from a good frame, and is named.
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <string>
 
 #include "base/error.h"
 #include "frames/check_statistics.h"
-#include "tests/frames/good_frame.h"
+#include "frames/frame_memory.h"
+#include "tests/frames/wrong_delivery.h"
 
 namespace noonmark::test {
 namespace {
-
-constexpr int width = 480, height = 270;
-
-const Delivered& good() {
-  static const Delivered made = good_frame("cube-room", width, height);
-  return made;
-}
-
-Image<float> flipped_picture(const Image<float>& v, bool x_too, bool y_too) {
-  Image<float> result = v;
-  for (int y = 0; y < v.height; ++y)
-    for (int x = 0; x < v.width; ++x) result.at(x, y) = v.at(x_too ? v.width - 1 - x : x, y_too ? v.height - 1 - y : y);
-  return result;
-}
 
 // Rows moved down; the first row stays.
 Image<float> a_row_down(const Image<float>& v) {
   Image<float> result = v;
   for (int y = 1; y < v.height; ++y)
     for (int x = 0; x < v.width; ++x) result.at(x, y) = v.at(x, y - 1);
-  return result;
-}
-
-Image<float> each_value(const Image<float>& v, const std::function<float(float)>& f) {
-  Image<float> result = v;
-  for (float& value : result.pixels)
-    if (!std::isnan(value)) value = f(value);
   return result;
 }
 
@@ -64,25 +43,6 @@ glm::dmat4 shifted_by(double x_px, double y_px) {
   m[3][0] = 2 * x_px / width;
   m[3][1] = -2 * y_px / height;
   return m;
-}
-
-void expect_named(const GivenFrame& frame, std::string_view check, std::string_view words) {
-  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
-  EXPECT_TRUE(verdict.refused());
-  const CheckResult& found = check_named(verdict, check);
-  EXPECT_EQ(found.state, CheckState::failed) << found.says;
-  EXPECT_NE(found.says.find(words), std::string::npos) << found.says;
-  const FrameVerdict accepted = judge_frame(
-      *good().scene, *good().tracer, frame,
-      {.accepted = {"values", "coverage", "inverted", "shaded", "intensity", "match", "encoding", "positions"}});
-  EXPECT_FALSE(accepted.refused());
-  EXPECT_TRUE(check_named(accepted, check).accepted) << "and the report says so";
-}
-
-GivenFrame with(const Image<float>& visibility) {
-  GivenFrame frame = good().frame;
-  frame.visibility = visibility;
-  return frame;
 }
 
 TEST(Checks, AGoodFramePassesAll) {
@@ -216,22 +176,6 @@ TEST(Checks, ResolvedMultisamplingIsNamed) {
   expect_named(frame, "values", "multisampling");
 }
 
-Image<glm::dvec3> positions_of(const Delivered& from) {
-  Image<glm::dvec3> positions(width, height, glm::dvec3(no_surface));
-  for (size_t i = 0; i < positions.size(); ++i)
-    if (from.receivers.primitive[i] != no_primitive) positions[i] = from.receivers.position[i];
-  return positions;
-}
-
-GivenFrame with_positions(const std::function<glm::dvec3(glm::dvec3)>& f) {
-  GivenFrame frame = good().frame;
-  frame.receivers = GivenReceivers::positions;
-  frame.positions = positions_of(good());
-  for (glm::dvec3& p : frame.positions.pixels)
-    if (!std::isnan(p.x)) p = f(p);
-  return frame;
-}
-
 // Rounded to a half float: 11 bits, and multiples of 2^-24 where the value is small.
 double as_half(double value) {
   int exponent = 0;
@@ -260,6 +204,54 @@ TEST(Checks, HalfIsKnownByItsBits) {
   for (const double value : {0.0, 1.0, 1 + 0x1p-10, 65504.0, 0x1p-24, -0.333251953125})
     EXPECT_TRUE(is_half(value)) << value;
   for (const double value : {1 + 0x1p-11, 65536.0 * 2, 0x1p-25, 1.0 / 3}) EXPECT_FALSE(is_half(value)) << value;
+}
+
+// Depths of a buffer whose matrix was declared with near and far exchanged.
+TEST(Checks, ReversedDepthsAreNamed) {
+  GivenFrame frame = with_positions([](glm::dvec3 p) { return p; });
+  frame.receivers = GivenReceivers::depth;
+  glm::dmat4 turned(1);
+  turned[2][2] = -1;
+  frame.view = ViewMatrix(turned * frame.view.clip_from_world());
+  expect_named(frame, "positions", "'reversed'");
+  for (const CheckResult& one : judge_frame(*good().scene, *good().tracer, frame, {}).checks)
+    EXPECT_EQ(one.state == CheckState::failed, one.name == "positions") << one.name << ": " << one.says;
+}
+
+// Without a far plane such a camera's rays would begin at infinity.
+TEST(Checks, ReversedDepthsWithoutAFarPlaneAreAnError) {
+  GivenFrame frame = good().frame;
+  const glm::dmat4 endless =
+      glm::transpose(glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.2, 0, 0, -1, 0));  // z: w - 0.2
+  frame.view = ViewMatrix(endless);
+  EXPECT_TRUE(judge_frame(*good().scene, *good().tracer, frame, {}).refused());
+}
+
+// Nothing is shown but what is in shadow: what compares it with light has nothing to compare.
+TEST(Checks, WhatHasTooFewPixelsIsNotChecked) {
+  GivenFrame frame = good().frame;
+  for (size_t i = 0; i < frame.visibility.size(); ++i)
+    if (good().truth.lit[i]) frame.visibility[i] = no_surface;
+  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
+  for (const char* name : {"inverted", "match"}) {
+    EXPECT_EQ(check_named(verdict, name).state, CheckState::not_checked) << name;
+    EXPECT_NE(check_named(verdict, name).says.find("0 pixels are deep in true light"), std::string::npos)
+        << check_named(verdict, name).says;
+  }
+  for (const CheckResult& check : verdict.checks)
+    EXPECT_EQ(check.says.find("nan"), std::string::npos) << check.name << ": " << check.says;
+}
+
+TEST(Checks, AFrameThatDoesNotFitIntoMemoryIsRefused) {
+  require_frame_memory("V.exr", 100, 100, {1'000'000'000, "a test"});
+  try {
+    require_frame_memory("V.exr", 100'000, 50'000, {1'000'000'000, "a test"});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::file);
+    for (const char* words : {"V.exr", "100000 x 50000", "1.0 GB are available (a test)", "smaller picture"})
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
 }
 
 TEST(Checks, AnUnknownNameSuggestsOne) {

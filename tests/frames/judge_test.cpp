@@ -87,6 +87,30 @@ TEST(Judge, AnEdgeIsNearWithinItsDistanceAndNotBeyond) {
   EXPECT_GT(far, 200);
 }
 
+// A pixel that is near an edge within one distance is near it within any larger one. Wires are thinner than what the places on a
+// ring of a large radius tell apart.
+TEST(Judge, WhatIsNearAnEdgeIsNearItWithinAnyLargerDistance) {
+  Delivered inverted = good_frame("fence", 80, 45, 0);
+  for (float& v : inverted.frame.visibility.pixels)
+    if (!std::isnan(v)) v = 1 - v;
+  std::vector<uint8_t> before(inverted.frame.visibility.size(), 0);
+  size_t near_before = 0;
+  for (const double pixels : {0.1, 0.3, 0.7, 1.0, 1.3, 2.0, 2.9, 5.0, 11.0, 30.0}) {
+    const FrameVerdict verdict =
+        inverted.judged({.edge_pixels = pixels, .accepted = {"inverted", "match", "alignment", "coverage"}});
+    size_t near = 0;
+    for (size_t i = 0; i < before.size(); ++i) {
+      const bool is_edge = verdict.classes[i] == FrameClass::edge;
+      EXPECT_TRUE(is_edge || !before[i]) << "pixel " << i << " at " << pixels;
+      before[i] = is_edge;
+      near += is_edge;
+    }
+    EXPECT_GE(near, near_before);
+    near_before = near;
+  }
+  EXPECT_GT(near_before, 300u);
+}
+
 // All of the shadow is lit: the occluder is half a metre and more above the floor.
 TEST(Judge, ALeakIsAContactWhereItsOccluderIsNear) {
   Delivered leaking = good_frame("plate", 320, 180, 0);

@@ -8,7 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pictures/image_file.h"
+#include "base/error.h"
+#include "measure/given_lookup.h"
 #include "measure/workbench.h"
+#include "raytrace/tracer.h"
 #include "tests/program/fixture.h"
 
 namespace noonmark::acceptance {
@@ -196,6 +199,49 @@ TEST_F(JudgeWithMap, AMapOfAnotherSceneOrUpsideDownIsNamed) {
   refused("file", "V.exr", "only square maps are read");
   stored_.at(5, 7) = 1.5f;
   refused("first_row", "bottom", "the texel x = 5, y = 7 of the file is 1.5");
+}
+
+TEST_F(JudgeWithMap, AMapOfAPointLightIsRefused) {
+  measure({{"bias.constant", "0.002"}});
+  nlohmann::json frame = deliver({});
+  frame["light"] = {{"kind", "point"}, {"position", {0, 9, 0}}};
+  write("frame.json", frame.dump());
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
+  EXPECT_TRUE(says("frame.json: 'map': the six maps of a point light are not read; leave the map out")) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out/judge.json"));
+}
+
+// A receiver whose numbers are no numbers makes the measurement contradict itself; it does not pass as having no error.
+TEST(GivenLookupOfNaN, Fails) {
+  Workbench bench(gl::DebugMode::fatal);
+  Settings all;
+  all.view.width_px = 64;
+  all.view.height_px = 36;
+  all.map.resolution = 64;
+  const Measurement m = bench.measure(all, {});
+  const raytrace::Tracer tracer(m.scene);
+  const ReceiverTruth truth =
+      tracer.receiver_truth(m.receivers, m.technique.frame, {effective_light(m.scene, all), 0.01});
+  GivenPoint point{
+      .receivers = m.receivers,
+      .eye_m = m.camera.eye_m,
+      .truth = truth,
+      .technique = m.technique,
+      .depth = m.stored_rows(0, all.map.resolution),
+      .frame = {.name = "frame", .picture = m.ladder.shown(), .cause = "frame_lookup", .label = "Lookup", .help = ""}};
+  GivenLookup lookup(m.scene, tracer);
+  EXPECT_NO_THROW(lookup.climb(point));
+  const auto facing = std::find(truth.facing.pixels.begin(), truth.facing.pixels.end(), 1);
+  ASSERT_NE(facing, truth.facing.pixels.end());
+  point.frame.picture[static_cast<size_t>(facing - truth.facing.pixels.begin())] =
+      std::numeric_limits<float>::quiet_NaN();
+  try {
+    lookup.climb(point);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::defect);
+    EXPECT_NE(std::string(error.what()).find("residual = nan"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(JudgeWithMap, ALookupThatIsNotTheFramesIsNamed) {

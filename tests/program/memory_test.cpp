@@ -1,4 +1,5 @@
 // The memory that measurements really need, compared with the prediction. A run that would not fit must not begin.
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -214,6 +215,26 @@ TEST_F(Memory, APointThatDoesNotFitIsRefusedBeforeAnyIsMeasured) {
   EXPECT_EQ(run_within(space, {"render", file, "--point", "1", "--out", "out"}), 2) << output_;
   EXPECT_TRUE(says("lower map.resolution")) << output_;
   EXPECT_EQ(run_within(space, {"run", file, "--out", "small", "--set", "map.resolution=64"}), 0) << output_;
+}
+
+// The visibility of a frame as an NPY file whose bytes are not on the disk. The file, its values and the images that judge it are
+// each refused before they are made.
+TEST_F(Memory, AFrameThatDoesNotFitIsRefused) {
+  const auto picture = [&](int side) {
+    std::string header = fmt::format("{{'descr': '|u1', 'fortran_order': False, 'shape': ({0}, {0}), }}", side);
+    header.resize(118, ' ');
+    std::ofstream(folder_ / "V.npy", std::ios::binary) << "\x93NUMPY" << std::string("\1\0\x76\0", 4) << header;
+    fs::resize_file(folder_ / "V.npy", 128 + static_cast<uintmax_t>(side) * static_cast<uintmax_t>(side));
+    return std::vector<std::string>{"judge", "cube-room", "--picture", "V.npy", "--out", "out"};
+  };
+  const rlim_t space = rlim_t{900} << 20;
+  for (const auto& [side, words] : {std::pair(4000, "to judge 4000 x 4000 pixels takes"), {15000, "to read, and"}}) {
+    EXPECT_EQ(run_within(space, picture(side)), 3) << output_;
+    EXPECT_TRUE(says(words)) << output_;
+    EXPECT_TRUE(says("V.npy")) << output_;
+    EXPECT_TRUE(says("are available")) << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "out/judge.json"));
+  }
 }
 
 // At every limit of address space, a sweep is either refused before its first point or measured completely, and a dry

@@ -1,0 +1,175 @@
+#include "frames/alignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frames/check_statistics.h"
+
+namespace noonmark {
+namespace {
+
+// A difference of a few pixels is explained by nothing.
+constexpr size_t least_differing = 8;
+
+bool has_both(const Coverage& coverage) {
+  const auto [least, most] = std::minmax_element(coverage.pixels.begin(), coverage.pixels.end());
+  return coverage.size() > 0 && *least != *most;
+}
+
+// What of `moved` lies at each pixel when the picture was shifted back. The border, which nothing is moved to, is left out.
+size_t differing_after(const Coverage& moved, const Coverage& fixed, glm::ivec2 shift) {
+  size_t count = 0;
+  for (int y = std::max(0, -shift.y); y < fixed.height - std::max(0, shift.y); ++y)
+    for (int x = std::max(0, -shift.x); x < fixed.width - std::max(0, shift.x); ++x)
+      count += moved.at(x + shift.x, y + shift.y) != fixed.at(x, y);
+  return count;
+}
+
+}  // namespace
+
+std::optional<SurfaceAlignment> surface_alignment(const GivenFrame& frame) {
+  if (frame.receivers == GivenReceivers::none) return std::nullopt;
+  const int width = frame.visibility.width, height = frame.visibility.height;
+  Coverage shown(width, height), given(width, height);
+  for (size_t i = 0; i < shown.size(); ++i) {
+    shown[i] = !std::isnan(frame.visibility[i]);
+    given[i] = std::isfinite(frame.positions[i].x);
+  }
+  if (!has_both(shown) || !has_both(given)) return std::nullopt;
+  SurfaceAlignment found{.differing = differing(shown, given)};
+  found.left = found.differing;
+  if (found.differing < least_differing) return found;
+  for (const Flip& flip : flips)
+    if (const size_t left = differing(flipped(shown, flip.left_to_right, flip.upside_down), given);
+        left * 10 < found.differing && left < found.left)
+      found.flip = &flip, found.left = left;
+  if (found.flip) return found;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x)
+      if (const size_t left = differing_after(shown, given, {x, y});
+          left * 10 < found.differing * 3 && left < found.left)
+        found.shift = {x, y}, found.left = left;
+  return found;
+}
+
+ValueAlignment value_alignment(const GivenFrame& frame, const ReceiverTruth& truth) {
+  const Image<float>& v = frame.visibility;
+  ValueAlignment found;
+  for (size_t k = 0; k < flips.size(); ++k) {
+    ValueAlignment::Compared& sum = found.by_flip[k];
+    for (int y = 0; y < v.height; ++y)
+      for (int x = 0; x < v.width; ++x) {
+        const size_t i = v.index(x, y);
+        const float here = v[i], there = v.at(flips[k].left_to_right ? v.width - 1 - x : x,
+                                              flips[k].upside_down ? v.height - 1 - y : y);
+        if (!truth.facing[i] || truth.ambiguous[i] || std::isnan(here) || std::isnan(there)) continue;
+        ++sum.count;
+        sum.delivered += std::abs(here - truth.soft[i]);
+        sum.flipped += std::abs(there - truth.soft[i]);
+      }
+    if (sum.count == 0) continue;
+    sum.delivered /= static_cast<double>(sum.count);
+    sum.flipped /= static_cast<double>(sum.count);
+  }
+  return found;
+}
+
+const Flip* ValueAlignment::flip() const {
+  // So many pixels must be wrong that no small shadow decides.
+  constexpr double least_wrong_pixels = 100;
+  const Flip* best = nullptr;
+  double least = 1;
+  for (size_t k = 0; k < flips.size(); ++k) {
+    const Compared& c = by_flip[k];
+    if (c.delivered * static_cast<double>(c.count) >= least_wrong_pixels && 3 * c.flipped < c.delivered &&
+        c.flipped < least) {
+      best = &flips[k];
+      least = c.flipped;
+    }
+  }
+  return best;
+}
+
+OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage& receivers,
+                                   const ReceiverTruth& truth) {
+  const int width = frame.visibility.width, height = frame.visibility.height;
+  const Image<float> pixel_m = pixel_width_m(frame.view, receivers);
+  const auto apart = [&](size_t a, size_t b) {
+    const glm::dvec3 way = glm::dvec3(receivers.position[b]) - glm::dvec3(receivers.position[a]);
+    const double least = OutlineAlignment::apart_px * std::max(pixel_m[a], pixel_m[b]);
+    return std::abs(glm::dot(glm::dvec3(receivers.normal[a]), way)) > least &&
+           std::abs(glm::dot(glm::dvec3(receivers.normal[b]), way)) > least;
+  };
+  // Whether all receivers nearby that may lie on the pixel's own surface have its truth.
+  const auto is_whole = [&](int x, int y) {
+    constexpr int reach = OutlineAlignment::outline_reach_px;
+    const size_t i = truth.lit.index(x, y);
+    for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v)
+      for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u) {
+        const size_t j = truth.lit.index(u, v);
+        if (receivers.primitive[j] == no_primitive || apart(i, j)) continue;
+        if (!truth.facing[j] || truth.ambiguous[j] || truth.soft[j] != truth.soft[i]) return false;
+      }
+    return true;
+  };
+  OutlineAlignment found;
+  // 0: not known yet, 1: whole, 2: not
+  Image<uint8_t> known(width, height, 0);
+  const auto whole = [&](int x, int y) {
+    uint8_t& state = known.at(x, y);
+    if (state == 0) state = is_whole(x, y) ? 1 : 2;
+    return state == 1;
+  };
+  const auto book = [&](OutlineAlignment::Side& side, int x, int y, int u, int v) {
+    if (u < 0 || v < 0 || u >= width || v >= height) return;
+    const size_t i = truth.lit.index(x, y), j = truth.lit.index(u, v);
+    if (receivers.primitive[j] == no_primitive || std::abs(truth.soft[i] - truth.soft[j]) != 1 || !apart(i, j)) return;
+    if (!whole(x, y) || !whole(u, v)) return;
+    const double wrong = std::abs(frame.visibility[i] - truth.soft[i]);
+    if (truth.soft[i] == 1)
+      ++side.lit, side.lit_wrong += wrong;
+    else
+      ++side.dark, side.dark_wrong += wrong;
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (const size_t i = truth.lit.index(x, y);
+          receivers.primitive[i] == no_primitive || std::isnan(frame.visibility[i]))
+        continue;
+      book(found.left, x, y, x - 1, y);
+      book(found.right, x, y, x + 1, y);
+      book(found.above, x, y, x, y - 1);
+      book(found.below, x, y, x, y + 1);
+    }
+  for (OutlineAlignment::Side* side : {&found.left, &found.right, &found.above, &found.below}) {
+    side->lit_wrong /= static_cast<double>(std::max<size_t>(1, side->lit));
+    side->dark_wrong /= static_cast<double>(std::max<size_t>(1, side->dark));
+  }
+  return found;
+}
+
+glm::ivec2 OutlineAlignment::shift() const {
+  const auto along = [](const Side& before, const Side& after) {
+    if (!before.told() || !after.told()) return 0;
+    if (before.of_neighbour() && after.of_itself()) return 1;
+    return after.of_neighbour() && before.of_itself() ? -1 : 0;
+  };
+  return {along(left, right), along(above, below)};
+}
+
+Image<float> pixel_width_m(const ViewMatrix& view, const ReceiverImage& receivers) {
+  const int width = receivers.width(), height = receivers.height();
+  Image<float> size(width, height, 0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const size_t i = size.index(x, y);
+      if (receivers.primitive[i] == no_primitive) continue;
+      const double depth = view.pixel_of(receivers.position[i], width, height).z;
+      const glm::dvec3 here = view.world_at(x, y, depth, width, height);
+      size[i] = static_cast<float>(std::max(glm::length(view.world_at(x + 1, y, depth, width, height) - here),
+                                            glm::length(view.world_at(x, y + 1, depth, width, height) - here)));
+    }
+  return size;
+}
+
+}  // namespace noonmark

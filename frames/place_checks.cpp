@@ -1,0 +1,219 @@
+// The checks of where the frame's pixels are: its positions, its visibility beside them, and its coverage.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "frames/alignment.h"
+#include "frames/check_outcome.h"
+
+namespace noonmark {
+namespace {
+
+// The largest share of receivers of given positions that may project outside their own pixel, or lie off the scene.
+constexpr double most_stray = 0.01;
+
+// Whether the given receivers are what the camera sees if near and far are exchanged, and not what it sees as declared. Rays
+// of such a camera go the wrong way: they find the surface that is hidden by all others. Only pixels tell it whose first and
+// last surface lie apart.
+bool is_reversed(const CheckEvidence& e) {
+  size_t other = 0;
+  for (size_t i = 0; i < e.seen.size(); ++i)
+    other += e.receivers.primitive[i] != no_primitive && e.receivers.primitive[i] != e.seen[i];
+  if (other < enough) return false;
+  glm::dmat4 exchanged(1);
+  exchanged[2][2] = -1;
+  const ViewMatrix turned(exchanged * e.frame.view.clip_from_world());
+  const ReceiverImage first = resolve_receivers(e.scene, e.frame.view, e.seen),
+                      last = resolve_receivers(e.scene, turned,
+                                               e.tracer.seen_primitives(turned, e.seen.width, e.seen.height));
+  const Image<float> pixel_m = pixel_width_m(e.frame.view, first);
+  size_t of_first = 0, of_last = 0;
+  for (size_t i = 0; i < e.seen.size(); ++i) {
+    const glm::dvec3 p = e.frame.positions[i], a(first.position[i]), b(last.position[i]);
+    if (first.primitive[i] == no_primitive || last.primitive[i] == no_primitive || !std::isfinite(p.x)) continue;
+    if (!(glm::length(a - b) > OutlineAlignment::apart_px * pixel_m[i])) continue;
+    of_first += glm::length(p - a) < pixel_m[i];
+    of_last += glm::length(p - b) < pixel_m[i];
+  }
+  return of_last >= enough && of_first * 10 < of_last;
+}
+
+// Good frames of five renderers differ by 0.3% to 1% of the pixels on the scene's outline, frames that are half a pixel
+// off by 16% and more.
+constexpr double most_of_outline = 0.05;
+
+bool covers(const Coverage& of_frame, const Coverage& of_scene) {
+  return static_cast<double>(differing(of_frame, of_scene)) <=
+         most_of_outline * static_cast<double>(outline_pixels(of_scene)) + 8;
+}
+bool covers(const CheckEvidence& e) { return covers(coverage_of_frame(e.frame), coverage_of(e.seen)); }
+
+// What the checks below say of a picture in another place.
+constexpr std::string_view misplaced = "the picture is flipped or shifted";
+
+}  // namespace
+
+Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
+  if (e.frame.receivers == GivenReceivers::none)
+    return not_checked(
+        "no positions or depths were given: the receivers are those of rays through the pixels' centres");
+  const int width = e.frame.visibility.width, height = e.frame.visibility.height;
+  std::vector<double> off_x, off_y, off, moved, size;
+  size_t half = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const size_t i = e.moved_m.index(x, y);
+      const glm::dvec3 p = e.frame.positions[i];
+      if (!std::isfinite(p.x)) continue;
+      const glm::dvec3 at = e.frame.view.pixel_of(p, width, height);
+      off_x.push_back(at.x - (x + 0.5));
+      off_y.push_back(at.y - (y + 0.5));
+      off.push_back(std::hypot(off_x.back(), off_y.back()));
+      moved.push_back(e.moved_m[i]);
+      size.push_back(glm::length(p));
+      half += is_half(p.x) && is_half(p.y) && is_half(p.z);
+    }
+  if (moved.empty()) return failed("no pixel has a position; write the world position of every pixel with a surface");
+  const auto count = static_cast<double>(moved.size());
+  const double median_size = quantile(size, 0.5), median_moved = quantile(moved, 0.5);
+  // A half float has 11 bits. Positions that are halves by chance, as on a grid of powers of two, have no rounding that moves
+  // them in the picture.
+  if (e.frame.receivers == GivenReceivers::positions && static_cast<double>(half) == count &&
+      quantile(off, 0.95) > 0.01)
+    return failed(
+        fmt::format("every position is a half float, which puts one of twenty more than {:.2g} pixels beside its "
+                    "place: write the positions as 32-bit floats",
+                    quantile(off, 0.95)));
+  const double dx = quantile(off_x, 0.5), dy = quantile(off_y, 0.5);
+  if (std::hypot(dx, dy) > 0.1)
+    return failed(
+        fmt::format("half of the positions lie more than ({:+.2f}, {:+.2f}) pixels (x to the right, y down) from "
+                    "the centre of their pixel: the camera is another one, or the picture is shifted, flipped or "
+                    "jittered",
+                    dx, dy));
+  if (is_reversed(e))
+    return failed(
+        "where a surface hides another, the positions are the hidden one's: the depths are reversed, so check the "
+        "camera's 'reversed'; or the frame does not draw what hides it",
+        "the camera's depths are reversed, or surfaces are missing");
+  const double stray = static_cast<double>(std::count_if(moved.begin(), moved.end(),
+                                                         [&](double m) { return m > 0x1p-12 * median_size; })) /
+                       count;
+  if (stray > most_stray)
+    return failed(
+        fmt::format("{:.1f}% of the positions lie off the scene, half of all by more than {:.2g} m: the scene, its "
+                    "pose, its unit or its axes are others",
+                    100 * stray, median_moved));
+  return passed(
+      fmt::format("positions lie on the scene (half of them within {:.1g} m) and in their own pixels (off by "
+                  "({:+.3f}, {:+.3f}) in the median)",
+                  median_moved, dx, dy));
+}
+
+Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
+  const std::optional<SurfaceAlignment> surfaces = surface_alignment(e.frame);
+  if (surfaces && surfaces->misplaced()) {
+    const std::string found =
+        fmt::format("{} pixels have a surface in the visibility or in the receivers alone", surfaces->differing);
+    return failed(surfaces->flip ? fmt::format("{}, and {} if the visibility is {}: write both the same way up", found,
+                                               surfaces->left, surfaces->flip->says)
+                                 : fmt::format("{}, and {} if the visibility is moved back by ({:+d}, {:+d}) pixels (x "
+                                               "to the right, y down): it is shifted against them",
+                                               found, surfaces->left, surfaces->shift.x, surfaces->shift.y),
+                  misplaced);
+  }
+  if (e.frame.marks_no_surface && e.frame.receivers == GivenReceivers::none && !covers(e))
+    return not_checked("the surfaces of the picture are not where the scene has them: see coverage");
+  // A shift first: of a scene that is almost symmetric, the picture that is shifted is almost the one that is flipped.
+  const OutlineAlignment outlines = outline_alignment(e.frame, e.receivers, e.truth);
+  if (const glm::ivec2 shift = outlines.shift(); shift != glm::ivec2(0))
+    return failed(
+        fmt::format("at the outlines of surfaces the pixels on one side have the visibility of the surface behind the "
+                    "outline, and those on the other side their own: the "
+                    "visibility is shifted by a pixel or more towards ({:+d}, {:+d}) (x to the right, y down)",
+                    shift.x, shift.y),
+        misplaced);
+  const ValueAlignment values = value_alignment(e.frame, e.truth);
+  const auto least = std::min_element(values.by_flip.begin(), values.by_flip.end(),
+                                      [](const auto& a, const auto& b) { return a.flipped < b.flipped; });
+  if (least->count < enough)
+    return not_checked(
+        fmt::format("{} receivers face the light and have a visibility both as delivered and flipped; {} are needed",
+                    least->count, enough));
+  if (const Flip* const flip = values.flip()) {
+    const ValueAlignment::Compared& c = values.by_flip[static_cast<size_t>(flip - flips.data())];
+    return failed(
+        fmt::format("the visibility differs from the truth by {:.3f} in the mean as delivered, and by {:.3f} if it is "
+                    "{}: it is {}, or the light is mirrored",
+                    c.delivered, c.flipped, flip->says, flip->says),
+        misplaced);
+  }
+  const std::string not_flipped = fmt::format(
+      "the visibility differs from the truth by {:.3f} in the mean as delivered, flipped by {:.3f} at least",
+      least->delivered, least->flipped);
+  if (surfaces)
+    return passed(fmt::format("{}; {} pixels have a surface in the visibility or in the receivers alone", not_flipped,
+                              surfaces->differing));
+  // The check of the coverage sees a shift by the scene's outline.
+  if (e.frame.marks_no_surface && e.frame.receivers == GivenReceivers::none) return passed(not_flipped);
+  if (outlines.told_x() && outlines.told_y())
+    return passed(not_flipped + ", and at the outlines of surfaces every side has its own visibility");
+  size_t fewest = std::numeric_limits<size_t>::max();
+  for (const OutlineAlignment::Side* side : {&outlines.left, &outlines.right, &outlines.above, &outlines.below})
+    fewest = std::min({fewest, side->lit, side->dark});
+  return not_checked(
+      fmt::format("{}; a shift of a pixel cannot be seen: no pixel is without a surface, and where a lit and a "
+                  "shadowed surface meet that "
+                  "lie apart in depth, one of the sides has {} pixels, and {} are needed",
+                  not_flipped, fewest, OutlineAlignment::enough));
+}
+
+Outcome check_coverage(const CheckEvidence& e, const FrameStatistics&) {
+  if (!e.frame.marks_no_surface)
+    return not_checked(
+        "no pixel says that it has no surface (-1, NaN, or alpha 0): a wrong camera or a shift of the picture "
+        "cannot be seen here");
+  const Coverage of_frame = coverage_of_frame(e.frame), of_scene = coverage_of(e.seen);
+  const size_t outline = outline_pixels(of_scene);
+  const size_t differ = differing(of_frame, of_scene);
+  if (covers(of_frame, of_scene))
+    return passed(
+        fmt::format("{} of {} pixels have a surface in the frame or in the scene alone; its outline has {} pixels",
+                    differ, of_scene.size(), outline));
+  const std::string found = fmt::format(
+      "{} of {} pixels have a surface in the frame or in the scene alone, and the scene's outline has {} pixels",
+      differ, of_scene.size(), outline);
+  // The flip that explains most must explain nine tenths. A shift must explain three tenths: the row that it brings in at
+  // the border of the picture stays.
+  size_t least = differ;
+  const char* flip = "";
+  for (const Flip& one : flips)
+    if (const size_t left = differing(flipped(of_frame, one.left_to_right, one.upside_down), of_scene); left < least) {
+      least = left;
+      flip = one.says;
+    }
+  if (least * 10 < differ) return failed(fmt::format("{}: the picture is {}", found, flip), misplaced);
+  const Shift shift = best_shift(e.tracer, e.frame.view, of_frame, of_scene);
+  if (shift.differing * 10 < differ * 7 && shift.pixels != glm::dvec2(0)) {
+    const bool halves = shift.pixels.x != std::round(shift.pixels.x) || shift.pixels.y != std::round(shift.pixels.y);
+    return failed(fmt::format(
+        "{}: a shift of ({:+g}, {:+g}) pixels (x to the right, y down) leaves {} of them, so {}", found, shift.pixels.x,
+        shift.pixels.y, shift.differing,
+        halves ? "it is one of these two: samples are not at the pixels' centres, or multisampling was resolved"
+               : "rows or columns are missing or doubled"));
+  }
+  const size_t lost = lost_surfaces(of_frame, of_scene);
+  if (lost * 10 > differ * 9)
+    return failed(
+        fmt::format("{}, nearly all of them where only the scene has one: multisampling was resolved, or surfaces "
+                    "of the scene are not in the frame",
+                    found));
+  return failed(fmt::format(
+      "{}, and no flip or shift of up to a pixel explains them: the camera or the scene is another one", found));
+}
+
+}  // namespace noonmark
