@@ -396,6 +396,16 @@ TEST(Engines, TheReplacementIsSettingsLikeAnyOther) {
   EXPECT_EQ(as_engine(got, s).map.extent_m, 16);
 }
 
+// In a right-handed scene forceBackFacesOnly draws the front faces (its winding is that of a left-handed one).
+TEST(Engines, BabylonDrawsFrontFacesIntoItsMap) {
+  Settings s = constant_m(0.06);
+  s.map.cull = CulledFaces::back;
+  EXPECT_NE(joined(advice(s, "Babylon.js").lines).find("forceBackFacesOnly = true"), std::string::npos);
+  s.map.cull = CulledFaces::front;
+  EXPECT_NE(joined(advice(s, "Babylon.js").lines).find("forceBackFacesOnly = false"), std::string::npos);
+  EXPECT_EQ(advice(s, "Babylon.js").emulated->map.cull, CulledFaces::back);
+}
+
 // What URP does: its own extent and power of two, one linear fetch, 16 bits, and the polygon offset that is always on. That
 // gives 2.5 w max(|cos|, |sin|) t, at least 1.25 w A t, more than the k w A t of one linear fetch: no normal bias is left.
 TEST(Engines, AnEngineThatFitsItsMapIsEmulatedWithIt) {

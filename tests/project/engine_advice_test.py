@@ -19,23 +19,20 @@ SKIP = 77
 # so of the some 2000 pixels at edges a few differ: 0.02 points are 10 of 50000 counted pixels.
 SAME = 0.0002
 GIVEN = {"view.width_px": "320", "view.height_px": "180", "view.eye_m": "-6,7,-6", "view.target_m": "-1,0,-1", "view.fov_deg": "45",
-        "light.position_m": "4,8,3", "light.target_m": "0,0,0", "map.fit": "tight",
+        "map.fit": "tight",
         # An offset that neither engine has a field for, so that what replaces it is pasted.
         "map.resolution": "1024", "filter.kind": "none", "bias.unit": "m", "bias.normal_offset_axes": "0.5", "bias.constant": "0.000001"}
-# Of each engine: its page, its package, and what is changed in the page. First its own light gets a parent that is turned, and is
-# drawn once, as in a running page; then the lines are pasted.
+# Of each engine: its page, its package, and what is changed in the page: it is drawn once with the light that the file has, which is a
+# child of a node, as in a running page; then the lines are pasted. Its own map is not declared, because the page tells that of its own bias.
 PAGES = {
     "three.js": ("three", "three", [
-        ("scene.add(light, light.target);",
-         "const node = new THREE.Group(); node.rotation.set(0.3, 0.5, 0.1); node.position.set(1, 2, 3);\n"
-         "node.add(light); light.add(light.target); scene.add(node); renderer.render(scene, camera);"),
-        ("const can_tell = ", "const can_tell = false && "),  # its map is not declared, because the page reads the bias before
+        ("// Pixels as floats: each mesh", "renderer.render(scene, camera);\n// Pixels as floats: each mesh"),
+        ("const can_tell = ", "const can_tell = false && "),
         ("  renderer.setRenderTarget(target);\n  renderer.setClearColor", "LINES\n  renderer.setRenderTarget(target);\n  renderer.setClearColor")]),
     "Babylon.js": ("babylon", "babylonjs", [
         ("const generator = new", "let generator = new"),
-        ("// A float picture of all meshes",
-         "light.parent = new BABYLON.TransformNode('node', scene); light.parent.rotation.set(0.3, 0.5, 0.1); light.parent.position.set(1, 2, 3);\n"
-         "scene.render();\nLINES\ngenerator = shadowGenerator;\n// A float picture of all meshes")])}
+        ("const why_none = ", "const why_none = \"the lines set the bias\" || "),
+        ("// A float picture of all meshes", "scene.render();\nLINES\ngenerator = shadowGenerator;\n// A float picture of all meshes")])}
 
 
 def skip(why):
@@ -80,7 +77,7 @@ if not runnable:
     skip(f"no engine is installed: {' '.join(lacking) or modules}")
 shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
-for name in ("shoot.mjs", "page.mjs"):
+for name in ("shoot.mjs", "page.mjs", "settings.mjs", "settings.json"):
     shutil.copy(engines / name, folder / name)
 model = folder / "room.glb"
 run([program, "export", "cube-room", "--out", str(model)])
@@ -95,15 +92,15 @@ for name, (page, _, changes) in runnable.items():
     typed = next(engine for engine in found["engines"] if engine["engine"] == name)
     settings = typed["settings"]
     (folder / page).mkdir()
+    shutil.copy(engines / page / "settings.json", folder / page / "settings.json")
     (folder / page / "page.html").write_text(page_with(page, changes, "\n".join(typed["lines"])))
     (folder / f"{page}.toml").write_text(toml_of(settings))
     run([program, "run", str(folder / f"{page}.toml"), "--out", str(folder / f"{page}-noonmark")])
     with (folder / f"{page}-noonmark/results.csv").open() as rows:
         point = {metric: float(value) for metric, value in next(csv.DictReader(rows)).items() if metric in ("error", "acne")}
-    way = ",".join(str(float(b) - float(a)) for a, b in zip(GIVEN["light.position_m"].split(","), GIVEN["light.target_m"].split(",")))
     out = folder / f"{page}-frame"
     shot = subprocess.run(["node", str(folder / "shoot.mjs"), f"{page}/page.html", str(model), str(out), "width=320", "height=180",
-                           "eye=" + GIVEN["view.eye_m"], "target=" + GIVEN["view.target_m"], "fov_y_deg=45", "direction=" + way,
+                           "eye=" + GIVEN["view.eye_m"], "target=" + GIVEN["view.target_m"], "fov_y_deg=45", "light=file",
                            "resolution=" + settings["map.resolution"]],
                           env={**os.environ, "NODE_MODULES": str(modules)}, capture_output=True, text=True)
     if shot.returncode != 0:

@@ -79,7 +79,7 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
   lines.push_back(fmt::format(
       "const shadowGenerator = new BABYLON.ShadowGenerator({}, light, true);  // true: floats, not half floats",
       place.frame.resolution));
-  lines.push_back(fmt::format("shadowGenerator.forceBackFacesOnly = {};", cull == CulledFaces::front));
+  lines.push_back(fmt::format("shadowGenerator.forceBackFacesOnly = {};", cull == CulledFaces::back));
   lines.push_back("for (const mesh of scene.meshes) {");
   lines.push_back("  if (mesh.getTotalVertices() === 0) continue;  // a node of a glTF file");
   lines.push_back("  shadowGenerator.addShadowCaster(mesh, false);");
@@ -95,8 +95,11 @@ std::vector<std::string> limits(const AdvicePlace& place) {
   if (place.kind() != LightKind::point)
     said.push_back(
         "The light's position and direction are those of a right-handed scene (scene.useRightHandedSystem).");
-  if (place.settings.map.cull != CulledFaces::front)
-    said.push_back("map.cull: shadowGenerator can only force back faces; otherwise each material's own culling holds.");
+  said.push_back(fmt::format(
+      "map.cull = {}: forceBackFacesOnly of 9.35 draws the front faces alone in a right-handed scene; otherwise each "
+      "material's own culling holds. The error is measured with front faces alone, as of a glTF file's materials with "
+      "one side.",
+      find_setting("map.cull").get(place.settings)));
   if (place.kind() == LightKind::point)
     said.push_back(
         "A point light has no PCF here: its cube map is read by one tap, or by 4 Poisson taps in the world.");
@@ -117,7 +120,10 @@ Engine babylon_js() {
       filter,
       map_lines,
       limits,
-      {"map.cull", "map.fov_deg"}};
+      {"map.cull", "map.fov_deg"},
+      nullptr,
+      {},
+      [](Settings& settings) { settings.map.cull = CulledFaces::back; }};
 }
 
 }  // namespace noonmark
