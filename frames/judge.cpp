@@ -173,6 +173,11 @@ FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, con
   for (CheckResult& check : verdict.checks) check.accepted = rules.accepted.contains(std::string(check.name));
   classify(tracer, frame, rules, verdict);
   measure(verdict);
+  if (verdict.metrics.at("counted") == 0 && !verdict.refused())
+    throw Error(ErrorKind::file,
+                fmt::format("{}: nothing can be judged: {:.0f} receivers, of which {:.0f} face the light, and none of "
+                            "these has a visibility and a certain truth; check the light's direction and the picture",
+                            frame.name, verdict.metrics.at("receivers"), verdict.metrics.at("facing")));
   return verdict;
 }
 

@@ -199,6 +199,19 @@ TEST(Judge, PixelsThatTheFrameLeavesOutAreNotCounted) {
   EXPECT_EQ(holed.judged({.accepted = {"coverage"}}).metrics.at("counted"), all - holes);
 }
 
+// A light from below the floor: no number would say anything.
+TEST(Judge, AFrameWithoutAReceiverThatFacesTheLightIsRefused) {
+  Delivered below = good_frame("plate", 160, 90, 0);
+  below.frame.light.target_m = below.frame.light.position_m + glm::dvec3(0, 1, 0);
+  try {
+    below.judged();
+    ADD_FAILURE() << "it was judged";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::file);
+    EXPECT_NE(std::string(error.what()).find("of which 0 face the light"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Judge, SizesMustAgree) {
   Delivered other = good_frame("plate", 160, 90, 0);
   other.frame.receivers = GivenReceivers::positions;
