@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "scenes/builtin.h"
+#include "scenes/surfaces.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {
@@ -228,7 +229,8 @@ TEST(Placements, SheetsWithinTheErrorOfARayAreNoDisagreement) {
       auto tracer = std::make_unique<raytrace::Tracer>(*scene);
       renderer.load_scene(*scene);
       const uint64_t open_edges = tracer->open_edges();
-      return {std::move(scene), "sheets", std::move(tracer), open_edges};
+      std::vector<uint32_t> surfaces = surfaces_of(*scene);
+      return {std::move(scene), "sheets", std::move(tracer), open_edges, std::move(surfaces)};
     }
   };
   Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<Sheets>());
