@@ -248,6 +248,20 @@ std::vector<std::string> advice_text(const Advice& advice) {
   return lines;
 }
 
+namespace {
+
+constexpr std::string_view relied_groups[] = {"scene.", "view.", "light.", "map.", "truth."};
+
+// Whether an answer depends on a setting also where it has its default: so that another default of a later version changes no
+// answer that was written. Parts of a bias that are not there, motion and frames of others are no part of it.
+bool relies_on(std::string_view setting) {
+  if (setting == "bias.unit" || setting == "bias.reference") return true;
+  return setting == "filter.kind" || std::any_of(std::begin(relied_groups), std::end(relied_groups),
+                                                 [&](std::string_view group) { return setting.starts_with(group); });
+}
+
+}  // namespace
+
 std::string advice_experiment(const Advice& advice, const std::string& folder) {
   const Tried& answer = *advice.answer;
   std::vector<std::map<std::string, std::string>> conditions;
@@ -274,7 +288,7 @@ std::string advice_experiment(const Advice& advice, const std::string& folder) {
             std::find(values.begin(), values.end(), one) == values.end())
           values.push_back(one);
       over += fmt::format("{} = [{}]\n", name, fmt::join(values, ", "));
-    } else if (name != "scene.name" && value != row.get(Settings())) {
+    } else if (name != "scene.name" && (value != row.get(Settings()) || relies_on(name))) {
       if (name.substr(0, dot) != group) text += fmt::format("\n[{}]\n", group = name.substr(0, dot));
       text += fmt::format("{} = {}\n", name.substr(dot + 1), toml_value(row, value));
     }

@@ -121,7 +121,11 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_NE(text("out/recommended.html").find("map.resolution"), std::string::npos);
   EXPECT_EQ(found()["answer"]["bias"]["parameter"], "bias.tan");
   EXPECT_EQ(found()["verified"]["conditions"], 2);
+  for (const char* relied : {"format = \"24\"", "cull = \"none\"", "fit = \"scene\"", "kind = \"none\"", "wrap = "})
+    EXPECT_NE(text("out/recommended.toml").find(relied), std::string::npos)
+        << "a default that the answer relies on: " << relied;
   EXPECT_EQ(run({"check", "out/recommended.toml", "--out", "checked"}), 0) << output_;
+  EXPECT_FALSE(says("note: ")) << "nothing of it is set in vain: " << output_;
   // The report has the same text for the engines, for the same settings, also when it is made again from the store. Only
   // `recommend` measures what the lines give.
   EXPECT_EQ(found()["engines"].size(), 7u);
