@@ -93,8 +93,9 @@ void print_ladder(const Measurement& m, const char* clock) {
   print_flicker(m);
   fmt::print("\n");
   if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
-  for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
-                           "tap_residual", "rounding_excess"})
+  for (const char* name :
+       {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "edge_displacement_mean_pixels",
+        "edge_displacement_p95_pixels", "flip", "residual", "tap_residual", "rounding_excess"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
   for (const char* name : {"map_ms", "lookup_ms"}) {
     const MedianInterval time = interval_of(m.record, name);
