@@ -5,6 +5,7 @@
 
 #include <tuple>
 
+#include "base/error.h"
 #include "tests/frames/wrong_delivery.h"
 
 namespace noonmark::test {
@@ -53,10 +54,16 @@ TEST(Alignment, TheVisibilityLiesAPixelBesideItsReceivers) {
 
 TEST(Alignment, NoPixelHasAVisibility) {
   const Image<float> none(width, height, no_surface);
-  expect_named_once(beside_positions(none), "values", "no pixel has a visibility");
-  GivenFrame frame = with(none);
-  frame.marks_no_surface = true;
-  expect_named_once(frame, "values", "no pixel has a visibility");
+  GivenFrame by_rays = with(none);
+  by_rays.marks_no_surface = true;
+  for (const GivenFrame& frame : {beside_positions(none), by_rays}) {
+    const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
+    for (const CheckResult& check : verdict.checks)
+      EXPECT_EQ(check.state == CheckState::failed, check.name == "values") << check.name << ": " << check.says;
+    EXPECT_NE(check_named(verdict, "values").says.find("no pixel has a visibility"), std::string::npos);
+    EXPECT_THROW(judge_frame(*good().scene, *good().tracer, frame, {.accepted = {"values"}}), Error)
+        << "there is nothing to judge, whatever is accepted";
+  }
 }
 
 // A wall that fills the picture, in the shadow of a board above the picture; before the wall plates that the board's shadow
