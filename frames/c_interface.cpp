@@ -101,7 +101,7 @@ Light light_of(const noonmark_frame& f) {
   }
   light.position_m = {f.light_position[0], f.light_position[1], f.light_position[2]};
   if (light.kind != LightKind::point) {
-    if (!(glm::length(way) > 0)) wrong_call("light_direction has no length");
+    if (!(glm::length(way) > 0)) wrong_call("light_direction has no length; set it to the way the light travels");
     light.target_m = light.position_m + glm::normalize(way);
   }
   if (light.kind == LightKind::spot) light.cone_deg = f.light_cone_deg;
@@ -141,6 +141,7 @@ GivenFrame frame_of(const noonmark_frame& f) {
 
 JudgeRules rules_of(const noonmark_frame& f) {
   JudgeRules rules;
+  if (!(f.edge_pixels > 0)) wrong_call("edge_pixels is not above 0");
   rules.edge_pixels = f.edge_pixels;
   if (f.edge_m > 0) rules.edge_m = f.edge_m;
   if (f.contact_m > 0) rules.contact_m = f.contact_m;
@@ -152,7 +153,6 @@ JudgeRules rules_of(const noonmark_frame& f) {
 noonmark_frame defaults() {
   noonmark_frame frame{};
   frame.struct_size = sizeof frame;
-  frame.light_direction[1] = -1;
   frame.light_cone_deg = Light().cone_deg;
   frame.edge_pixels = JudgeRules().edge_pixels;
   return frame;

@@ -1,6 +1,6 @@
 /* The C interface of Noonmark's judge: how right are the shadows of a frame?
 
-     noonmark_scene *scene = noonmark_scene_load("room.glb", NULL);
+     noonmark_scene *scene = noonmark_scene_load("room.glb");
      noonmark_frame frame;
      noonmark_frame_init(&frame, sizeof frame);
      frame.width = 1280; frame.height = 720; frame.visibility = pixels; ...
@@ -78,7 +78,7 @@ typedef struct noonmark_frame {
   int32_t y_down;             /* whether y of clip space grows downwards */
   int32_t light_kind;         /* NOONMARK_DIRECTIONAL ... */
   double light_position[3];   /* spot, point: metres */
-  double light_direction[3];  /* directional, spot: the way the light travels, of any length but 0 */
+  double light_direction[3];  /* directional, spot: the way the light travels, of any length but 0; required */
   double light_cone_deg;      /* spot: the whole angle */
   double light_angular_diameter_deg; /* directional: of a light with a size; 0: none */
   double light_radius_m;             /* spot, point: of a light with a size; 0: none */

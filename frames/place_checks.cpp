@@ -114,6 +114,9 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
                   median_moved, dx, dy));
 }
 
+// A renderer writes both from the same samples: frames of five engines differ at no pixel.
+constexpr size_t enough_to_differ = 20;
+
 Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
   const std::optional<SurfaceAlignment> surfaces = surface_alignment(e.frame);
   if (surfaces && surfaces->misplaced()) {
@@ -126,6 +129,14 @@ Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
                                                found, surfaces->left, surfaces->shift.x, surfaces->shift.y),
                   misplaced);
   }
+  if (surfaces && surfaces->differing >= enough_to_differ)
+    return failed(
+        fmt::format(
+            "{} pixels have a surface in the visibility or in the receivers alone, and neither a flip nor a shift "
+            "by a pixel explains it: the two are of different frames, or shifted further, or some surfaces have no "
+            "visibility",
+            surfaces->differing),
+        misplaced);
   if (e.frame.marks_no_surface && e.frame.receivers == GivenReceivers::none && !covers(e))
     return not_checked("the surfaces of the picture are not where the scene has them: see coverage");
   // A shift first: of a scene that is almost symmetric, the picture that is shifted is almost the one that is flipped.

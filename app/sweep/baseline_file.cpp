@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "compare/judge/deliveries.h"
 
 namespace noonmark {
 namespace {
@@ -59,6 +60,11 @@ std::optional<BaselineComparison> BaselineFile::compare_or_update(const Experime
   if (options_.file.empty()) return {};
   const Baseline now = baseline_of(experiment, outcome, options_.times.has_value());
   if (!options_.update) return compare_with_baseline(before_, now, options_.file, options_.times, experiment.chosen);
+  // Its values would be written as "not measured", and a later one could not be worse.
+  if (const std::string refused = refused_words(outcome.results.points); !refused.empty()) {
+    said += fmt::format("the baseline {} is not written: {}\n", printable(options_.file), refused);
+    return {};
+  }
   write_file_atomically(options_.file, baseline_text(now));
   said +=
       fmt::format("the baseline {} is written: {}\n", printable(options_.file), counted(now.points.size(), "point"));

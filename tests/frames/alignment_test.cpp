@@ -52,6 +52,17 @@ TEST(Alignment, TheVisibilityLiesAPixelBesideItsReceivers) {
     expect_named_once(beside_positions(rolled(good().frame.visibility, dx, dy)), "alignment", words);
 }
 
+// Further than a pixel, or of another frame: what it is cannot be told, but not that all is well.
+TEST(Alignment, SurfacesThatDoNotAgreeAreNamed) {
+  for (const auto& [dx, dy] : {std::pair{2, 0}, {0, 3}, {-10, 0}})
+    expect_named_once(beside_positions(rolled(good().frame.visibility, dx, dy)), "alignment",
+                      "neither a flip nor a shift by a pixel explains it");
+  Image<float> holed = good().frame.visibility;
+  for (size_t i = 0, made = 0; i < holed.size() && made < 40; i += 97)
+    if (!std::isnan(holed[i])) holed[i] = no_surface, ++made;
+  expect_named_once(beside_positions(holed), "alignment", "40 pixels have a surface");
+}
+
 TEST(Alignment, NoPixelHasAVisibility) {
   const Image<float> none(width, height, no_surface);
   GivenFrame by_rays = with(none);

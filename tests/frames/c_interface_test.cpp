@@ -94,6 +94,13 @@ TEST_F(CInterface, WrongCallsAreSaid) {
   frame.light_direction[0] = frame.light_direction[1] = 0;
   judge(&frame);
   EXPECT_NE(messages_of(verdict_).find("light_direction"), std::string::npos) << messages_of(verdict_);
+  noonmark_frame unset;
+  noonmark_frame_init(&unset, sizeof unset);
+  EXPECT_EQ(unset.light_direction[1], 0) << "no light is taken for granted";
+  frame = frame_of(black);
+  frame.edge_pixels = -1;
+  judge(&frame);
+  EXPECT_NE(messages_of(verdict_).find("edge_pixels is not above 0"), std::string::npos) << messages_of(verdict_);
   frame = frame_of(black);
   std::memset(frame.clip_from_world, 0, sizeof frame.clip_from_world);
   judge(&frame);

@@ -158,6 +158,15 @@ TEST(Checks, ALightThatIsTurnedRoundIsNamed) {
 
 TEST(Checks, SrgbIsNamed) { expect_named(with(each_value(good().frame.visibility, srgb)), "encoding", "sRGB"); }
 
+// Between what linear values have and what only sRGB has, it is said that nothing is known.
+TEST(Checks, AMeanThatLinearValuesAndSrgbShareIsNotChecked) {
+  const Image<float> lifted =
+      each_value(good().frame.visibility, [](float v) { return v > 0 && v < 1 ? v + 0.09f : v; });
+  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, with(lifted), {});
+  EXPECT_EQ(check_named(verdict, "encoding").state, CheckState::not_checked) << check_named(verdict, "encoding").says;
+  EXPECT_EQ(check_named(good().judged(), "encoding").state, CheckState::passed);
+}
+
 TEST(Checks, ValuesOutsideAreNamed) {
   GivenFrame frame = good().frame;
   frame.visibility.at(7, 260) = 1.5f;
