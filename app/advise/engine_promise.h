@@ -1,8 +1,8 @@
 // What the lines for an engine promise, measured: the settings that do what the engine does with them are settings like any
 // other.
 //
-//   measure_promises(bench, engines, answer_under_conditions(advice), "error", say);
-//   print(promise_line(engines[0], request.curve));   // "error 0.31% with these lines (recommended: 0.29%)"
+//   const EnginePromise recommended = measure_promises(bench, engines, answer_under_conditions(advice), "error", say);
+//   print(promise_text(engines[0], recommended, request.curve));   // "error 0.31% with these lines (recommended: 0.29%)"
 #pragma once
 #include <functional>
 #include <span>
@@ -21,7 +21,7 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
 
 // Sets the promise of each piece of advice that has settings, each different technique measured once, and returns that of the
 // conditions themselves: of the recommended technique. Settings that cannot be measured (a map that does not fit into memory)
-// get the reason in why_not_emulated instead. An engine's map of more than 4096 texels is measured as it lies. say: progress, one line.
+// get the reason in why_not_emulated instead. An engine's map of more than 2048 texels is measured as it lies. say: progress, one line.
 EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engines,
                                std::span<const Settings> conditions, const std::string& accuracy,
                                const std::function<void(const std::string&)>& say);
