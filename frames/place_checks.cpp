@@ -211,17 +211,23 @@ Outcome check_coverage(const CheckEvidence& e, const FrameStatistics&) {
   const Shift shift = best_shift(e.tracer, e.frame.view, of_frame, of_scene);
   if (shift.differing * 10 < differ * 7 && shift.pixels != glm::dvec2(0)) {
     const bool halves = shift.pixels.x != std::round(shift.pixels.x) || shift.pixels.y != std::round(shift.pixels.y);
-    return failed(fmt::format(
-        "{}: a shift of ({:+g}, {:+g}) pixels (x to the right, y down) leaves {} of them, so {}", found, shift.pixels.x,
-        shift.pixels.y, shift.differing,
-        halves ? "it is one of these two: samples are not at the pixels' centres, or multisampling was resolved"
-               : "rows or columns are missing or doubled"));
+    // It is the furthest that was tried, or explains only a part.
+    const bool part = 2 * shift.differing > differ;
+    const std::string cause =
+        halves
+            ? fmt::format("it is one of these{}: samples are not at the pixels' centres, or multisampling was resolved",
+                          part ? "" : " two")
+            : "rows or columns are missing or doubled";
+    return failed(
+        fmt::format("{}: a shift of ({:+g}, {:+g}) pixels (x to the right, y down) leaves {} of them, so {}{}", found,
+                    shift.pixels.x, shift.pixels.y, shift.differing, cause,
+                    part ? ", or the picture is shifted further, or the camera is another one" : ""));
   }
   const size_t lost = lost_surfaces(of_frame, of_scene);
   if (lost * 10 > differ * 9)
     return failed(
         fmt::format("{}, nearly all of them where only the scene has one: multisampling was resolved, or surfaces "
-                    "of the scene are not in the frame",
+                    "of the scene are not in the frame, or pixels have no visibility",
                     found));
   return failed(fmt::format(
       "{}, and no flip or shift of up to a pixel explains them: the camera or the scene is another one", found));
