@@ -1,5 +1,5 @@
-// What the lines for an engine promise, measured: the settings that do what the engine does with them are settings like any
-// other.
+// Measures the error that an engine will have with the lines that are printed for it. EngineAdvice::emulated are settings of
+// Noonmark with the same effect as these lines in the engine, and they are measured as any settings are.
 //
 //   const EnginePromise recommended = measure_promises(bench, engines, answer_under_conditions(advice), "error", say);
 //   print(promise_text(engines[0], recommended, request.curve));   // "error 0.31% with these lines (recommended: 0.29%)"

@@ -9,7 +9,7 @@ namespace noonmark {
 // Error(usage) with the nearest name for any other metric.
 void require_frame_metric(std::string_view metric);
 
-// Whether only a frame with its own map has the metric.
+// Whether a frame has this metric only if its own shadow map was handed over.
 bool needs_own_map(std::string_view metric);
 
 }  // namespace noonmark

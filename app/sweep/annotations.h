@@ -1,6 +1,6 @@
 // Broken bounds as GitHub Actions shows them: an annotation at the bound's line in the experiment.
 //
-//   if (under_github_actions()) std::cout << github_annotations(experiment.path, outcome.results, compared);
+//   if (under_github_actions()) fmt::print("{}", github_annotations(experiment.path, outcome.results, compared));
 #pragma once
 #include <string>
 

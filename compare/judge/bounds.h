@@ -36,7 +36,7 @@ struct Bound {
   // settings place it. A quantity that is measured once for all placements is the same with both.
   std::string placement = "worst";
   std::string level = "error";  // "warn": broken, it is a warning and does not break the verdict
-  std::string location{};       // BoundResult::location
+  std::string location{};       // where the experiment gives it: "file:line:column"; empty: not known
 };
 
 // Throws Error(usage) for an unknown metric, setting or join (with the nearest name as a suggestion), for a value that

@@ -138,7 +138,8 @@ struct Features {
   }
 };
 
-// A piece of a picture with a margin on each side, where a filter reads. Beyond the picture its border goes on.
+// The picture is filtered in tiles. A filter also reads a margin around its tile. A margin outside the picture has the values of
+// the picture's nearest pixels.
 constexpr int tile_side = 64;
 using Plane = Image<double>;
 

@@ -4,8 +4,8 @@
 // and Peter Panning are no part of it, because such a patch has no true edge beside which it could lie. A receiver is on
 // the lit side if its visibility is at least one half, so a soft edge lies where it crosses one half.
 //
-// An edge pixel is a receiver with a neighbour, above, below or beside it, that is on the other side and on the same
-// surface. Its displacement is the distance to the nearest edge pixel of the truth, on its side and on the same surface.
+// An edge pixel is a receiver that has a neighbour (above, below, left or right) on the same surface, and one of both is lit
+// and the other one is not. Its displacement is the distance to the nearest edge pixel of the truth that is lit as it is (or dark as it is) and on the same surface.
 // The true edge can be hidden where the visible part of a surface ends: at an outline, at the picture's border, and where
 // the surface turns away from the light. If such an end is nearer, the displacement is the distance to it, so it is never
 // more than the edge has moved.

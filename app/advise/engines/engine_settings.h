@@ -36,7 +36,7 @@ struct EngineAdvice {
   std::optional<Settings> emulated = {};
   std::string why_not_emulated = {};
   std::optional<EnginePromise> promise = {};  // of `emulated`; app/advise/engine_promise.h measures it
-  std::string promised = {};                  // that in words; empty: not measured
+  std::string promised = {};                  // `promise` as a sentence for people; empty: not measured
 };
 
 // One piece of advice for each engine, in the order of the table. frame: of these settings in this scene.

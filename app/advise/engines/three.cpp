@@ -42,9 +42,9 @@ EngineFilter filter(const AdvicePlace& place) {
           as};
 }
 
-// The lines work in a running page, whatever it was before. Object3D.add() takes the light and its target from the node of a
-// glTF file that they are children of, so that their positions are the world's. A map that was drawn before keeps its size
-// and its projection until it is made anew.
+// The lines work in a page that runs already. In a glTF file the light and its target are children of a node, so their
+// positions are local. Object3D.add() moves both to the scene, and then the positions are in the world. A map that was drawn
+// before keeps its size and its projection until it is made anew.
 std::vector<std::string> map_lines(const AdvicePlace& place) {
   const CulledFaces cull = place.settings.map.cull;
   const bool point = place.kind() == LightKind::point;

@@ -45,7 +45,7 @@ TEST(Flip, OfAlikePicturesIsZeroAndOfTwoTheSameBothWays) {
   const Flip found = flip(a, b);
   EXPECT_GT(found.mean, 0);
   EXPECT_EQ(found.error.pixels, flip(b, a).error.pixels);
-  // Nothing is seen further away than the filters reach, 10 pixels at 67 per degree.
+  // FLIP's filters reach 10 pixels at 67 pixels per degree, so a difference changes nothing further away.
   for (int y = 0; y < 90; ++y)
     for (int x = 0; x < 150; ++x) {
       const bool near = std::max(std::abs(x - 70), std::abs(y - 40)) <= 10;
