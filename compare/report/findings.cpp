@@ -12,7 +12,7 @@
 #include "compare/results/quantities.h"
 
 namespace noonmark {
-std::vector<size_t> pareto_front(std::span<const CostAndError> points) {
+std::vector<size_t> pareto_front(std::span<const FrontPoint> points) {
   std::vector<size_t> order;
   for (size_t i = 0; i < points.size(); ++i)
     if (const auto& [cost, error] = points[i];
@@ -24,7 +24,7 @@ std::vector<size_t> pareto_front(std::span<const CostAndError> points) {
   });
   std::vector<size_t> front;
   for (size_t i : order) {
-    const CostAndError* last = front.empty() ? nullptr : &points[front.back()];
+    const FrontPoint* last = front.empty() ? nullptr : &points[front.back()];
     if (!last || certainly_less(points[i].cost, last->cost) ||
         (points[i].error == last->error && overlap(points[i].cost, last->cost)))
       front.push_back(i);

@@ -15,11 +15,11 @@ namespace noonmark {
 // than all more accurate ones of the front. If costs are plain numbers: no other point is lower or equal in both and lower
 // in one. Points that are equal, in cost as far as it is known, are all kept. Points with a value that is not finite are
 // never on the front.
-struct CostAndError {
+struct FrontPoint {
   MedianInterval cost;
   double error = 0;
 };
-std::vector<size_t> pareto_front(std::span<const CostAndError> points);
+std::vector<size_t> pareto_front(std::span<const FrontPoint> points);
 
 struct CauseShare {
   std::string name;  // metric

@@ -176,7 +176,7 @@ std::string error_shown_first(const Results& results) {
 }
 
 std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error, AtBias at) {
-  std::vector<CostAndError> plane;
+  std::vector<FrontPoint> plane;
   for (const ComparedChoice& one : group.choices)
     plane.push_back({cost_of(one, cost), counts_by(one, error, at) ? value_of(one, error, at).worst : std::nan("")});
   return pareto_front(plane);

@@ -36,7 +36,7 @@ TEST(Pareto, AgreesWithBruteForce) {
                   other.second <= points[i].second && other != points[i];
       if (!beaten) expected.insert(i);
     }
-    std::vector<CostAndError> plane;
+    std::vector<FrontPoint> plane;
     for (const auto& [x, y] : points) plane.push_back({{x, x, x}, y});
     const std::vector<size_t> front = pareto_front(plane);
     EXPECT_EQ(std::set<size_t>(front.begin(), front.end()), expected);
@@ -46,7 +46,7 @@ TEST(Pareto, AgreesWithBruteForce) {
 }
 
 TEST(Pareto, TakesCostsThatOverlapAsEqual) {
-  const auto front = [](const std::vector<CostAndError>& points) { return pareto_front(points); };
+  const auto front = [](const std::vector<FrontPoint>& points) { return pareto_front(points); };
   using Indices = std::vector<size_t>;
   // The cheaper median of point 0 is not certain, and point 1 is more accurate.
   EXPECT_EQ(front({{{2, 3, 4}, 0.2}, {{3, 3.5, 5}, 0.1}}), (Indices{1}));
