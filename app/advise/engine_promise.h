@@ -21,7 +21,8 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
 
 // Sets the promise of each piece of advice that has settings, each different technique measured once, and returns that of the
 // conditions themselves: of the recommended technique. Settings that cannot be measured (a map that does not fit into memory)
-// get the reason in why_not_emulated instead. An engine's map of more than 2048 texels is measured as it lies. say: progress, one line.
+// get the reason in why_not_emulated instead. An engine's map of more than 2048 texels is measured as it lies, and one of more than 4096
+// under the first condition alone. say: progress, one line.
 EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engines,
                                std::span<const Settings> conditions, const std::string& accuracy,
                                const std::function<void(const std::string&)>& say);

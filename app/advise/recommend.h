@@ -1,29 +1,36 @@
 // app/advise/: what to type: the search for the cheapest settings that hold, and their text for other engines. May include
 // measure, compare and app/definition.
 //
-// Searches for the settings to recommend: the least technique that holds the bounds under all conditions and at every
-// placement of the map's grid.
+// Searches for the settings to recommend: techniques that hold the bounds under all conditions and at every placement of the
+// map's grid, and of them three answers between cost and error (compare/judge/answers.h).
 //
 //   const Advice advice = search(bench, request, [](const std::string& step) { print(step); });
 //   for (const std::string& line : advice_text(advice)) print(line);          // app/advise/recommend_text.h
 //
 // The search:
-// 1. Screening, under the first condition and at one placement: each technique, from the least, at doubling
-//    resolutions. Settings that fail here fail for good, because the window at every placement lies within it. Dearer
-//    resolutions are not tried where they do not pay: on average errors fall as the texel's width (law 5).
-// 2. The settings that hold, from the best, are measured under all conditions at 8 x 8 placements. The first that holds
-//    there is verified.
-// 3. Verification: OpenGL renders it at 64 other placements, and each must keep the bounds. Otherwise the next is taken.
-// Screening and confirmation ask for searched_share of the bounds, because other views than the searched ones are a
-// little worse.
+// 1. Screening (app/advise/recommend_screening.h), under the first condition and at one placement: each technique, from the
+//    least, at doubling resolutions. Settings that fail here fail for good, because the window at every placement lies
+//    within it.
+// 2. The three answers among what holds so far, from the cheapest. Each is looked at in full size at the given view (bounds for
+//    the eye), and then measured under all conditions at 8 x 8 placements. What breaks a bound is no answer, and
+//    the three are chosen anew.
+// 3. Between the cheapest resolution that holds and its half, one more is tried: its half times the root of 2.
+// 4. Verification at 64 other placements (app/advise/recommend_verify.h). OpenGL renders the answer that was asked for at some of
+//    them; otherwise the exact map is judged.
+// Screening and confirmation ask for searched_share of the bounds on acne and Peter Panning, because other views than the
+// searched ones are a little worse.
 #pragma once
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/advise/map_places.h"
 #include "app/advise/recommend_bias.h"
+#include "app/advise/recommend_eye.h"
 #include "app/advise/recommend_space.h"
+#include "app/advise/recommend_verify.h"
+#include "compare/judge/answers.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/bias_curves.h"
 #include "compare/report/tornado.h"
@@ -31,41 +38,63 @@
 
 namespace noonmark {
 
+enum class AnswerKind { least, balanced, best };
+inline constexpr AnswerKind answer_kinds[] = {AnswerKind::least, AnswerKind::balanced, AnswerKind::best};
+std::string answer_name(AnswerKind kind);  // "least"
+
 struct AdviceRequest {
   std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only
+  std::vector<MapPlace> places;      // of the map; at least the settings' own
   std::vector<BiasLevel> levels;     // empty: the bias as the conditions give it
   std::vector<FilterSettings> filters;
   std::vector<int> resolutions;  // ascending
-  CurveOptions curve;            // the bounds
+  bool between = false;          // whether a resolution between two of them may be the answer
+  CurveOptions curve;            // the bounds on acne and Peter Panning
+  std::vector<Bound> eye;        // further bounds, judged at the first condition in full size
   std::string accuracy = "error_soft";
   std::optional<double> error;   // the most of `accuracy`
-  std::optional<double> budget;  // the most texel_work
-  int width_px = 320;            // of the pictures that are searched on
+  std::optional<double> budget;  // the most texel_work; empty: budget_of_least times that of `least`
+  AnswerKind answer = AnswerKind::least;
+  std::string given;                 // what the user gave that decides the answer, for a sentence; empty: nothing
+  int width_px = least_searched_px;  // of the pictures that are searched on
 };
 
 // Settings that were measured.
 struct Tried {
   Settings settings;  // of full size, with the bias that was chosen
   std::string level;
+  size_t place = 0;                  // in AdviceRequest::places
   double cost = 0;                   // texel_work of a picture with the size that the settings give
+  double screened_error = 0;         // accuracy under the first condition, by which answers are compared
   double error = 0;                  // accuracy, largest over the conditions that were measured
   std::optional<BiasChoice> bias;    // empty: no usable bias
   std::string why_not;               // why it is not the answer; empty for the answer
   std::optional<PointRecord> worst;  // where it failed, or the worst condition of the answer
   // Without a usable bias: what comes nearest in the condition that failed.
   std::optional<NearestBias> nearest;
+  std::optional<EyeErrors> eye;  // at the given view, in full size; empty: not looked at
+};
+
+// An answer may not be sensitive to its bias: one that may vary by less than this share, up or down, is fragile.
+inline constexpr double fragile_below = 0.25;
+bool is_fragile(const BiasChoice& bias);
+
+struct Answer {
+  std::vector<AnswerKind> kinds;  // one answer can be several of the three
+  Tried tried;
+  double doubled_cost = 0;  // texel_work with twice the texels on a side
+  size_t conditions = 0;
+  int placements = 0;  // that were searched, under each condition
+  Verified verified;   // at other placements
 };
 
 struct Advice {
-  std::optional<Tried> answer;
-  std::vector<Tried> tried;  // all others, by cost
+  std::vector<Answer> answers;  // by cost, all different; empty: nothing holds
+  std::vector<Tried> tried;     // all others, by cost
   // Without an answer: the one of them that came nearest. Its record is rendered with its nearest bias, and its worst pixel
   // is the one with most acne and Peter Panning, if these are what failed.
   std::optional<Tried> nearest;
-  // Of the answer.
-  size_t conditions = 0;
-  int placements = 0, verified = 0;                                 // searched (each condition); rendered afresh
-  double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over the placements that were rendered
+  double budget = 0;  // of `best`
   // Share of the counted receivers that are dark in the hard truth, the largest over the conditions that were measured: the
   // error without a shadow map.
   double shadowed = 0;
@@ -75,11 +104,14 @@ struct Advice {
   // What each setting does around the answer; only if it was asked for (app/advise/recommend_around.h).
   std::optional<Tornado> around;
   AdviceRequest request;
+
+  // The answer of a kind; null without answers. `answer`: the one that the request asks for.
+  const Answer* of(AnswerKind kind) const;
+  const Answer* answer() const { return of(request.answer); }
 };
 
-// The answer's settings under each condition, as they were searched: small pictures, all placements. There must be an
-// answer.
-std::vector<Settings> answer_under_conditions(const Advice& advice);
+// The settings of an answer under each condition, as they were searched: small pictures, all placements.
+std::vector<Settings> answer_under_conditions(const Answer& answer, const AdviceRequest& request);
 
 // say: progress, one line. Throws Error.
 Advice search(Workbench& bench, const AdviceRequest& request, const std::function<void(const std::string&)>& say);

@@ -101,20 +101,14 @@ class Around {
     require_memory(bench_.memory(settings, false, false), bench_.memory_of_program(false), "the search");
     const PointRecord point = bench_.measure(settings, std::nullopt).record;
     if (nothing_judged(point)) return;  // a view that sees nothing says nothing of the technique
-    const auto worst = [&](const std::string& metric) {
-      double most = metric_of(point, metric);
-      if (has_placements(point))
-        for (const std::string& name : placed_names(metric).largest)
-          if (const double value = metric_of(point, name); !(value <= most)) most = value;  // also a NaN
-      return most;
-    };
     if (!has_placements(point) || placed_names(options_.accuracy).largest.empty()) placed_ = false;
-    const double error = worst(options_.accuracy);
+    const double error = worst_placed(point, options_.accuracy);
     if (!(error <= end.error)) end.error = error;
-    const double coverage = worst("coverage");
+    const double coverage = worst_placed(point, "coverage");
     if (!allowed_coverage_) allowed_coverage_ = coverage + options_.bounds.acne_bound;
-    if (!(worst("acne") <= options_.bounds.acne_bound &&
-          worst("peter_panning") <= options_.bounds.peter_panning_bound && coverage <= *allowed_coverage_))
+    if (!(worst_placed(point, "acne") <= options_.bounds.acne_bound &&
+          worst_placed(point, "peter_panning") <= options_.bounds.peter_panning_bound &&
+          coverage <= *allowed_coverage_))
       end.held = false;
   }
 

@@ -5,7 +5,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <numbers>
+#include <span>
 
+#include "compare/results/quantities.h"
 #include "scenes/camera_fit.h"
 #include "technique/bias_parts.h"
 #include "technique/light_kind.h"
@@ -54,6 +56,17 @@ std::vector<FilterSettings> filters_to_try(LightKind light) {
           {"castano", {{"size", 7}}}};
 }
 
+int searched_width_px(Workbench& bench, const Settings& settings) {
+  Settings probe = small_picture(settings, least_searched_px);
+  probe.map.resolution = 256;
+  probe.map.placements = 1;
+  const double counted = metric_of(bench.measure(probe, std::nullopt).record, "counted");
+  if (!(counted > 0)) return least_searched_px;
+  const double wanted = std::ceil(probe.view.width_px * std::sqrt(enough_receivers / counted));
+  const int most = std::max(least_searched_px, settings.view.width_px);
+  return wanted < most ? std::max(least_searched_px, static_cast<int>(wanted)) : most;
+}
+
 Settings small_picture(Settings settings, int width_px) {
   const double scale = std::min(1.0, static_cast<double>(width_px) / settings.view.width_px);
   settings.view.width_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.width_px)));
@@ -61,14 +74,16 @@ Settings small_picture(Settings settings, int width_px) {
   return settings;
 }
 
-std::vector<Settings> turned_views(const Settings& settings, const Scene& scene) {
+namespace {
+
+std::vector<Settings> views_turned_by(std::span<const double> turns_deg, const Settings& settings, const Scene& scene) {
   const Camera camera = effective_camera(scene, settings.view);
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::vec3& p : scene.positions) low = glm::min(low, glm::dvec3(p)), high = glm::max(high, glm::dvec3(p));
   const glm::bvec3 above = glm::greaterThan(camera.eye_m, low), below = glm::lessThan(camera.eye_m, high);
   const bool inside = glm::all(above) && glm::all(below);
   std::vector<Settings> views;
-  for (double turn_deg : {0.0, -30.0, -15.0, 15.0, 30.0}) {
+  for (double turn_deg : turns_deg) {
     Settings view = settings;
     const glm::dquat turn = glm::angleAxis(turn_deg * std::numbers::pi / 180, glm::normalize(camera.up));
     view.view.eye_m = inside ? camera.eye_m : camera.target_m + turn * (camera.eye_m - camera.target_m);
@@ -80,6 +95,19 @@ std::vector<Settings> turned_views(const Settings& settings, const Scene& scene)
     views.push_back(view);
   }
   return views;
+}
+
+}  // namespace
+
+std::vector<Settings> turned_views(const Settings& settings, const Scene& scene) {
+  constexpr double turns_deg[] = {0, -30, -15, 15, 30};
+  return views_turned_by(turns_deg, settings, scene);
+}
+
+std::vector<Settings> views_between(const Settings& settings, const Scene& scene) {
+  std::vector<double> turns_deg;
+  for (double turn_deg = -35; turn_deg <= 35; turn_deg += 2.5) turns_deg.push_back(turn_deg);
+  return views_turned_by(turns_deg, settings, scene);
 }
 
 }  // namespace noonmark

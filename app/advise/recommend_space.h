@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/workbench.h"
 #include "scenes/scene.h"
 #include "technique/settings.h"
 
@@ -24,11 +25,21 @@ std::vector<FilterSettings> filters_to_try(LightKind light);
 // Placements of a search, along each axis.
 inline constexpr int searched_placements = 8;
 
+// The width of the pictures that are searched on, in pixels: at least least_searched_px, and as much as it takes to judge
+// enough_receivers, but not more than the settings' own. So half of the default bound of 0.1% is not a single pixel.
+// bench: measures how many receivers the settings show. Throws Error.
+inline constexpr int least_searched_px = 320;
+inline constexpr double enough_receivers = 30000;
+int searched_width_px(Workbench& bench, const Settings& settings);
+
 // The same settings with a smaller picture of the same shape.
 Settings small_picture(Settings settings, int width_px);
 
 // The settings' own view, and views turned by -30, -15, 15 and 30 degrees: about the camera's target, or in place if the
 // camera is inside the box of the scene, because it could leave a room.
 std::vector<Settings> turned_views(const Settings& settings, const Scene& scene);
+
+// The views between the outermost of them, and a little beyond, a few degrees apart.
+std::vector<Settings> views_between(const Settings& settings, const Scene& scene);
 
 }  // namespace noonmark

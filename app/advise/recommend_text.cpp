@@ -26,9 +26,11 @@ std::string filter_text(const FilterSettings& filter) {
   return fmt::format("the filter {}", filter.kind);
 }
 
-std::string settings_text(const Tried& tried) {
-  std::string text =
-      fmt::format("a map of {0} x {0} texels, {1}", tried.settings.map.resolution, filter_text(tried.settings.filter));
+std::string settings_text(const Tried& tried, const AdviceRequest& request) {
+  const MapPlace& place = request.places[tried.place];
+  std::string text = fmt::format("a map of {0} x {0} texels", tried.settings.map.resolution);
+  if (!place.covers.empty()) text += fmt::format(" over {}, {:.4g} m wide", place.covers, place.extent_m);
+  text += fmt::format(", {}", filter_text(tried.settings.filter));
   if (tried.settings.bias.reference != "own_depth")
     text += fmt::format(", bias.reference = {}", tried.settings.bias.reference);
   if (const double offset = tried.settings.bias["normal_offset_axes"]; offset > 0)
@@ -56,11 +58,17 @@ std::string bounds_text(const CurveOptions& bounds, double share = 1) {
                      percent(share * bounds.peter_panning_bound));
 }
 
-// The dearest of the settings that cost less than the answer.
+std::string eye_bounds_text(const AdviceRequest& request) {
+  std::string text;
+  for (const Bound& bound : request.eye) text += ", " + eye_bound_text(bound);
+  return text.empty() ? text : text + " at the given view";
+}
+
+// The dearest of the settings that cost less than the answer, and are none.
 const Tried* next_cheaper(const Advice& advice) {
   const Tried* found = nullptr;
   for (const Tried& tried : advice.tried)
-    if (tried.cost < advice.answer->cost) found = &tried;
+    if (tried.cost < advice.answer()->tried.cost) found = &tried;
   return found;
 }
 
@@ -73,7 +81,7 @@ std::string needed_text(const Advice& advice) {
   const std::string without =
       fmt::format("Without shadows {} of the picture that faces the light would be wrong, in the worst view",
                   percent(advice.shadowed));
-  const double with = advice.answer->error;
+  const double with = advice.answer()->tried.error;
   if (with >= advice.shadowed)
     return fmt::format("{}; this map leaves {}, so it does not pay.", without, percent(with));
   if (advice.request.error && advice.shadowed <= *advice.request.error)
@@ -107,15 +115,6 @@ std::string condition_text(const PointRecord& point, const AdviceRequest& reques
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// The cheapest of the settings that were screened and are more accurate than the answer. Null if it has an error or a budget
-// to keep, because then they are no choice.
-const Tried* next_better(const Advice& advice) {
-  if (advice.request.error || advice.request.budget) return nullptr;
-  for (const Tried& tried : advice.tried)  // by cost
-    if (tried.bias && tried.cost > advice.answer->cost && tried.error < advice.answer->error) return &tried;
-  return nullptr;
-}
-
 // What would have to change, from what was tried: one sentence for each way.
 std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   const AdviceRequest& request = advice.request;
@@ -129,6 +128,12 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
           "A larger --error: {} holds with these settings. Or finer texels: errors fall as their width on average (law "
           "5), so some {} texels, or an extent {} times smaller.",
           percent(nearest.error), times * nearest.settings.map.resolution, times));
+  } else if (nearest.bias && nearest.eye) {
+    lines.push_back(fmt::format(
+        "Larger bounds for the eye: --edges {:.3g} --patch {} on these settings. Or finer texels: edges come "
+        "nearer to the true ones as texels do (law 5).",
+        std::max(nearest.eye->edge_p95_pixels, most_edge_pixels),
+        percent(std::max(nearest.eye->wrong_patch, most_wrong_patch))));
   } else if (nearest.nearest) {
     // Of the bounds only a share is used up while searching.
     const auto enough = [](double bound, double left) { return std::max(bound, left / searched_share); };
@@ -152,11 +157,12 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
 std::vector<std::string> nothing_works(const Advice& advice) {
   std::vector<std::string> lines;
   lines.push_back(
-      fmt::format("Nothing that was tried keeps {}{} under all conditions.", bounds_text(advice.request.curve),
+      fmt::format("Nothing that was tried keeps {}{}{} under all conditions.", bounds_text(advice.request.curve),
+                  eye_bounds_text(advice.request),
                   advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : ""));
   const std::optional<Tried>& nearest = advice.nearest;
   if (!nearest) return lines;
-  lines.push_back(fmt::format("Nearest came {}: {}.", settings_text(*nearest), nearest->why_not));
+  lines.push_back(fmt::format("Nearest came {}: {}.", settings_text(*nearest, advice.request), nearest->why_not));
   if (nearest->worst && nearest->worst->worst.x >= 0) {
     const std::string where = condition_text(*nearest->worst, advice.request);
     lines.push_back(fmt::format(
@@ -173,7 +179,7 @@ std::vector<std::string> nothing_works(const Advice& advice) {
 std::vector<std::string> lesser_levels(const Advice& advice) {
   std::vector<std::string> lines;
   for (const BiasLevel& level : advice.request.levels) {
-    if (level.name == advice.answer->level) break;
+    if (level.name == advice.answer()->tried.level) break;
     int finest = 0;
     bool any_window = false;
     for (const Tried& tried : advice.tried) {
@@ -189,7 +195,7 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
       for (const Tried& tried : advice.tried)
         if (tried.level == level.name && tried.bias) {
           lines.push_back(fmt::format("With {} the first that keeps the bounds is {}; {}.", level.name,
-                                      settings_text(tried), tried.why_not));
+                                      settings_text(tried, advice.request), tried.why_not));
           break;
         }
   }
@@ -198,51 +204,134 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
 
 }  // namespace
 
+namespace {
+
+std::string million(double work) { return fmt::format("{:.3g} million", work / 1e6); }
+
+// "-65% to +187%", and from 0 on "-100%".
+std::string may_vary(const BiasChoice& bias) {
+  const auto change = [&](double end) { return fmt::format("{:+.0f}%", 100 * (end / bias.value - 1)); };
+  if (bias.value == 0) return fmt::format("0 to {:.3g} {}", bias.window.high, bias.unit);
+  return fmt::format("{} to {}{}", change(bias.window.low), change(bias.window.high),
+                     is_fragile(bias) ? ", fragile" : "");
+}
+
+std::string kinds_text(const Answer& answer) {
+  std::vector<std::string> names;
+  for (AnswerKind kind : answer.kinds) names.push_back(answer_name(kind));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// The answers as a table, one line each, under a line of heads.
+std::vector<std::string> answers_table(const Advice& advice) {
+  std::vector<std::vector<std::string>> rows = {
+      {"answer", "work", "error", "edges, mean and 95%", "largest patch", "bias may vary", "settings"}};
+  for (const Answer& answer : advice.answers) {
+    const Tried& tried = answer.tried;
+    rows.push_back(
+        {kinds_text(answer), million(tried.cost), percent(tried.error),
+         tried.eye ? fmt::format("{:.2f} and {:.3g} pixels", tried.eye->edge_mean_pixels, tried.eye->edge_p95_pixels)
+                   : "-",
+         tried.eye ? percent(tried.eye->wrong_patch) : "-", tried.bias ? may_vary(*tried.bias) : "-",
+         settings_text(tried, advice.request)});
+  }
+  std::vector<size_t> widths(rows.front().size());
+  for (const auto& row : rows)
+    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::vector<std::string> lines;
+  for (const auto& row : rows) {
+    std::string line = " ";
+    for (size_t i = 0; i + 1 < row.size(); ++i) line += fmt::format(" {:<{}} ", row[i], widths[i]);
+    lines.push_back(line + " " + row.back());
+  }
+  return lines;
+}
+
+// What each answer buys beside the one before it, and what more texels would buy.
+std::string steps_text(const Advice& advice) {
+  std::string text;
+  for (size_t i = 1; i < advice.answers.size(); ++i) {
+    const Answer &from = advice.answers[i - 1], &to = advice.answers[i];
+    text += fmt::format("From {} to {}: {:.2g} times the work, for an error of {:.3g}% in place of {:.3g}%. ",
+                        answer_name(from.kinds.back()), answer_name(to.kinds.front()), to.tried.cost / from.tried.cost,
+                        100 * to.tried.error, 100 * from.tried.error);
+  }
+  const Answer& last = advice.answers.back();
+  if (last.tried.error > 0)
+    text += fmt::format(
+        "Twice the texels of {} on a side would be {:.2g} times its work, and halve what texels do to "
+        "its error, on average (law 5). ",
+        kinds_text(last), last.doubled_cost / last.tried.cost);
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
+}  // namespace
+
 std::vector<std::string> advice_text(const Advice& advice) {
-  if (!advice.answer) return nothing_works(advice);
-  const Tried& answer = *advice.answer;
+  if (!advice.answer()) return nothing_works(advice);
+  const Answer& answer = *advice.answer();
+  const Tried& tried = answer.tried;
   std::vector<std::string> lines;
   if (advice.shadowed == 0) lines.push_back(needed_text(advice));
-  lines.push_back(fmt::format("Set {}.", settings_text(answer)));
-  if (answer.bias)
+  lines.push_back(fmt::format("Set {}.", settings_text(tried, advice.request)));
+  lines.push_back(fmt::format(
+      "That is the answer \"{}\". All answers keep {}{}{}:", kinds_text(answer), bounds_text(advice.request.curve),
+      eye_bounds_text(advice.request),
+      advice.request.error ? fmt::format(", {} within {}", advice.request.accuracy, percent(*advice.request.error))
+                           : ""));
+  for (std::string& line : answers_table(advice)) lines.push_back(std::move(line));
+  if (std::string steps = steps_text(advice); !steps.empty()) lines.push_back(std::move(steps));
+  if (tried.bias)
     lines.push_back(fmt::format(
-        "{} keeps {} from {:.3g} to {:.3g} {} under {} condition{} and at all {} placements of the map's grid that "
-        "were "
+        "{} keeps {} from {:.3g} to {:.3g} {} under {} and at all {} placements of the map's grid that were "
         "searched{}. That is {:.0f}% of the bounds, because conditions that were not searched may be a little worse.",
-        answer.bias->parameter, bounds_text(advice.request.curve, searched_share), answer.bias->window.low,
-        answer.bias->window.high, answer.bias->unit, advice.conditions, advice.conditions == 1 ? "" : "s",
-        advice.placements,
-        answer.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
-                            : "; " + margin_text(*answer.bias),
+        tried.bias->parameter, bounds_text(advice.request.curve, searched_share), tried.bias->window.low,
+        tried.bias->window.high, tried.bias->unit, counted(answer.conditions, "condition"), answer.placements,
+        tried.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
+                           : "; " + margin_text(*tried.bias),
         100 * searched_share));
+  if (tried.bias && is_fragile(*tried.bias))
+    lines.push_back(
+        fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider "
+                    "was found that costs little more.",
+                    100 * fragile_below));
   lines.push_back(
-      fmt::format("Verified: OpenGL rendered it under the worst condition at {} other placements, {} pixels wide; the "
-                  "worst of them "
-                  "has {} acne, {} Peter Panning and {} error.",
-                  advice.verified, std::min(advice.request.width_px, answer.settings.view.width_px),
-                  percent(advice.worst_acne), percent(advice.worst_peter_panning), percent(advice.worst_error)));
-  if (answer.worst) {
-    const std::string causes = causes_text(*answer.worst);
-    lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(answer.error),
+      fmt::format("Verified under the worst condition at {} other placements{}, {} pixels wide: the worst of them has "
+                  "{} acne, {} Peter "
+                  "Panning and {} error.",
+                  answer.verified.placements,
+                  answer.verified.rendered == answer.verified.placements
+                      ? ", rendered by OpenGL"
+                      : fmt::format(", {} of them rendered by OpenGL", answer.verified.rendered),
+                  std::min(advice.request.width_px, tried.settings.view.width_px), percent(answer.verified.worst_acne),
+                  percent(answer.verified.worst_peter_panning), percent(answer.verified.worst_error)));
+  if (tried.worst) {
+    const std::string causes = causes_text(*tried.worst);
+    lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(tried.error),
                                 causes.empty() ? "" : ", most of it " + causes));
   }
   if (advice.shadowed > 0) lines.push_back(needed_text(advice));
-  lines.push_back(
-      fmt::format("It costs {:.3g} million texels written and texture instructions a frame.", answer.cost / 1e6));
+  if (advice.request.places[tried.place].moves_with)
+    lines.push_back(fmt::format(
+        "The map lies over {}: a camera that leaves them needs another place, or the map of the whole scene "
+        "(--set map.fit=tight).",
+        advice.request.places[tried.place].covers));
+  lines.push_back(fmt::format("Its work is {} texels written and texture instructions a frame.", million(tried.cost)));
   if (const Tried* cheaper = next_cheaper(advice))
-    lines.push_back(fmt::format("The next cheaper is {} ({:.3g} million): {}.", settings_text(*cheaper),
-                                cheaper->cost / 1e6, cheaper->why_not));
+    lines.push_back(fmt::format("The next cheaper is {} ({}): {}.", settings_text(*cheaper, advice.request),
+                                million(cheaper->cost), cheaper->why_not));
   else
     lines.push_back(fmt::format("Nothing cheaper was tried: the smallest map among the choices has {} texels a side.",
                                 advice.request.resolutions.front()));
-  if (const Tried* better = next_better(advice))
-    lines.push_back(fmt::format("More accurate, as far as it was screened, is {} ({:.3g} million): {}.",
-                                settings_text(*better), better->cost / 1e6, better->why_not));
   if (advice.least_resolution)
     lines.push_back(constant_text(*advice.least_resolution) +
                     fmt::format(" The bias of this answer keeps them at {} texels, under all conditions.",
-                                answer.settings.map.resolution));
+                                tried.settings.map.resolution));
   for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
+  if (!advice.request.given.empty())
+    lines.push_back(fmt::format("The answer is for what was given: {}. For the scene alone it can be another one.",
+                                advice.request.given));
   if (advice.around)
     for (std::string& line : tornado_text(*advice.around)) lines.push_back(std::move(line));
   return lines;
@@ -262,8 +351,25 @@ bool relies_on(std::string_view setting) {
 
 }  // namespace
 
-std::string advice_experiment(const Advice& advice, const std::string& folder) {
-  const Tried& answer = *advice.answer;
+namespace {
+
+// The line of a bound that holds at the first condition alone; empty if there is one condition.
+std::string where_of_first(const AdviceRequest& request) {
+  std::vector<std::map<std::string, std::string>> all;
+  for (const Settings& condition : request.conditions) all.push_back(settings_map(condition));
+  std::vector<std::string> parts;
+  for (const Setting& row : settings_table()) {
+    const std::string name(row.name);
+    if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != all.front().at(name); }))
+      parts.push_back(fmt::format("\"{}\" = {}", name, toml_value(row, all.front().at(name))));
+  }
+  return parts.empty() ? "" : fmt::format("where = {{{}}}\n", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+std::string advice_experiment(const Answer& chosen, const Advice& advice, const std::string& folder) {
+  const Tried& answer = chosen.tried;
   std::vector<std::map<std::string, std::string>> conditions;
   for (const Settings& condition : advice.request.conditions) conditions.push_back(settings_map(condition));
   const auto is_condition = [&](const std::string& name) {
@@ -271,7 +377,7 @@ std::string advice_experiment(const Advice& advice, const std::string& folder) {
                        [&](const auto& other) { return other.at(name) != conditions.front().at(name); });
   };
   Settings settings = answer.settings;
-  settings.map.placements = advice.placements ? static_cast<int>(std::lround(std::sqrt(advice.placements))) : 1;
+  settings.map.placements = static_cast<int>(std::lround(std::sqrt(chosen.placements)));
   std::string scene = settings.scene.name;
   if (std::error_code none; std::filesystem::is_regular_file(scene, none))
     scene = std::filesystem::proximate(scene, folder);
@@ -301,6 +407,9 @@ std::string advice_experiment(const Advice& advice, const std::string& folder) {
     text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", metric, max);
   if (advice.request.error)
     text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", advice.request.accuracy, *advice.request.error);
+  for (const Bound& bound : advice.request.eye)
+    text += fmt::format("\n[[bound]]  # for the eye, at the given view\nmetric = \"{}\"\nmax = {}\n{}", bound.metric,
+                        *bound.max, where_of_first(advice.request));
   return text;
 }
 
@@ -361,17 +470,36 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
     json one{{"settings", settings_map(tried.settings)}, {"bias_kind", tried.level}, {"texel_work", tried.cost}};
     if (tried.bias) {
       one["error"] = tried.error;
+      one["screened_error"] = tried.screened_error;
       one["bias"] = {{"parameter", tried.bias->parameter}, {"unit", tried.bias->unit},
                      {"value", tried.bias->value},         {"from", tried.bias->window.low},
-                     {"to", tried.bias->window.high},      {"narrow", tried.bias->narrow}};
+                     {"to", tried.bias->window.high},      {"narrow", tried.bias->narrow},
+                     {"fragile", is_fragile(*tried.bias)}};
     }
+    if (tried.eye)
+      one["eye"] = {{"edge_displacement_mean_pixels", tried.eye->edge_mean_pixels},
+                    {edge_metric, tried.eye->edge_p95_pixels},
+                    {patch_metric, tried.eye->wrong_patch},
+                    {"flip", tried.eye->flip}};
     if (!tried.why_not.empty()) one["why_not"] = tried.why_not;
     return one;
   };
   json all;
   all["text"] = advice_text(advice);
   all["accuracy"] = advice.request.accuracy;
-  all["answer"] = advice.answer ? of(*advice.answer) : json();
+  all["answer"] = json();
+  all["answers"] = json::object();
+  for (const Answer& answer : advice.answers) {
+    json one = of(answer.tried);
+    one["verified"] = {
+        {"conditions", answer.conditions},           {"searched_placements", answer.placements},
+        {"placements", answer.verified.placements},  {"rendered_placements", answer.verified.rendered},
+        {"worst_acne", answer.verified.worst_acne},  {"worst_peter_panning", answer.verified.worst_peter_panning},
+        {"worst_error", answer.verified.worst_error}};
+    for (AnswerKind kind : answer.kinds) all["answers"][answer_name(kind)] = one;
+    if (&answer == advice.answer()) all["answer"] = one, all["answer"]["kind"] = answer_name(advice.request.answer);
+  }
+  if (!advice.answers.empty()) all["budget"] = advice.budget;
   all["wrong_without_shadows"] = advice.shadowed;
   if (advice.nearest) {
     all["nearest"] = of(*advice.nearest);
@@ -380,13 +508,6 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
                                  {"y", advice.nearest->worst->worst.y},
                                  {"cause", advice.nearest->worst->worst.cause}};
   }
-  if (advice.answer)
-    all["verified"] = {{"conditions", advice.conditions},
-                       {"searched_placements", advice.placements},
-                       {"rendered_placements", advice.verified},
-                       {"worst_acne", advice.worst_acne},
-                       {"worst_peter_panning", advice.worst_peter_panning},
-                       {"worst_error", advice.worst_error}};
   if (advice.around) all["around"] = around_json(*advice.around);
   all["engines"] = json::array();
   for (const EngineAdvice& engine : engines) {
@@ -399,7 +520,8 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
     if (engine.promise)
       one["promise"] = {{"error", engine.promise->error},
                         {"acne", engine.promise->acne},
-                        {"peter_panning", engine.promise->peter_panning}};
+                        {"peter_panning", engine.promise->peter_panning},
+                        {"all_views", engine.promise->all_views}};
     if (!engine.why_not_emulated.empty()) one["why_not_measured"] = engine.why_not_emulated;
     all["engines"].push_back(one);
   }

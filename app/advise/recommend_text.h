@@ -11,9 +11,9 @@ namespace noonmark {
 // Sentences, one in each element.
 std::vector<std::string> advice_text(const Advice& advice);
 
-// An experiment that `noonmark check` passes: the answer's settings, the conditions, the placements and the bounds.
-// There must be an answer. folder: where the file will stand; the path of a scene's file is relative to it.
-std::string advice_experiment(const Advice& advice, const std::string& folder);
+// An experiment that `noonmark check` passes: the settings of one of the answers, the conditions, the placements and the bounds.
+// folder: where the file will stand; the path of a scene's file is relative to it.
+std::string advice_experiment(const Answer& answer, const Advice& advice, const std::string& folder);
 
 // What to type into one engine, and as a comment what error it gives, or why there is nothing to type.
 std::vector<std::string> engine_lines(const EngineAdvice& engine);

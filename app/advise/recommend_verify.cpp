@@ -14,9 +14,13 @@ namespace {
 
 constexpr int fresh_placements = 8;  // along each axis
 
+bool is_flat(Workbench& bench, const Settings& settings) {
+  return make_light_frame(bench.scene(settings.scene), settings).map_shape() == MapShape::flat;
+}
+
 // A placement that is none of the searched ones: half a step between them for a flat map, a random turn for a cube.
 Settings fresh(Workbench& bench, Settings settings, int i, std::mt19937_64& random) {
-  if (make_light_frame(bench.scene(settings.scene), settings).map_shape() == MapShape::flat) {
+  if (is_flat(bench, settings)) {
     settings.map.shift_u_texels += (i % fresh_placements + 0.5) / fresh_placements - 0.5;
     settings.map.shift_v_texels += (i / fresh_placements + 0.5) / fresh_placements - 0.5;
     return settings;
@@ -30,24 +34,48 @@ Settings fresh(Workbench& bench, Settings settings, int i, std::mt19937_64& rand
   return settings;
 }
 
+struct Limits {
+  const CurveOptions& bounds;
+  const std::string& accuracy;
+  std::optional<double> most;
+};
+
+void judge(PointRecord shown, const Limits& limits, Verified& verified) {
+  const double acne = worst_placed(shown, "acne"), panning = worst_placed(shown, "peter_panning"),
+               error = worst_placed(shown, limits.accuracy);
+  verified.worst_acne = std::max(verified.worst_acne, acne);
+  verified.worst_peter_panning = std::max(verified.worst_peter_panning, panning);
+  verified.worst_error = std::max(verified.worst_error, error);
+  if (!(acne <= limits.bounds.acne_bound && panning <= limits.bounds.peter_panning_bound) ||
+      (limits.most && !(error <= *limits.most)))
+    verified.broken = std::move(shown);
+}
+
 }  // namespace
 
 Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, const CurveOptions& bounds,
-                                    const std::string& accuracy, std::optional<double> most,
+                                    const std::string& accuracy, std::optional<double> most, int rendered,
                                     const std::function<void(int, int)>& done) {
   Verified verified;
+  const Limits limits{bounds, accuracy, most};
+  constexpr int all = fresh_placements * fresh_placements;
+  const bool flat = is_flat(bench, settings);
+  verified.placements = all;
+  if (flat) {
+    Settings lattice = settings;
+    lattice.map.placements = fresh_placements;
+    lattice.map.shift_u_texels += 0.5 / fresh_placements;
+    lattice.map.shift_v_texels += 0.5 / fresh_placements;
+    judge(bench.measure(lattice, std::nullopt).record, limits, verified);
+  }
   std::mt19937_64 random(64);
-  for (int i = 0; i < fresh_placements * fresh_placements && !verified.broken; ++i) {
-    PointRecord shown = bench.measure(fresh(bench, settings, i, random), std::nullopt).record;
-    const double acne = metric_of(shown, "acne"), panning = metric_of(shown, "peter_panning"),
-                 error = metric_of(shown, accuracy);
-    verified.worst_acne = std::max(verified.worst_acne, acne);
-    verified.worst_peter_panning = std::max(verified.worst_peter_panning, panning);
-    verified.worst_error = std::max(verified.worst_error, error);
-    ++verified.placements;
-    done(verified.placements, fresh_placements * fresh_placements);
-    if (!(acne <= bounds.acne_bound && panning <= bounds.peter_panning_bound) || (most && !(error <= *most)))
-      verified.broken = std::move(shown);
+  const int of = flat ? rendered : all;
+  for (; verified.rendered < of && !verified.broken; ++verified.rendered, done(verified.rendered, of)) {
+    // 5 steps along one axis and 3 along the other, from one to the next: no row and no column is left out.
+    const int n = verified.rendered;
+    const int i =
+        flat ? (3 * n % fresh_placements) * fresh_placements + (5 * n + n / fresh_placements) % fresh_placements : n;
+    judge(bench.measure(fresh(bench, settings, i, random), std::nullopt).record, limits, verified);
   }
   return verified;
 }

@@ -1,4 +1,4 @@
-// The last step of a recommendation: OpenGL renders the settings at placements of the map's grid that were not searched.
+// The last step of a recommendation: the settings at placements of the map's grid that were not searched.
 #pragma once
 #include <functional>
 #include <optional>
@@ -10,16 +10,20 @@
 namespace noonmark {
 
 struct Verified {
-  int placements = 0;                                               // that were rendered
-  double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over these
-  std::optional<PointRecord> broken;  // the first that breaks a bound; it is the last rendered
+  int placements = 0;                                               // that were judged
+  int rendered = 0;                                                 // of these, by OpenGL with its own map
+  double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over all of these
+  std::optional<PointRecord> broken;                                // the first that breaks a bound
 };
 
-// 64 placements: for a flat map half a step between those of 8 x 8, for a cube random turns, the same in every run.
-// `accuracy` names the metric of worst_error. `most` is the largest value that this metric may have at each placement;
-// without it the metric is only reported. done(n, of): n placements are rendered. Throws Error.
+// 64 placements. Of a flat map they lie half a step between those of 8 x 8. They are judged on the exact map, which is one
+// measurement (technique/placements.h), and OpenGL renders `rendered` of them, spread over a texel. Of a cube they are random
+// turns, the same in every run, and OpenGL renders all. `accuracy` names the metric of worst_error. `most` is the largest value that
+// this metric may have at each placement; without it the metric is only reported. done(n, of): n placements are rendered.
+// Throws Error.
+inline constexpr int rendered_placements = 16;
 Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, const CurveOptions& bounds,
-                                    const std::string& accuracy, std::optional<double> most,
+                                    const std::string& accuracy, std::optional<double> most, int rendered,
                                     const std::function<void(int, int)>& done);
 
 }  // namespace noonmark

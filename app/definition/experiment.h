@@ -60,7 +60,9 @@ struct Experiment {
   std::vector<Swept> swept;  // outermost first; conditions come before choices
   std::vector<std::string> plot;
   std::string cost = RunInfo().cost, accuracy = RunInfo().accuracy;  // of [answer]
-  std::optional<AtlasEntry> atlas;                                   // of [atlas]; it changes no measurement
+  // Of [answer], too: what recommend may choose although the file gives it. "bias" and "filter" are groups of settings.
+  std::vector<std::string> choose;
+  std::optional<AtlasEntry> atlas;  // of [atlas]; it changes no measurement
   std::vector<Bound> bounds;
   std::vector<std::pair<std::string, std::string>> let;  // definitions for the laws
   std::vector<Law> laws;

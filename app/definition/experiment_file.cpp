@@ -270,6 +270,13 @@ class Reader : private SettingsReader {
         experiment_.cost = metric(*item.node, "answer.cost");
       else if (item.key == "accuracy")
         experiment_.accuracy = metric(*item.node, "answer.accuracy");
+      else if (item.key == "choose")
+        for (const toml::node* node : list(*item.node, "answer.choose")) {
+          const std::string name = one_of(*node, "answer.choose", key_choices("answer", "choose"));
+          if (std::find(experiment_.choose.begin(), experiment_.choose.end(), name) != experiment_.choose.end())
+            fail(*node, fmt::format("answer.choose names '{}' twice", name));
+          experiment_.choose.push_back(name);
+        }
       else
         unknown(item, "key", key_names("answer"), "answer.");
     }

@@ -61,9 +61,12 @@ const std::vector<ExperimentKey>& plot_keys() {
 }
 
 const std::vector<ExperimentKey>& answer_keys() {
-  static const std::vector<ExperimentKey> keys = {
-      {"cost", Kind::metric, "The cost: the least is recommended."},
-      {"accuracy", Kind::metric, "The error: the least among equal costs."}};
+  static const std::vector<ExperimentKey> keys = {{"cost", Kind::metric, "The cost: the least is recommended."},
+                                                  {"accuracy", Kind::metric, "The error: the least among equal costs."},
+                                                  {"choose",
+                                                   Kind::names,
+                                                   "What recommend may choose although the file gives it.",
+                                                   {"map.resolution", "map.fit", "bias", "filter"}}};
   return keys;
 }
 

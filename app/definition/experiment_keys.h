@@ -14,7 +14,7 @@ struct ExperimentKey {
   // What stands behind the key.
   enum class Kind {
     text,        // a string
-    names,       // a list of strings
+    names,       // a list of strings, of `choices` if there are any
     choice,      // one of `choices`
     flag,        // true or false
     number,      // finite, at least `least`

@@ -119,6 +119,7 @@ Json form_of(const ExperimentKey& key) {
       break;
     case Kind::names:
       form = {{"type", "array"}, {"items", {{"type", "string"}}}, {"uniqueItems", true}};
+      if (!key.choices.empty()) form["items"] = {{"enum", key.choices}};
       break;
     case Kind::choice:
       form["enum"] = key.choices;

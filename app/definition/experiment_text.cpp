@@ -54,6 +54,7 @@ class Writer {
       header("[answer]");
       line("cost", toml_string(e.cost));
       line("accuracy", toml_string(e.accuracy));
+      if (!e.choose.empty()) line("choose", names(e.choose));
     }
     if (e.atlas) write_atlas(*e.atlas);
     for (const FrameRequest& frame : e.frames) {

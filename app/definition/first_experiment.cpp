@@ -54,6 +54,16 @@ constexpr const char* first_bounds =
     "[[bound]]\n"
     "metric = \"peter_panning\"    # share that is lit because the bias reaches past its occluder; less bias helps\n"
     "max = 0.005\n"
+    "where = {\"map.resolution\" = 2048}\n"
+    "\n"
+    "[[bound]]                   # for the eye: within a pixel, a drawn edge cannot be told from the true one\n"
+    "metric = \"edge_displacement_p95_pixels\"  # of 95% of the pixels at edges: a single pixel decides nothing\n"
+    "max = 1\n"
+    "where = {\"map.resolution\" = 2048}\n"
+    "\n"
+    "[[bound]]                   # for the eye: no blob. Of the errors that are left, people see the connected ones\n"
+    "metric = \"wrong_patch\"      # the largest patch of wrong pixels, as a share of the picture\n"
+    "max = 0.0002                # 0.02% of 960 x 540 are 10 x 10 pixels\n"
     "where = {\"map.resolution\" = 2048}\n";
 
 }  // namespace
@@ -100,6 +110,10 @@ std::string first_experiment(const Model& model, const std::string& path) {
       "[sweep]                     # each value is measured: 4 points; of several settings, every combination\n"
       "map.resolution = [{}]\n\n",
       light == LightKind::point ? "256, 512, 1024, 2048" : "512, 1024, 2048, 4096");
+  text +=
+      "[answer]\n"
+      "choose = [\"map.resolution\", \"map.fit\", \"bias\", \"filter\"]  # what `noonmark recommend` may change; the "
+      "rest stays\n\n";
   return text + first_bounds;
 }
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -24,6 +25,8 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "compare/judge/choices.h"
+#include "compare/results/number_text.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
 #include "technique/tap_pattern.h"
@@ -33,18 +36,44 @@ namespace {
 
 constexpr const char* recommend_prefix = "recommend-";  // of the default folder
 
-// The points of the conditions alone: each choice of the sweep has its first value.
-std::vector<Settings> conditions_of(Experiment experiment) {
-  std::erase_if(experiment.swept, [](const Swept& swept) { return !swept.condition; });
-  return points(experiment);
-}
+// What says where a map lies.
+constexpr std::string_view settings_of_place[] = {
+    "map.fit",          "map.extent_m",    "map.extent_scale", "map.near_m",         "map.far_m",
+    "map.snap",         "map.depth_range", "map.reach_m",      "map.shift_u_texels", "map.shift_v_texels",
+    "light.position_m", "light.target_m"};
 
 bool is_experiment(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
+// Whether [answer] choose of the experiment leaves a setting to the recommendation. What the command line gives stays.
+bool leaves_open(const Experiment& experiment, const std::string& setting) {
+  const auto is_of = [&](const std::string& group) {
+    if (group == "map.fit")
+      return std::find(std::begin(settings_of_place), std::end(settings_of_place), setting) !=
+             std::end(settings_of_place);
+    return setting == group || setting.starts_with(group + ".");
+  };
+  const std::vector<std::string>& given = experiment.overridden;
+  return std::any_of(experiment.choose.begin(), experiment.choose.end(), is_of) &&
+         std::find(given.begin(), given.end(), setting) == given.end();
+}
+
 // Whether the user said what a setting with this beginning is, fixed or swept. The unit of the bias is none of it.
 bool gives(const Experiment& experiment, std::string_view begin) {
-  return std::any_of(experiment.locations.begin(), experiment.locations.end(),
-                     [&](const auto& given) { return given.first.starts_with(begin) && given.first != "bias.unit"; });
+  return std::any_of(experiment.locations.begin(), experiment.locations.end(), [&](const auto& given) {
+    return given.first.starts_with(begin) && given.first != "bias.unit" && !leaves_open(experiment, given.first);
+  });
+}
+
+// The points of the conditions alone: each choice of the sweep has its first value.
+std::vector<Settings> conditions_of(Experiment experiment) {
+  std::erase_if(experiment.swept, [](const Swept& swept) { return !swept.condition; });
+  const Settings unset;
+  for (const auto& [name, location] : experiment.locations)
+    if (name.starts_with("map.") && leaves_open(experiment, name)) {
+      const Setting& row = find_setting(name);
+      row.set(experiment.base, row.get(unset));
+    }
+  return points(experiment);
 }
 
 // What the experiment fixes or sweeps of resolution and filter is what may be recommended.
@@ -101,10 +130,63 @@ struct RecommendOptions {
   std::string what;                           // an experiment's *.toml, a built-in scene, or a model's file
   std::optional<double> acne, peter_panning;  // bounds; empty: the experiment's
   std::optional<double> error, budget;        // AdviceRequest
+  std::optional<double> edges, patch;         // bounds for the eye
+  std::optional<AnswerKind> answer;           // empty: best with a budget, otherwise least
   int views = 5;                              // of a scene; 1: its own only
   bool around = false;                        // also what each setting does around the answer
   ExperimentArguments arguments;
 };
+
+// The bounds for the eye: those of the experiment, the options' in their place, and the default of what neither gives.
+std::vector<Bound> eye_bounds(const Experiment& experiment, const RecommendOptions& options) {
+  std::vector<Bound> bounds;
+  std::copy_if(experiment.bounds.begin(), experiment.bounds.end(), std::back_inserter(bounds), is_eye_bound);
+  for (Bound& bound : bounds)  // which choices it is about is known only to an experiment that sweeps them
+    std::erase_if(bound.where, [](const auto& one) { return !decides_what_is_seen(one.first); });
+  for (const Bound& usual : default_eye_bounds()) {
+    const std::optional<double> given = usual.metric == edge_metric ? options.edges : options.patch;
+    const auto same = [&](const Bound& bound) { return bound.metric == usual.metric; };
+    if (given) std::erase_if(bounds, same);
+    if (std::any_of(bounds.begin(), bounds.end(), same)) continue;
+    bounds.push_back(usual);
+    if (given) bounds.back().max = *given;
+  }
+  return bounds;
+}
+
+// Where the map may lie: if the user says nothing of it, also elsewhere than the settings lay it.
+std::vector<MapPlace> places_of(const Experiment& experiment, const AdviceRequest& request, const Scene& scene,
+                                std::span<const Settings> views) {
+  const bool given = std::any_of(std::begin(settings_of_place), std::end(settings_of_place),
+                                 [&](std::string_view name) { return gives(experiment, name); });
+  return given ? std::vector{place_as_given()} : map_places(scene, request.conditions, views);
+}
+
+// What was given that decides the answer, beside the scene: "scene.floor = true, map.resolution = 512 | 1024". Empty: nothing.
+// Another answer for the same scene differs in one of these. A condition that has its default decides nothing.
+std::string given_text(const Experiment& experiment, const AdviceRequest& request) {
+  const Settings& first = request.conditions.front();
+  const Settings unset;
+  std::vector<std::string> parts;
+  for (const Setting& row : settings_table()) {
+    const std::string name(row.name), value = row.get(first);
+    if (name == "scene.name" || !experiment.locations.contains(name) || leaves_open(experiment, name)) continue;
+    const auto swept = std::find_if(experiment.swept.begin(), experiment.swept.end(),
+                                    [&](const Swept& one) { return one.name == name; });
+    std::vector<std::string> values;
+    if (swept != experiment.swept.end())
+      for (const std::string& one : swept->values) values.push_back(setting_text(one));
+    else if (!decides_what_is_seen(name) || value != row.get(unset))
+      values.push_back(setting_text(value));
+    if (!values.empty()) parts.push_back(fmt::format("{} = {}", name, fmt::join(values, " | ")));
+  }
+  const CurveOptions bounds;
+  if (request.curve.acne_bound != bounds.acne_bound)
+    parts.push_back("acne within " + percent_text(request.curve.acne_bound));
+  if (request.curve.peter_panning_bound != bounds.peter_panning_bound)
+    parts.push_back("Peter Panning within " + percent_text(request.curve.peter_panning_bound));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
 
 // What is searched: the conditions, the settings to try, and the bounds.
 AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& options, Workbench& bench) {
@@ -116,23 +198,31 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
     request.conditions = turned_views(first, scene);
     request.conditions.resize(std::min(request.conditions.size(), static_cast<size_t>(options.views)));
   }
+  const bool turned = request.conditions.size() > 1 && conditions_of(experiment).size() == 1;
+  request.places = places_of(experiment, request, scene, turned ? views_between(first, scene) : request.conditions);
   const LightKind light = make_light_frame(scene, request.conditions.front()).kind;
   if (!gives(experiment, "bias.")) request.levels = bias_levels();
   request.filters = filters_to_try(light);
   for (int resolution = 256; resolution <= 8192; resolution *= 2) request.resolutions.push_back(resolution);
+  request.between = light == LightKind::directional && !gives(experiment, "map.resolution");
   take_choices(request, experiment);
+  request.width_px = searched_width_px(bench, request.conditions.front());
   request.curve = experiment.curve;
   if (options.acne) request.curve.acne_bound = *options.acne;
   if (options.peter_panning) request.curve.peter_panning_bound = *options.peter_panning;
+  request.eye = eye_bounds(experiment, options);
   request.accuracy = experiment.accuracy;
   request.error = options.error;
   request.budget = options.budget;
+  request.given = given_text(experiment, request);
+  request.answer = options.answer.value_or(options.budget ? AnswerKind::best : AnswerKind::least);
   return request;
 }
 
 // What to type for each engine, what to know of the scenes, and the files that are written.
-void print_advice(const AdviceRequest& request, const std::vector<EngineAdvice>& engines, Workbench& bench,
-                  const std::string& out, bool around) {
+void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines, Workbench& bench,
+                  const std::string& out) {
+  const AdviceRequest& request = advice.request;
   fmt::print("\nWhat to type (what each engine cannot express is in {}/engines.txt):\n", printable(out));
   for (const EngineAdvice& engine : engines) {
     fmt::print("  {} ({})\n", engine.engine, engine.version);
@@ -149,7 +239,13 @@ void print_advice(const AdviceRequest& request, const std::vector<EngineAdvice>&
       "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.json, {0}/engines.txt "
       "and {0}/recommended-*.png are written\n",
       printable(out));
-  if (around)
+  for (const Answer& answer : advice.answers)
+    if (&answer != advice.answer())
+      fmt::print(
+          "{0}/recommended-{1}.toml and {0}/recommended-{1}-*.png are of the answer \"{1}\"; --answer {1} prints its "
+          "lines\n",
+          printable(out), answer_name(answer.kinds.front()));
+  if (advice.around)
     fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
 }
 
@@ -160,11 +256,11 @@ constexpr int promised_placements = 4;
 // What to type, and what error it gives under the searched conditions.
 std::vector<EngineAdvice> measured_engines(Workbench& bench, const Advice& advice,
                                            const std::function<void(const std::string&)>& say) {
-  const Settings& settings = advice.answer->settings;
+  const Settings& settings = advice.answer()->tried.settings;
   const double farthest_m = farthest_in_views_m(bench, advice.request.conditions);  // the lines must hold in each view
   const Scene& loaded = bench.scene(settings.scene);
   std::vector<EngineAdvice> engines = engine_advice(settings, make_light_frame(loaded, settings), loaded, farthest_m);
-  std::vector<Settings> conditions = answer_under_conditions(advice);
+  std::vector<Settings> conditions = answer_under_conditions(*advice.answer(), advice.request);
   for (Settings& condition : conditions)
     condition.map.placements = std::min(condition.map.placements, promised_placements);
   const EnginePromise recommended = measure_promises(bench, engines, conditions, advice.request.accuracy, say);
@@ -190,26 +286,29 @@ int recommend(const RecommendOptions& options) {
   Progress progress(arguments.quiet);  // shows no remaining time, because each result decides what is tried next
   const auto say = [&](const std::string& step) { progress.say(printable(step)); };
   Advice advice = search(bench, request, say);
-  if (advice.answer && options.around)
-    advice.around = settings_around(bench, answer_under_conditions(advice),
+  if (advice.answer() && options.around)
+    advice.around = settings_around(bench, answer_under_conditions(*advice.answer(), request),
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
   std::vector<EngineAdvice> engines;
-  if (advice.answer) engines = measured_engines(bench, advice, say);
+  if (advice.answer()) engines = measured_engines(bench, advice, say);
   progress.end_line();
   write_file_atomically(out + "/recommended.json", advice_json(advice, engines));
   if (arguments.json)
     fmt::print("{}", advice_json(advice, engines));
   else
     for (const std::string& line : advice_text(advice)) fmt::print("{}\n", printable(line));
-  if (!advice.answer) return 1;
-  write_file_atomically(out + "/recommended.toml", advice_experiment(advice, out));
+  if (!advice.answer()) return 1;
+  for (const Answer& answer : advice.answers) {
+    const std::string stem =
+        &answer == advice.answer() ? "recommended" : "recommended-" + answer_name(answer.kinds.front());
+    write_file_atomically(out + "/" + stem + ".toml", advice_experiment(answer, advice, out));
+    write_pictures(bench.measure(answer.tried.settings, std::nullopt), out, ".", stem);
+  }
   write_file_atomically(out + "/engines.txt", advice_engines(engines));
   if (advice.around)
     write_file_atomically(out + "/recommended.html",
                           to_tornado_page(*advice.around, std::string(build_facts().version)));
-  const Measurement shown = bench.measure(advice.answer->settings, std::nullopt);
-  write_pictures(shown, out, ".", "recommended");
-  if (!arguments.json) print_advice(request, engines, bench, out, advice.around.has_value());
+  if (!arguments.json) print_advice(advice, engines, bench, out);
   return 0;
 }
 
@@ -223,13 +322,34 @@ void add_search_options(CLI::App& verb, RecommendOptions& options) {
            percent_text(bounds.acne_bound) + ", or acne_bound of the experiment's [curve]");
   add_most(options.peter_panning, "--peter-panning", "The most Peter Panning",
            percent_text(bounds.peter_panning_bound) + ", or peter_panning_bound of the experiment's [curve]");
-  add_most(options.error, "--error", "The most error. The cheapest settings are sought",
-           "what pays: the least product of cost and error");
+  add_most(options.error, "--error", "The most error", "no bound");
   verb.add_option("--budget", options.budget,
-                  "The most texels written and texture instructions a frame (the metric texel_work). The most accurate "
-                  "settings are sought")
+                  "The most texels written and texture instructions a frame (the metric texel_work) that an answer may "
+                  "cost")
       ->check(above_zero())
-      ->type_name(value_kind::number);
+      ->type_name(value_kind::number)
+      ->default_str(fmt::format("{} times the cost of the cheapest answer", budget_of_least));
+  verb.add_option("--edges", options.edges,
+                  "The most that 95% of the pixels at shadow edges lie off, in pixels of the picture at the given view")
+      ->check(above_zero())
+      ->type_name(value_kind::number)
+      ->default_str(fmt::format("{}, or a bound of the experiment on {}", most_edge_pixels, edge_metric));
+  add_most(options.patch, "--patch", "The largest patch of wrong pixels, as a share of the picture at the given view",
+           fmt::format("{}, or a bound of the experiment on {}", percent_text(most_wrong_patch), patch_metric));
+  std::vector<std::string> kinds;
+  for (AnswerKind kind : answer_kinds) kinds.push_back(answer_name(kind));
+  verb.add_option_function<std::string>(
+          "--answer",
+          [&options, kinds](const std::string& word) {
+            options.answer = answer_kinds[std::find(kinds.begin(), kinds.end(), word) - kinds.begin()];
+          },
+          fmt::format("The answer to print the lines of: least, the cheapest that holds all bounds; balanced, the most "
+                      "accurate one whose error no cheaper one comes within {} times of; best, the most accurate one "
+                      "within --budget",
+                      error_that_pays))
+      ->check(one_of(kinds))
+      ->type_name(joined(kinds))
+      ->default_str("least, and best with --budget");
   verb.add_option("--views", options.views,
                   "Number of views without an [over]: the view that is given, and up to 4 turned ones")
       ->check(whole_number(1, 5))

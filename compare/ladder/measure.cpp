@@ -127,7 +127,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"error", error_of(ladder)},
       {"error_soft", share(error_soft)},
       {"wrong", share(static_cast<double>(wrong))},
-      {"wrong_patch", share(static_cast<double>(largest_wrong_patch(ladder)))},
+      {"wrong_patch", measured(largest_wrong_patch(ladder) / static_cast<double>(ladder.flags.size()))},
       {"pcf_error", share(pcf)},
       {"pcf_error_soft", share(pcf_soft)},
       {"light_size", caused(Cause::light_size)},

@@ -18,9 +18,8 @@ constexpr Metric measured_once[] = {
      "Mean |R5 - R0|: what the GPU shows compared with the truth for the light with its size.", true},
     {"wrong", "fraction", "Share of the counted receivers whose R5 differs from R1.", true},
     {"wrong_patch", "fraction",
-     "Share of the counted receivers in the largest patch of wrong ones: pixels that touch at a side or a corner, and "
-     "whose "
-     "R5 and R1 are not on the same side of one half.",
+     "The largest patch of wrong pixels, as a share of the whole picture: counted receivers that touch at a side or a "
+     "corner, and whose R5 and R1 are not on the same side of one half.",
      true},
     {"pcf_error", "fraction",
      "The PCF error, mean |R5 - R1|: the error of the filtered lookup against the hard truth, also of a ladder with a "

@@ -243,6 +243,14 @@ bool has_placements(const PointRecord& point) {
   return !side.empty() && side != "1";
 }
 
+double worst_placed(const PointRecord& point, const std::string& metric) {
+  double most = metric_of(point, metric);
+  if (has_placements(point))
+    for (const std::string& name : placed_names(metric).largest)
+      if (const double value = metric_of(point, name); !(value <= most)) most = value;
+  return most;
+}
+
 double metric_of(const PointRecord& point, const std::string& name) {
   const auto found = point.metrics.find(name);
   return found == point.metrics.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;

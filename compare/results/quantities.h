@@ -74,6 +74,9 @@ struct PlacedNames {
 PlacedNames placed_names(std::string_view name);
 // Whether the point was measured at several placements of the map's grid.
 bool has_placements(const PointRecord& point);
+// The metric at the worst of the point's placements. Of a metric that is measured once for all of them, and of a point with one
+// placement: the metric. A NaN stays one.
+double worst_placed(const PointRecord& point, const std::string& metric);
 
 // The pixel of the picture that is worst by a metric, as rendered; of a metric over all placements (acne_worst) that of
 // the metric itself. Empty if no pixel is.

@@ -164,6 +164,10 @@ TEST(Experiment, TheAnswerNamesItsMetrics) {
   EXPECT_EQ(e.cost, "map_bytes");
   EXPECT_EQ(e.accuracy, "error");
   EXPECT_EQ(parse("").cost, "texel_work");
+  EXPECT_EQ(parse("[answer]\nchoose = [\"bias\", \"map.fit\"]\n").choose,
+            (std::vector<std::string>{"bias", "map.fit"}));
+  EXPECT_THROW(parse("[answer]\nchoose = [\"bias.constant\"]\n"), Error);
+  EXPECT_THROW(parse("[answer]\nchoose = [\"bias\", \"bias\"]\n"), Error);
 }
 
 TEST(Experiment, OverridesReplaceTheValueAndItsSweep) {

@@ -71,7 +71,8 @@ TEST_F(FirstSteps, AModelWithAGroundGetsNoFloorAndOneWithALightNoSun) {
   EXPECT_TRUE(first.base.light.elevation_deg && first.base.light.azimuth_deg);
   EXPECT_EQ(first.base.map.fit, MapFit::view);
   EXPECT_TRUE(first.phase.enabled);
-  EXPECT_EQ(first.bounds.size(), 2u);
+  EXPECT_EQ(first.bounds.size(), 4u) << "acne, Peter Panning, and two for the eye";
+  EXPECT_EQ(first.choose.size(), 4u);
   const Experiment second = load_experiment((folder_ / "lit.toml").string());
   EXPECT_FALSE(second.base.scene.floor);
   EXPECT_FALSE(second.base.light.elevation_deg || second.base.light.azimuth_deg);

@@ -1,6 +1,7 @@
 // noonmark recommend: what it recommends holds where it was not searched, and it says so where nothing does.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,9 @@ class Recommend : public Program {
     for (const std::string& size :
          {"view.width_px=" + std::to_string(width_), "view.height_px=" + std::to_string(height_)})
       words.insert(words.end(), {"--set", size});
+    if (std::find(more.begin(), more.end(), "--edges") == more.end() &&
+        std::find(more.begin(), more.end(), "--patch") == more.end())
+      words.insert(words.end(), any_eye_.begin(), any_eye_.end());
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }
@@ -31,6 +35,8 @@ class Recommend : public Program {
   double bias() { return found()["answer"]["bias"]["value"]; }
 
   int width_ = 160, height_ = 90;  // pixels
+  // In so small a picture a pixel is a large patch, and edges lie within few of them.
+  const std::vector<std::string> any_eye_ = {"--edges", "100", "--patch", "100%"};
 };
 
 // The text for the engines without the lines that say what was measured.
@@ -47,10 +53,11 @@ std::string without_promises(const std::string& engines) {
 // The file is judged again at other placements of the grid and in views between those that were searched.
 TEST_F(Recommend, WhatItWritesPassesWhereItWasNotSearched) {
   ASSERT_EQ(recommend("cube-room"), 0) << output_;
-  EXPECT_TRUE(says("Verified: OpenGL rendered it under the worst condition at 64 other placements")) << output_;
+  EXPECT_TRUE(says("Verified under the worst condition at 64 other placements, 16 of them rendered by OpenGL"))
+      << output_;
   EXPECT_TRUE(says("What to type")) << output_;
   const json first = found();
-  EXPECT_EQ(first["verified"]["conditions"], 5);
+  EXPECT_EQ(first["answer"]["verified"]["conditions"], 5);
   const double low = first["answer"]["bias"]["from"], high = first["answer"]["bias"]["to"];
   EXPECT_GE(bias(), 1.05 * low);
   EXPECT_LE(bias(), high / 1.05);
@@ -58,6 +65,7 @@ TEST_F(Recommend, WhatItWritesPassesWhereItWasNotSearched) {
   const size_t eyes = experiment.find("view.eye_m"), end = experiment.find('\n', eyes);
   ASSERT_NE(eyes, std::string::npos) << experiment;
   experiment.replace(eyes, end - eyes, "view.eye_m = [[-2.9, 2.8, 5.6], [0.6, 2.8, 6.9]]");
+  experiment.resize(experiment.find("[[bound]]  # for the eye"));  // they are about the given view
   write("between.toml", experiment);
   EXPECT_EQ(run({"check", "between.toml", "--set", "map.shift_u_texels=0.29", "--set", "map.shift_v_texels=0.41"}), 0)
       << output_;
@@ -78,18 +86,99 @@ TEST_F(Recommend, HoldsAnErrorWithTheLeastWork) {
   width_ = 112, height_ = 63;  // for its time: it is the longest search of all
   ASSERT_EQ(recommend("cube-room", {"--views", "1", "--error", "0.001"}), 0) << output_;
   EXPECT_LE(found()["answer"]["error"], 0.001);
-  EXPECT_LE(found()["verified"]["worst_error"], 0.001) << "at every placement that was rendered";
+  EXPECT_LE(found()["answer"]["verified"]["worst_error"], 0.001) << "at every placement that was judged";
   const double work = found()["answer"]["texel_work"];
   for (const json& other : found()["tried"])
-    if (other.contains("error") && other["texel_work"] < work && other["bias_kind"] == found()["answer"]["bias_kind"] &&
-        other["why_not"].get<std::string>().find("rendered at another placement") == std::string::npos) {
-      EXPECT_GT(other["error"], 0.001) << other.dump(1);
+    if (other.contains("error") && other["texel_work"] < work && other["error"] <= 0.001) {
+      // What holds as far as is known is worse than the answer only by its cost.
+      EXPECT_NE(other["why_not"].get<std::string>().rfind("it has", 0), 0u) << other.dump(1);
     }
 }
 
 TEST_F(Recommend, HoldsABudgetWithTheLeastError) {
   ASSERT_EQ(recommend("cube-room", {"--views", "1", "--budget", "500000"}), 0) << output_;
   EXPECT_LE(found()["answer"]["texel_work"], 500000);
+}
+
+// Each answer is judged again: what it promises holds, and so do the definitions of the three.
+TEST_F(Recommend, GivesThreeAnswersBetweenCostAndError) {
+  width_ = 240, height_ = 135;
+  ASSERT_EQ(recommend("cube-room", {"--views", "1", "--edges", "1.5"}), 0) << output_;
+  const json all = found(), three = all["answers"];
+  const auto number = [&](const char* answer, const char* name) { return three[answer][name].get<double>(); };
+  for (const char* name : {"texel_work", "screened_error"}) EXPECT_GT(number("least", name), 0);
+  EXPECT_LE(number("least", "texel_work"), number("balanced", "texel_work"));
+  EXPECT_LT(number("least", "texel_work"), number("best", "texel_work")) << "the edges leave no one answer";
+  EXPECT_LE(number("best", "texel_work"), 4 * number("least", "texel_work"));
+  EXPECT_LT(number("best", "screened_error"), number("least", "screened_error"));
+  EXPECT_EQ(all["answer"]["kind"], "least");
+  for (const char* kind : {"least", "balanced", "best"}) {
+    EXPECT_LE(three[kind]["eye"]["edge_displacement_p95_pixels"], 1.5);
+    EXPECT_LE(three[kind]["eye"]["wrong_patch"], 0.0002);
+    EXPECT_LE(three[kind]["verified"]["worst_acne"], 0.001);
+  }
+  // No cheaper one that holds comes near the balanced one.
+  for (const json& other : all["tried"])
+    if (other["texel_work"] < number("balanced", "texel_work") &&
+        other["why_not"].get<std::string>().rfind("it has", 0) == 0) {
+      EXPECT_GT(other["screened_error"], 1.5 * number("balanced", "screened_error")) << other.dump(1);
+    }
+  EXPECT_EQ(run({"check", "out/recommended.toml", "--out", "least"}), 0) << output_;
+  EXPECT_TRUE(says("edge_displacement_p95_pixels <= 1.5") && says("wrong_patch <= 0.02%")) << output_;
+  const bool same = three["balanced"] == three["best"];
+  const std::string other = same ? "recommended-balanced" : "recommended-best";
+  EXPECT_EQ(run({"check", "out/" + other + ".toml", "--out", "best"}), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out" / (other + "-map.png")));
+  // Another of the three is the same one when it is asked for.
+  ASSERT_EQ(recommend("cube-room", {"--views", "1", "--edges", "1.5", "--answer", "best"}), 0) << output_;
+  EXPECT_EQ(found()["answer"]["settings"], three["best"]["settings"]);
+  EXPECT_EQ(found()["answers"]["least"]["settings"], three["least"]["settings"]);
+  EXPECT_FALSE(fs::exists(folder_ / "out" / (other + ".toml"))) << "of the run before";
+  EXPECT_EQ(recommend("cube-room", {"--answer", "bset"}), 2) << output_;
+  EXPECT_TRUE(says("best")) << output_;
+}
+
+// Edges that may lie further off are had with less texels.
+TEST_F(Recommend, HoldsWhatTheEyeSees) {
+  const std::vector<std::string> one = {"--views",           "1",     "--set",      "filter.kind=none", "--set",
+                                        "bias.constant=0.1", "--set", "bias.unit=m"};
+  const auto texels = [&](const std::string& edges) {
+    std::vector<std::string> words = one;
+    words.insert(words.end(), {"--edges", edges});
+    EXPECT_EQ(recommend("cube-room", words), 0) << output_;
+    return std::stoi(setting("map.resolution"));
+  };
+  const int coarse = texels("3"), fine = texels("0.5");
+  EXPECT_LT(coarse, fine);
+  std::vector<std::string> words = one;
+  words.insert(words.end(), {"--patch", "0.00001%", "--set", "map.resolution=256"});
+  EXPECT_EQ(recommend("cube-room", words), 1) << output_;
+  EXPECT_TRUE(says("of the picture is wrong")) << output_;
+}
+
+// What an experiment leaves open is searched as if the file did not give it.
+TEST_F(Recommend, ChoosesWhatAnExperimentLeavesOpen) {
+  const std::string scene =
+      "scene = \"plate\"\n[bias]\nunit = \"texel\"\nconstant = 0.25\n[filter]\nkind = \"box\"\nsize = 7\n"
+      "[map]\nfit = \"tight\"\nextent_m = 200\n[sweep]\nmap.resolution = [64, 128]\n";
+  write("free.toml", scene + "[answer]\nchoose = [\"map.resolution\", \"map.fit\", \"bias\", \"filter\"]\n");
+  width_ = 96, height_ = 54;
+  ASSERT_EQ(recommend("plate", {"--views", "1"}), 0) << output_;
+  const json alone = found()["answers"];
+  ASSERT_EQ(recommend("free.toml", {"--views", "1"}), 0) << output_;
+  EXPECT_EQ(found()["answers"], alone) << "the same conditions, the same answer";
+  EXPECT_FALSE(says("bias.constant = 0.25")) << output_;
+  // The command line has the last word.
+  ASSERT_EQ(recommend("free.toml", {"--views", "1", "--set", "map.resolution=1024"}), 0) << output_;
+  EXPECT_EQ(setting("map.resolution"), "1024");
+  EXPECT_TRUE(says("map.resolution = 1024. For the scene alone it can be another one.")) << output_;
+  write("tied.toml", scene);
+  ASSERT_EQ(recommend("tied.toml",
+                      {"--views", "1", "--edges", "100", "--patch", "100%", "--acne", "5%", "--peter-panning", "5%"}),
+            0)
+      << output_;
+  EXPECT_EQ(setting("filter.kind"), "box");
+  EXPECT_EQ(setting("map.extent_m"), "200");
 }
 
 TEST_F(Recommend, NothingWorksIsAnAnswerWithAReason) {
@@ -120,8 +209,8 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_TRUE(says("- bias.tan = ")) << output_;
   EXPECT_NE(text("out/recommended.html").find("map.resolution"), std::string::npos);
   EXPECT_EQ(found()["answer"]["bias"]["parameter"], "bias.tan");
-  EXPECT_EQ(found()["verified"]["conditions"], 2);
-  for (const char* relied : {"format = \"24\"", "cull = \"none\"", "fit = \"scene\"", "kind = \"none\"", "wrap = "})
+  EXPECT_EQ(found()["answer"]["verified"]["conditions"], 2);
+  for (const char* relied : {"format = \"24\"", "cull = \"none\"", "fit = ", "kind = ", "wrap = "})
     EXPECT_NE(text("out/recommended.toml").find(relied), std::string::npos)
         << "a default that the answer relies on: " << relied;
   EXPECT_EQ(run({"check", "out/recommended.toml", "--out", "checked"}), 0) << output_;
@@ -159,12 +248,14 @@ TEST_F(Recommend, AnswersForOnePartOfAnExperiment) {
   ASSERT_EQ(recommend("parts.toml", {"--part", "b"}), 0) << output_;
   EXPECT_EQ(setting("scene.name"), "wall");
   EXPECT_EQ(setting("map.resolution"), "128");
-  EXPECT_EQ(found()["verified"]["conditions"], 2) << "those of the part";
+  EXPECT_EQ(found()["answer"]["verified"]["conditions"], 2) << "those of the part";
 }
 
 // Settings that make no error are the cheapest ones that do, so nothing dearer is measured. No map at all does as well.
 TEST_F(Recommend, SaysThatASceneWithoutShadowsNeedsNoMap) {
-  ASSERT_EQ(run({"recommend", "plane", "--out", "out", "--set", "view.width_px=240", "--set", "view.height_px=135"}), 0)
+  ASSERT_EQ(run({"recommend", "plane", "--views", "1", "--out", "out", "--set", "view.width_px=240", "--set",
+                 "view.height_px=135"}),
+            0)
       << output_;
   EXPECT_TRUE(says("No shadow map is needed here")) << output_;
   EXPECT_EQ(setting("map.resolution"), "256");

@@ -22,6 +22,7 @@ namespace noonmark {
 // What lines give, measured: the largest over conditions and placements.
 struct EnginePromise {
   double error = 0, acne = 0, peter_panning = 0;  // shares
+  bool all_views = true;                          // false: the first condition alone, because the map is large
 };
 
 struct EngineAdvice {

@@ -54,7 +54,8 @@ TEST(ThreeAnswers, KeepTheirDefinitionsOverRandomSettings) {
   std::mt19937 random(6);
   for (int run = 0; run < 500; ++run) {
     std::vector<CostAndError> all(1 + random() % 30);
-    for (CostAndError& one : all) one = {1.0 + random() % 16, 0.1 * (random() % 40)};
+    const auto below = [&](int most) { return std::uniform_int_distribution(0, most - 1)(random); };
+    for (CostAndError& one : all) one = {1.0 + below(16), 0.1 * below(40)};
     const ThreeAnswers found = three_answers(all, std::nullopt).value();
     const CostAndError least = all[found.least], balanced = all[found.balanced], best = all[found.best];
     EXPECT_LE(least.cost, balanced.cost);
@@ -63,8 +64,12 @@ TEST(ThreeAnswers, KeepTheirDefinitionsOverRandomSettings) {
     EXPECT_LE(balanced.error, least.error);
     for (const CostAndError& one : all) {
       EXPECT_GE(one.cost, least.cost);
-      if (one.cost <= found.budget) EXPECT_GE(one.error, best.error);
-      if (one.cost < balanced.cost) EXPECT_GT(one.error, 1.5 * balanced.error);
+      if (one.cost <= found.budget) {
+        EXPECT_GE(one.error, best.error);
+      }
+      if (one.cost < balanced.cost) {
+        EXPECT_GT(one.error, 1.5 * balanced.error);
+      }
     }
   }
 }

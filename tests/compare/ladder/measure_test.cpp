@@ -62,7 +62,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"error", (0.5 + 1 + 1 + 1) / base},
       {"error_soft", (0 + 1 + 1 + 1) / base},
       {"wrong", 4 / base},
-      {"wrong_patch", 3 / base},  // (1, 1), (2, 1), (3, 1); at (0, 1) the picture shows one half, which is lit
+      {"wrong_patch", 3.0 / static_cast<double>(p.ladder.flags.size())},  // (1, 1), (2, 1), (3, 1); at (0, 1) the picture shows one half, which is lit
       {"pcf_error", (0.5 + 1 + 1 + 1) / base},
       {"pcf_error_soft", (0 + 1 + 1 + 1) / base},
       {"light_size", 0.5 / base},

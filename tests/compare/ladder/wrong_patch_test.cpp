@@ -40,6 +40,13 @@ TEST(WrongPatch, HasPixelsOnTheWrongSideOfOneHalf) {
   EXPECT_DOUBLE_EQ(p.metric("wrong_patch"), 2 / 5.0);
 }
 
+TEST(WrongPatch, IsAShareOfThePictureAndNotOfItsReceivers) {
+  Picture p(5, 2);
+  make_wrong(p, 1, 0);
+  for (int x = 0; x < 4; ++x) attach(p, x, 1);
+  EXPECT_DOUBLE_EQ(p.metric("wrong_patch"), 1 / 10.0);
+}
+
 TEST(WrongPatch, HasCountedPixelsOnly) {
   Picture p(5, 1);
   for (int x = 0; x < 5; ++x) make_wrong(p, x, 0);

@@ -1,0 +1,114 @@
+#include "app/advise/map_places.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+// A box along the axes of the light.
+struct LightBox {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+  void add(const glm::dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+  glm::dvec2 middle() const { return 0.5 * (glm::dvec2(low) + glm::dvec2(high)); }
+  double side() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
+// Puts the light over this point of the plane through its own position. The map is fitted, whatever the settings gave.
+void aim(Settings& settings, const Light& light, const LightFrame& axes, glm::dvec2 middle) {
+  const glm::dvec3 way = middle.x * axes.right + middle.y * axes.up;
+  settings.light.position_m = light.position_m + way;
+  settings.light.target_m = light.target_m + way;
+  settings.light.azimuth_deg.reset();
+  settings.light.elevation_deg.reset();
+  settings.map.fit = MapFit::tight;
+  settings.map.extent_m.reset();
+  settings.map.near_m.reset();
+  settings.map.far_m.reset();
+}
+
+// The frame whose origin is the light's own position.
+LightFrame axes_of(const Light& light) { return kind_of_light(light.kind).axes(light); }
+
+MapPlace over_scene(const Scene& scene, const Settings& settings, const Light& light) {
+  const LightFrame axes = axes_of(light);
+  LightBox box;
+  for (const glm::vec3& p : scene.positions) box.add(axes.to_light(glm::dvec3(p)));
+  MapPlace place;
+  place.covers = "the whole scene";
+  place.apply = [light, axes, middle = box.middle()](Settings& there) { aim(there, light, axes, middle); };
+  Settings there = settings;
+  place.apply(there);
+  place.extent_m = make_light_frame(scene, there).extent_m;
+  return place;
+}
+
+// The box of the maps that map.fit = view lays for each view. Where a view shows nothing, it needs no map.
+MapPlace over_views(const Scene& scene, const Settings& settings, std::span<const Settings> views, const Light& light) {
+  const LightFrame axes = axes_of(light);
+  LightBox box;
+  for (const Settings& view : views) {
+    Settings fitted = settings;
+    fitted.view = view.view;
+    fitted.map.fit = MapFit::view;
+    fitted.map.extent_m.reset();
+    fitted.map.near_m.reset();
+    fitted.map.far_m.reset();
+    const LightFrame frame = make_light_frame(scene, fitted);
+    const glm::dvec3 middle = axes.to_light(frame.origin_m);
+    const double half = 0.5 * frame.extent_m;
+    box.add({middle.x - half, middle.y - half, frame.near_m});
+    box.add({middle.x + half, middle.y + half, frame.far_m});
+  }
+  MapPlace place;
+  place.covers = "what these views show";
+  place.extent_m = box.side();
+  place.moves_with = true;
+  place.apply = [light, axes, box](Settings& there) {
+    aim(there, light, axes, box.middle());
+    there.map.extent_m = box.side();
+    there.map.near_m = box.low.z;
+    there.map.far_m = box.high.z;
+  };
+  return place;
+}
+
+bool same_light_and_scene(const Scene& scene, std::span<const Settings> conditions, const Light& light) {
+  const auto first_scene = settings_map(conditions.front());
+  return std::all_of(conditions.begin(), conditions.end(), [&](const Settings& condition) {
+    const Light other = effective_light(scene, condition);
+    const auto all = settings_map(condition);
+    return other.kind == light.kind && other.position_m == light.position_m && other.target_m == light.target_m &&
+           std::all_of(all.begin(), all.end(), [&](const auto& one) {
+             return !one.first.starts_with("scene.") || first_scene.at(one.first) == one.second;
+           });
+  });
+}
+
+}  // namespace
+
+MapPlace place_as_given() {
+  MapPlace place;
+  place.apply = [](Settings&) {};
+  return place;
+}
+
+std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> conditions,
+                                 std::span<const Settings> views) {
+  const Settings& first = conditions.front();
+  const Light light = effective_light(scene, first);
+  std::vector<MapPlace> places = {place_as_given()};
+  const bool light_moves = first.view.motion.light_turn_deg.value_or(glm::dvec3(0)) != glm::dvec3(0);
+  if (light.kind != LightKind::directional || light_moves || !same_light_and_scene(scene, conditions, light))
+    return places;
+  places.front().extent_m = make_light_frame(scene, first).extent_m;
+  if (MapPlace whole = over_scene(scene, first, light); whole.extent_m < places.front().extent_m)
+    places.front() = std::move(whole);
+  if (MapPlace seen = over_views(scene, first, views, light); places_differ * seen.extent_m < places.front().extent_m)
+    places.push_back(std::move(seen));
+  return places;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,34 @@
+// Where the map of a directional light can lie over a scene: the places that a recommendation compares. They are numbers that
+// stay as they are while the camera moves, so that they can be typed into an engine that does not fit its map.
+//
+//   for (const MapPlace& place : map_places(bench.scene(first.scene), conditions, views)) place.apply(settings);
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+
+struct MapPlace {
+  std::string covers;       // what the map covers, for a sentence: "the whole scene". Empty: as the settings give it
+  double extent_m = 0;      // of the map with these settings; of another light than a directional one 0
+  bool moves_with = false;  // it covers what some views show, so another camera needs another place
+  std::function<void(Settings&)> apply;
+};
+
+// The place that the settings give.
+MapPlace place_as_given();
+
+// The first is the settings' own, or, if that is narrower, the map around the whole scene whose middle is the middle of the scene.
+// If what `views` show is covered by one that is narrower by places_differ, that comes second. The settings' own is the only one
+// where the light is not directional, and where its direction or the scene is not the same in all conditions.
+// conditions, views: at least one each; of `views` only the view is read. Throws Error as make_light_frame() does.
+inline constexpr double places_differ = 1.12;  // its square, 1.25, is what a map of equal texels saves
+std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> conditions,
+                                 std::span<const Settings> views);
+
+}  // namespace noonmark
