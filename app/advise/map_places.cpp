@@ -89,6 +89,20 @@ bool same_light_and_scene(const Scene& scene, std::span<const Settings> conditio
 
 }  // namespace
 
+void lay_as(const LightFrame& frame, Settings& settings) {
+  settings.light.azimuth_deg.reset();
+  settings.light.elevation_deg.reset();
+  settings.light.position_m = frame.origin_m;
+  settings.light.target_m = frame.origin_m + frame.far_m * frame.forward;
+  settings.map.fit = MapFit::scene;
+  settings.map.snap = false;
+  settings.map.shift_u_texels = settings.map.shift_v_texels = 0;
+  settings.map.extent_scale = 1;
+  settings.map.extent_m = frame.extent_m;
+  settings.map.near_m = frame.near_m;
+  settings.map.far_m = frame.far_m;
+}
+
 MapPlace place_as_given() {
   MapPlace place;
   place.apply = [](Settings&) {};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scenes/scene.h"
+#include "technique/light_frame.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -19,6 +20,9 @@ struct MapPlace {
   bool moves_with = false;  // it covers what some views show, so another camera needs another place
   std::function<void(Settings&)> apply;
 };
+
+// Settings that lay a directional light's map where this frame lies, whatever the camera shows.
+void lay_as(const LightFrame& frame, Settings& settings);
 
 // The place that the settings give.
 MapPlace place_as_given();

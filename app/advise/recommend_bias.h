@@ -9,7 +9,7 @@
 namespace noonmark {
 
 // The share of the bounds that a search uses up: views that it does not search are a little worse.
-inline constexpr double searched_share = 0.5;
+inline constexpr double searched_share = 0.8;
 
 // The bias of a curve that comes nearest to the bounds, in bias.unit, and what it leaves: shares of the counted receivers, with
 // placements at the worst of them.

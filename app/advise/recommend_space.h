@@ -26,10 +26,10 @@ std::vector<FilterSettings> filters_to_try(LightKind light);
 inline constexpr int searched_placements = 8;
 
 // The width of the pictures that are searched on, in pixels: at least least_searched_px, and as much as it takes to judge
-// enough_receivers, but not more than the settings' own. So half of the default bound of 0.1% is not a single pixel.
+// enough_receivers, but not more than the settings' own. So the default bound of 0.1% is 12 pixels, and not 2.
 // bench: measures how many receivers the settings show. Throws Error.
 inline constexpr int least_searched_px = 320;
-inline constexpr double enough_receivers = 30000;
+inline constexpr double enough_receivers = 12000;
 int searched_width_px(Workbench& bench, const Settings& settings);
 
 // The same settings with a smaller picture of the same shape.

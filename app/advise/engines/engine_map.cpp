@@ -7,6 +7,7 @@
 
 #include "app/advise/engines/engine.h"
 #include "app/advise/engines/engine_emulated.h"
+#include "app/advise/map_places.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 
@@ -112,7 +113,9 @@ void emulate(const Engine& engine, const AdvicePlace& place, const std::vector<E
     settings.map.extent_scale = 1;
     settings.map.near_m = settings.map.far_m = std::nullopt;
   }
-  if (engine.emulate) engine.emulate(settings);
+  // Otherwise the lines are numbers: the map stays where the given view needs it.
+  if (!place.map.reach_m && fits_view(settings.map.fit)) lay_as(place.frame, settings);
+  if (engine.emulate) engine.emulate(settings, place);
   advice.emulated = std::move(settings);
 }
 
@@ -125,6 +128,12 @@ Settings as_engine(const EngineAdvice& advice, Settings condition) {
     condition.map = engine.map;
     condition.map.placements = placements;
     return condition;
+  }
+  if (fits_view(condition.map.fit)) {
+    const int placements = condition.map.placements;
+    condition.light = engine.light;
+    condition.map = engine.map;
+    condition.map.placements = placements;
   }
   condition.map.resolution = engine.map.resolution;
   condition.map.cull = engine.map.cull;
