@@ -15,6 +15,17 @@ export function direction_beside(found) {
   return settings.direction ?? (found ? null : [-0.4, -0.8, -0.3]);
 }
 
+// Runs the text that `noonmark recommend` prints for the engine as it is, in a page that was drawn before. values: the variables that
+// it reads, by their names.
+export async function run_lines(file, values) {
+  const typed = await (await fetch("/lines")).text();
+  try {
+    new Function(...Object.keys(values), typed)(...Object.values(values));
+  } catch (error) {
+    refuse(`lines=${file}: ${error.message}. Give the lines that noonmark recommend prints for this engine, without its name.`);
+  }
+}
+
 // Prints a line on the terminal.
 export const note = (line) => send("note", line);
 

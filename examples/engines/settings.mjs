@@ -1,6 +1,7 @@
 // The settings of a page: those of settings.json here and in the page's folder. Each has a default or how many numbers it
-// takes (then null stands for "not given"), or its choices, of which the first is the default.
-import { readFileSync } from "node:fs";
+// takes (then null stands for "not given"), or its choices, of which the first is the default, or is the path of a file. A setting
+// of the map ("of_map") is not given beside `lines`, which set the map themselves.
+import { existsSync, readFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -14,6 +15,7 @@ const default_of = (row) => row.default ?? row.choices?.[0] ?? null;
 const count_of = (row) => row.numbers ?? [row.default].flat().length;
 function takes(row) {
   if (row.choices) return row.choices.join(" | ");
+  if (row.file) return "the path of a file that is there";
   const many = count_of(row);
   const kind = `${row.whole ? "whole " : ""}number`;
   return (many === 1 ? `a ${kind}` : `${many} ${kind}s with commas`) + (row.above === undefined ? "" : ` above ${row.above}`);
@@ -21,6 +23,7 @@ function takes(row) {
 // What the text says, or undefined if it is none of what the setting takes.
 function value_of(row, text) {
   if (row.choices) return row.choices.includes(text) ? text : undefined;
+  if (row.file) return existsSync(text) ? text : undefined;
   const many = count_of(row), numbers = text.split(",").map((part) => (part.trim() ? Number(part) : NaN));
   const good = (x) => Number.isFinite(x) && (!row.whole || Number.isInteger(x)) && !(x <= row.above);
   if (numbers.length !== many || !numbers.every(good)) return undefined;
@@ -42,6 +45,9 @@ export function settings_of(page, given) {
     if (Object.hasOwn(values, name)) fail(`"${one}": "${name}" is given twice.`);
     values[name] = value_of(rows[name], text) ?? fail(`"${one}": "${name}" takes ${takes(rows[name])}.`);
   }
+  if (values.lines)
+    for (const name of Object.keys(values))
+      if (rows[name].of_map) fail(`"${name}" and "lines" are given, and the lines set the map. Leave "${name}" out.`);
   for (const [name, row] of Object.entries(rows)) values[name] ??= default_of(row);
   return values;
 }

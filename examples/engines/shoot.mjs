@@ -3,7 +3,7 @@
 // The page gets its settings (settings.mjs) in location.search and calls save(name, array, shape) for each picture (NPY) and done(frame)
 // with the object of frame.json. Chromium draws with its software renderer (SwiftShader), so no GPU is needed.
 import { spawn } from "node:child_process";
-import { createReadStream, existsSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { createReadStream, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import path from "node:path";
@@ -19,9 +19,10 @@ function wrong(message) {
 if (!out) wrong("usage: node shoot.mjs PAGE MODEL.glb OUT [name=value ...]");
 if (!existsSync(path.join(here, page))) wrong(`There is no page ${page} in ${here}.`);
 if (!existsSync(model)) wrong(`There is no model ${model}.`);
-let settings;
+let settings, lines = "";
 try {
   settings = settings_of(page, given);
+  if (settings.lines) lines = readFileSync(settings.lines, "utf8");
 } catch (error) {
   wrong(error.message);
 }
@@ -60,6 +61,7 @@ const server = createServer(async (request, response) => {
     if (name === "frame.json") finish("");
     return;
   }
+  if (request.url === "/lines") return response.end(lines);
   const file = file_of(request.url);
   if (!file && /\.(png|jpe?g)$/i.test(new URL(request.url, "http://x").pathname)) {
     response.writeHead(200, { "Content-Type": "image/png" }); // shadows need no textures, so a missing one is white

@@ -62,6 +62,8 @@ WRONG = [(None, ["biass=0.1"], 'there is no setting "biass"'),
          (None, ["bias=1", "bias=2"], '"bias" is given twice'),
          ("three", ["type=Nope"], '"type" takes PCFShadowMap | BasicShadowMap | VSMShadowMap'),
          ("babylon", ["filter=foo"], '"filter" takes none | usePercentageCloserFiltering'),
+         ("three", ["lines=none.txt"], '"lines" takes the path of a file'),
+         ("babylon", [f"lines={__file__}", "resolution=512"], '"resolution" and "lines" are given, and the lines set the map'),
          ("eevee", ["high_bitdepth=yes"], '"high_bitdepth" takes true | false')]
 for page in PAGES:
     if page.endswith("html") and not shutil.which("node"):
