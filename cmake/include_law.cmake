@@ -26,7 +26,7 @@ set(may_include_compare/report base scenes technique compare/results compare/lad
 set(may_include_measure base scenes technique gl raytrace compare/results compare/ladder compare/judge)
 set(may_include_app/definition base scenes technique frames compare/results compare/ladder compare/judge)
 set(may_include_app/pictures base scenes technique frames compare measure)
-set(may_include_app/advise base scenes technique compare measure app/definition)
+set(may_include_app/advise base scenes technique raytrace frames compare measure app/definition app/pictures)
 set(may_include_app/sweep base scenes technique raytrace frames compare measure app/definition app/pictures app/advise)
 set(may_include_app/verbs base scenes technique gl raytrace frames compare measure app)
 set(may_include_app ${may_include_app/verbs})

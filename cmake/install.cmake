@@ -1,5 +1,5 @@
 # What `cmake --install` puts where: bin/noonmark, its picture library, man page and completion (app/CMakeLists.txt), and
-# the experiments as examples: together the component `program`, of which cpack makes a package (cmake/package.cmake); the
+# the experiments as examples, and the adapters of engines: together the component `program`, of which cpack makes a package (cmake/package.cmake); the
 # libraries with their public headers; and the package with which another project finds them (cmake/noonmarkConfig.cmake.in):
 #   find_package(noonmark REQUIRED COMPONENTS compare)
 #   target_link_libraries(theirs PRIVATE noonmark::compare)
@@ -26,6 +26,9 @@ endfunction()
 set_target_properties(noonmark_options PROPERTIES EXPORT_NAME options)
 install(TARGETS noonmark_options EXPORT noonmarkTargets)
 install(DIRECTORY experiments/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT program)
+# What `noonmark recommend --engine` runs.
+install(DIRECTORY examples/engines/ DESTINATION ${CMAKE_INSTALL_DATADIR}/noonmark/engines COMPONENT program
+        PATTERN node_modules EXCLUDE PATTERN package-lock.json EXCLUDE)
 install(EXPORT noonmarkTargets NAMESPACE noonmark:: DESTINATION ${NOONMARK_PACKAGE_DIR})
 configure_package_config_file(cmake/noonmarkConfig.cmake.in ${PROJECT_BINARY_DIR}/noonmarkConfig.cmake
                               INSTALL_DESTINATION ${NOONMARK_PACKAGE_DIR} NO_SET_AND_CHECK_MACRO)

@@ -1,5 +1,5 @@
 // app/advise/: what to type: the search for the cheapest settings that hold, and their text for other engines. May include
-// measure, compare and app/definition.
+// raytrace, frames, measure, compare, app/definition and app/pictures.
 //
 // Searches for the settings to recommend: techniques that hold the bounds under all conditions and at every placement of the
 // map's grid, and of them three answers between cost and error (compare/judge/answers.h).

@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/advise/engine_trial_json.h"
 #include "app/definition/experiment.h"
 #include "app/definition/toml_writer.h"
 #include "compare/report/findings.h"
@@ -518,10 +519,8 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
              {"source", engine.source}};
     if (engine.emulated) one["settings"] = settings_map(*engine.emulated);
     if (engine.promise)
-      one["promise"] = {{"error", engine.promise->error},
-                        {"acne", engine.promise->acne},
-                        {"peter_panning", engine.promise->peter_panning},
-                        {"all_views", engine.promise->all_views}};
+      one["promise"] = promise_json(*engine.promise), one["promise"]["all_views"] = engine.promise->all_views;
+    if (engine.trial) one["tried"] = trial_json(*engine.trial);
     if (!engine.why_not_emulated.empty()) one["why_not_measured"] = engine.why_not_emulated;
     all["engines"].push_back(one);
   }

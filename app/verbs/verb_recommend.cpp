@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/advise/engine_promise.h"
+#include "app/advise/engine_trial.h"
 #include "app/advise/experiment_engines.h"
 #include "app/advise/recommend_around.h"
 #include "app/advise/recommend_text.h"
@@ -118,7 +119,8 @@ void remove_earlier_advice(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (name != "engines.txt" && !name.starts_with("recommended.") && !name.starts_with("recommended-")) continue;
-    if (std::error_code error; !std::filesystem::remove(entry.path(), error))
+    std::error_code error;
+    if (std::filesystem::remove_all(entry.path(), error); error)
       throw Error(ErrorKind::file,
                   fmt::format("{}: an earlier recommendation cannot be removed: {}; remove it, or give "
                               "another --out",
@@ -134,6 +136,8 @@ struct RecommendOptions {
   std::optional<AnswerKind> answer;           // empty: best with a budget, otherwise least
   int views = 5;                              // of a scene; 1: its own only
   bool around = false;                        // also what each setting does around the answer
+  std::vector<std::string> engines;           // to try the lines in
+  std::string adapters;                       // their folder; empty: the program's own
   ExperimentArguments arguments;
 };
 
@@ -279,6 +283,8 @@ int recommend(const RecommendOptions& options) {
   Workbench bench(gl::DebugMode::log);
   require_image_files();
   const AdviceRequest request = request_of(experiment, options, bench);
+  std::optional<TrialPlan> plan;
+  if (!options.engines.empty()) plan = plan_trial(bench, request.conditions, options.engines, options.adapters);
 
   make_output_folder(out);
   clear_abandoned_files(out);
@@ -291,6 +297,8 @@ int recommend(const RecommendOptions& options) {
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
   std::vector<EngineAdvice> engines;
   if (advice.answer()) engines = measured_engines(bench, advice, say);
+  if (advice.answer() && plan)
+    try_engines(bench, *plan, engines, {request.curve, request.error, request.accuracy}, out, say);
   progress.end_line();
   write_file_atomically(out + "/recommended.json", advice_json(advice, engines));
   if (arguments.json)
@@ -309,7 +317,11 @@ int recommend(const RecommendOptions& options) {
     write_file_atomically(out + "/recommended.html",
                           to_tornado_page(*advice.around, std::string(build_facts().version)));
   if (!arguments.json) print_advice(advice, engines, bench, out);
-  return 0;
+  if (!arguments.json && plan)
+    for (const std::string& line : trial_text(engines)) fmt::print("{}
+", printable(line));
+  require_frames(engines);
+  return broken_in_engine(engines) ? 1 : 0;
 }
 
 // Of the search: the bounds, what the answer is to be, and the views.
@@ -373,6 +385,18 @@ RunVerb add_recommend(CLI::App& verb) {
   verb.add_flag("--around", options->around,
                 "Also measure what each setting does around the answer: the error at its half and its double, and the "
                 "range in which the bounds hold");
+  std::vector<std::string> names;
+  for (const EngineAdapter& adapter : engine_adapters()) names.emplace_back(adapter.name);
+  verb.add_option("--engine", options->engines,
+                  "Also run the lines in this engine, in headless Chromium, and judge its own frames in each view "
+                  "(repeatable)")
+      ->expected(1)
+      ->take_all()
+      ->type_name(joined(names));
+  verb.add_option("--adapters", options->adapters,
+                  "Folder of the pages that --engine runs (examples/engines); without it that of this program")
+      ->check(not_empty())
+      ->type_name(value_kind::folder);
   add_json(verb, arguments, "Print everything that was found as JSON");
   add_threads(verb, arguments);
   add_out(verb, arguments, "Folder for the files",

@@ -52,7 +52,8 @@ EngineFilter filter(const AdvicePlace& place) {
               pcf("HIGH", "Castano's kernel of 5 x 5", 3, filter_is(place, "castano", 5), {"castano", {{"size", 5}}})});
 }
 
-// A glTF file's light is a child of a node, and its position and direction are that node's until the parent is null. The third
+// A glTF file's light is a child of a node, and its position and direction are that node's until the parent is null; those in the
+// world, which the engine computed before, stay until they are null, too. The third
 // argument of ShadowGenerator asks for a float map: without PCF the engine stores half floats otherwise, whose step is up
 // to 1/2048 of near to far.
 std::vector<std::string> map_lines(const AdvicePlace& place) {
@@ -62,7 +63,8 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
                                                                            : place.kind() == LightKind::spot
                                                                                ? "Spot"
                                                                                : "Directional"),
-      "light.parent = null;  // also out of a glTF file's node",
+      "light.parent = light.transformedPosition = light.transformedDirection = null;  // also out of a glTF file's "
+      "node",
       fmt::format("light.position = new BABYLON.Vector3({});", numbers(place.frame.origin_m))};
   if (place.kind() != LightKind::point)
     lines.push_back(fmt::format("light.direction = new BABYLON.Vector3({});", numbers(place.frame.forward)));

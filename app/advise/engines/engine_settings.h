@@ -25,6 +25,21 @@ struct EnginePromise {
   bool all_views = true;                          // false: the first condition alone, because the map is large
 };
 
+// A frame of the engine itself with these lines, under one condition.
+struct TrialView {
+  std::string name;                           // "given", "turned by 30 deg"
+  std::optional<EnginePromise> promise = {};  // of this view, with the map as the lines lay it; empty: not known
+  EnginePromise measured = {};                // by place (frames/judge.h); only if `refused` is empty
+  std::vector<std::string> broken = {};       // bounds: "acne 0.51% (bound 0.1%)"
+  std::string refused = {};                   // why the frame is not judged
+};
+
+struct EngineTrial {
+  std::string folder;  // of the frames, from the recommendation's folder
+  std::vector<TrialView> views = {};
+  std::string no_frame = {};  // why the adapter gave none
+};
+
 struct EngineAdvice {
   std::string engine, version;
   // Code, or fields of an inspector with their values, in the engine's own language. Empty if nothing of the engine
@@ -38,6 +53,8 @@ struct EngineAdvice {
   std::string why_not_emulated = {};
   std::optional<EnginePromise> promise = {};  // of `emulated`; app/advise/engine_promise.h measures it
   std::string promised = {};                  // `promise` as a sentence for people; empty: not measured
+  std::optional<EngineTrial> trial =
+      {};  // in the engine itself, if it was asked for; app/advise/engine_trial.h makes it
 };
 
 // One piece of advice for each engine, in the order of the table. frame: of these settings in this scene.
