@@ -26,7 +26,6 @@ constexpr NoAdapter no_adapters[] = {
     {"blender", "recommend prints no lines for Blender, whose EEVEE has one bias without a documented unit"},
     {"filament",
      "its npm package 1.53.4 cannot set the normal bias of the lines, so its frames would show other settings"},
-    {"playcanvas", "recommend prints no lines for PlayCanvas"},
 };
 
 constexpr uint64_t most_log_bytes = 1 << 24;
@@ -60,9 +59,10 @@ std::string last_line(const std::string& text) {
 }  // namespace
 
 std::span<const EngineAdapter> engine_adapters() {
-  static const std::array<EngineAdapter, 2> adapters = {
+  static const std::array<EngineAdapter, 3> adapters = {
       {{"three", "three.js", "three/page.html", {"three"}},
-       {"babylon", "Babylon.js", "babylon/page.html", {"babylonjs", "babylonjs-loaders", "babylonjs-materials"}}}};
+       {"babylon", "Babylon.js", "babylon/page.html", {"babylonjs", "babylonjs-loaders", "babylonjs-materials"}},
+       {"playcanvas", "PlayCanvas", "playcanvas/page.html", {"playcanvas"}}}};
   return adapters;
 }
 

@@ -165,10 +165,31 @@ class Trial {
                      verdict.metrics.at("frame_contact") + verdict.metrics.at("frame_leak")};
   }
 
-  // Of the map as the lines lay it, in the same picture.
+  // Of the map as the lines lay it, in the same picture, of the file that the engine loads: in it each triangle of a scene that is not
+  // a plain file has vertices of its own, which casters are moved by.
   EnginePromise promise_of(const EngineAdvice& advice, const Settings& condition) {
     Settings there = as_engine(advice, condition);
     there.map.placements = 1;
+    if (!is_plain_file(condition.scene)) {
+      const Scene& scene = bench_.scene(condition.scene);
+      const LightFrame frame = make_light_frame(scene, there);
+      const Camera camera = effective_camera(scene, condition.view);
+      const Light light = effective_light(scene, condition);
+      there.light = {};
+      there.light.position_m = light.position_m, there.light.target_m = light.target_m;
+      there.light.angular_diameter_deg = light.angular_diameter_deg;
+      if (!fits_view(there.map.fit)) {  // the lines lay the map where the light frame is
+        there.map.fit = MapFit::scene;
+        there.map.snap = false, there.map.shift_u_texels = there.map.shift_v_texels = 0, there.map.extent_scale = 1;
+        there.map.extent_m = frame.extent_m, there.map.near_m = frame.near_m, there.map.far_m = frame.far_m;
+        there.light.position_m = frame.origin_m;
+        there.light.target_m = frame.origin_m + frame.far_m * frame.forward;
+      }
+      there.view.eye_m = camera.eye_m, there.view.target_m = camera.target_m, there.view.up = camera.up;
+      there.view.fov_deg = camera.fov_y_deg;
+      there.scene = SceneSettings();
+      there.scene.name = model_;
+    }
     const PointRecord point = bench_.measure(there, std::nullopt).record;
     return {metric_of(point, bounds_.accuracy), metric_of(point, "acne"), metric_of(point, "peter_panning")};
   }

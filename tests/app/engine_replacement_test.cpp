@@ -122,7 +122,6 @@ TEST(Engines, BabylonDrawsFrontFacesIntoItsMap) {
   EXPECT_NE(joined(advice(s, "Babylon.js").lines).find("forceBackFacesOnly = true"), std::string::npos);
   s.map.cull = CulledFaces::front;
   EXPECT_NE(joined(advice(s, "Babylon.js").lines).find("forceBackFacesOnly = false"), std::string::npos);
-  EXPECT_EQ(advice(s, "Babylon.js").emulated->map.cull, CulledFaces::back);
 }
 
 // What URP does: its own extent and power of two, one linear fetch, 16 bits, and the polygon offset that is always on. That

@@ -114,6 +114,46 @@ TEST(Engines, BevyGivesTheBiasBack) {
   expect_written(typed(got, "outer_angle: "), std::numbers::pi / 6);
 }
 
+// PlayCanvas: 10 times the bias is the factor of a polygon offset; metres along the normal, which also replace a constant; the shader
+// always subtracts 0.0001 of a window depth of 40 m.
+TEST(Engines, PlayCanvasGivesTheBiasBack) {
+  Settings s = constant_m(0.06);
+  s.filter = FilterSettings("hardware", {});
+  s.bias["polygon_factor"] = 2;
+  s.bias["normal_offset"] = 1.5;
+  EngineAdvice got = advice(s, "PlayCanvas");
+  const Frustum seen = frustum(s);
+  const double far_m = typed(got, "shadowDistance = "), size = typed(got, "shadowResolution = ");
+  expect_written(far_m, seen.farthest_m);
+  const double engine_texel_m = middle_sphere_m(seen, far_m) / size;
+  EXPECT_LE(engine_texel_m, texel_m * (1 + written));
+  expect_written(typed(got, "shadowBias = ") * 10, 2);
+  expect_written(typed(got, "normalOffsetBias = "), 1.5 * engine_texel_m + 0.06);
+  ASSERT_TRUE(got.emulated) << got.why_not_emulated;
+  expect_written(got.emulated->bias["constant"], 0.0001 * 40);
+  EXPECT_EQ(got.emulated->map.cull, CulledFaces::none) << "the plane has no materials with one side";
+  got = advice(constant_m(0.06, LightChoice::spot), "PlayCanvas");
+  EXPECT_TRUE(got.lines.empty());
+  EXPECT_NE(joined(got.cannot).find("the bias of a spot light"), std::string::npos);
+}
+
+// The map draws what the materials show: with Babylon.js both faces of two-sided ones, unless front faces alone are asked for.
+TEST(Engines, BabylonDrawsTheFacesOfTheMaterials) {
+  Settings s = constant_m(0.06);
+  Case c = make(s);
+  const auto culled = [&] {
+    for (const EngineAdvice& one : engine_advice(c.settings, c.frame, c.scene))
+      if (one.engine == "Babylon.js") return one.emulated->map.cull;
+    throw std::logic_error("no Babylon.js");
+  };
+  EXPECT_EQ(culled(), CulledFaces::none);
+  c.settings.map.cull = CulledFaces::back;
+  EXPECT_EQ(culled(), CulledFaces::back);
+  c.settings.map.cull = CulledFaces::none;
+  c.scene.single_sided.assign(c.scene.triangles.size(), true);
+  EXPECT_EQ(culled(), CulledFaces::back);
+}
+
 // Filament: metres away from the light; half texels of diameter / (size - 2) times |N.u| + |N.v|.
 TEST(Engines, FilamentGivesTheBiasBack) {
   Settings s = constant_m(0.06);

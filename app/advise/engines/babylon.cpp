@@ -90,6 +90,10 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
   return lines;
 }
 
+CulledFaces drawn_cull(const AdvicePlace& place) {
+  return place.settings.map.cull == CulledFaces::back ? CulledFaces::back : place.unseen;
+}
+
 std::vector<std::string> limits(const AdvicePlace& place) {
   std::vector<std::string> said = {
       "map.format: the map is a float colour without PCF, and a depth texture with it. A device that cannot draw into "
@@ -97,11 +101,13 @@ std::vector<std::string> limits(const AdvicePlace& place) {
   if (place.kind() != LightKind::point)
     said.push_back(
         "The light's position and direction are those of a right-handed scene (scene.useRightHandedSystem).");
-  said.push_back(fmt::format(
-      "map.cull = {}: forceBackFacesOnly of 9.35 draws the front faces alone in a right-handed scene; otherwise each "
-      "material's own culling holds. The error is measured with front faces alone, as of a glTF file's materials with "
-      "one side.",
-      find_setting("map.cull").get(place.settings)));
+  said.push_back(
+      fmt::format("map.cull = {}: forceBackFacesOnly of 9.35 draws the front faces alone in a right-handed scene; "
+                  "otherwise the map "
+                  "draws the faces that each material shows. The error is measured with {}.",
+                  find_setting("map.cull").get(place.settings),
+                  drawn_cull(place) == CulledFaces::back ? "front faces alone, as of materials with one side"
+                                                         : "both faces, because no material here has one side"));
   if (place.kind() == LightKind::point)
     said.push_back(
         "A point light has no PCF here: its cube map is read by one tap, or by 4 Poisson taps in the world.");
@@ -125,7 +131,7 @@ Engine babylon_js() {
       {"map.cull", "map.fov_deg"},
       nullptr,
       {},
-      [](Settings& settings) { settings.map.cull = CulledFaces::back; }};
+      [](Settings& settings, const AdvicePlace& place) { settings.map.cull = drawn_cull(place); }};
 }
 
 }  // namespace noonmark

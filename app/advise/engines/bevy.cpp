@@ -99,7 +99,7 @@ Engine bevy() {
           {},
           fit,
           {},
-          [](Settings& settings) { settings.map.format = DepthFormat::d32f; }};
+          [](Settings& settings, const AdvicePlace&) { settings.map.format = DepthFormat::d32f; }};
 }
 
 }  // namespace noonmark

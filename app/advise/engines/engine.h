@@ -78,13 +78,14 @@ struct SeenFrustum {
 struct AdvicePlace {
   const Settings& settings;
   const LightFrame& frame;
-  double distance_m = 0;     // spot and point: along the axis of the map's tile
-  double texel_m = 0;        // of the map there
-  double depth_slope = 0;    // window depth for each metre there
-  double cone_tan = 1;       // spot: tangent of half the light's cone
-  double reach_texels = 0;   // of the recommended filter
-  EngineFilter filter = {};  // of the engine
-  EngineMap map = {};        // of the engine
+  double distance_m = 0;                   // spot and point: along the axis of the map's tile
+  double texel_m = 0;                      // of the map there
+  double depth_slope = 0;                  // window depth for each metre there
+  double cone_tan = 1;                     // spot: tangent of half the light's cone
+  double reach_texels = 0;                 // of the recommended filter
+  CulledFaces unseen = CulledFaces::none;  // the faces that the scene's materials do not show: back, or none
+  EngineFilter filter = {};                // of the engine
+  EngineMap map = {};                      // of the engine
   SeenFrustum seen = {};
 
   LightKind kind() const { return frame.kind; }
@@ -105,8 +106,8 @@ struct EngineKnob {
 
 struct Engine {
   std::string name, version, source;
-  std::string comment;  // what begins a comment in the engine's language
-  std::vector<EngineKnob> (*knobs)(LightKind);
+  std::string comment;                          // what begins a comment in the engine's language
+  std::vector<EngineKnob> (*knobs)(LightKind);  // none: there are no lines for this kind of light
   EngineFilter (*filter)(const AdvicePlace&);
   std::vector<std::string> (*map_lines)(const AdvicePlace&);
   std::vector<std::string> (*limits)(const AdvicePlace&);  // sentences that do not depend on the parts of the bias
@@ -116,7 +117,7 @@ struct Engine {
   // Parts of the bias that the engine always adds, as settings: {"polygon_factor", 2.5}.
   std::vector<std::pair<std::string_view, double>> always = {};
   // Further settings that describe what the engine always does; null: none.
-  void (*emulate)(Settings&) = nullptr;
+  void (*emulate)(Settings&, const AdvicePlace&) = nullptr;
   std::vector<std::string> last = {};  // lines that stand after all others
 };
 
@@ -127,6 +128,7 @@ EngineMap fitted_to_view(const AdvicePlace& place, double (*diameter_m)(const Se
 
 Engine three_js();
 Engine babylon_js();
+Engine playcanvas();
 Engine godot();
 Engine bevy();
 Engine filament();

@@ -112,7 +112,7 @@ void emulate(const Engine& engine, const AdvicePlace& place, const std::vector<E
     settings.map.extent_scale = 1;
     settings.map.near_m = settings.map.far_m = std::nullopt;
   }
-  if (engine.emulate) engine.emulate(settings);
+  if (engine.emulate) engine.emulate(settings, place);
   advice.emulated = std::move(settings);
 }
 

@@ -18,7 +18,9 @@ namespace noonmark {
 namespace {
 
 // The table. OpenGL stands last; it has no fields of its own (opengl.cpp).
-std::vector<Engine> engines() { return {three_js(), babylon_js(), godot(), bevy(), filament(), unity_urp()}; }
+std::vector<Engine> engines() {
+  return {three_js(), babylon_js(), playcanvas(), godot(), bevy(), filament(), unity_urp()};
+}
 
 // A place of the map at which depths and texels become metres.
 glm::dvec3 advised_point(const Settings& settings, const LightFrame& frame, const Scene& scene) {
@@ -45,6 +47,9 @@ AdvicePlace advice_place(const Settings& settings, const LightFrame& frame, cons
   place.cone_tan = std::tan(std::acos(std::clamp(frame.cos_half_cone, 0.0, 1.0)));
   place.reach_texels = reach_of(settings, place.texel_m);
   place.seen = seen_frustum(settings, scene);
+  place.unseen = std::find(scene.single_sided.begin(), scene.single_sided.end(), true) == scene.single_sided.end()
+                     ? CulledFaces::none
+                     : CulledFaces::back;
   return place;
 }
 
@@ -173,6 +178,12 @@ Typed typed_amounts(const Engine& engine, const AdvicePlace& place, const std::v
   return typed;
 }
 
+std::string no_lines_for(LightKind kind) {
+  return fmt::format(
+      "There are no lines: Noonmark does not describe what this engine does with the bias of a {} light.",
+      kind_of_light(kind).name());
+}
+
 EngineAdvice advice_of(const Engine& engine, AdvicePlace place, const std::vector<AdvisedPart>& parts) {
   place.filter = engine.filter(place);
   place.map = engine.fit && place.kind() == LightKind::directional
@@ -181,7 +192,7 @@ EngineAdvice advice_of(const Engine& engine, AdvicePlace place, const std::vecto
   EngineAdvice advice{engine.name, engine.version, {}, {}, engine.source, engine.comment};
   const std::vector<EngineKnob> knobs = engine.knobs(place.kind());
   const Typed typed = typed_amounts(engine, place, knobs, parts);
-  if (typed.suffices) {
+  if (typed.suffices && !knobs.empty()) {
     advice.lines = engine.map_lines(place);
     for (const std::string& line : place.filter.lines)
       advice.lines.push_back(fmt::format("{}  {} filter.kind = {}", line, engine.comment, place.settings.filter.kind));
@@ -191,15 +202,18 @@ EngineAdvice advice_of(const Engine& engine, AdvicePlace place, const std::vecto
     advice.lines.insert(advice.lines.end(), engine.last.begin(), engine.last.end());
     emulate(engine, place, knobs, typed.metres, advice);
   } else {
-    advice.cannot.push_back(unexpressed_bias(typed.replaced, place));
+    advice.cannot.push_back(knobs.empty() ? no_lines_for(place.kind()) : unexpressed_bias(typed.replaced, place));
     advice.why_not_emulated = "there are no lines";
   }
   const auto say = [&](const std::vector<std::string>& said) {
     advice.cannot.insert(advice.cannot.end(), said.begin(), said.end());
   };
-  for (const AdvisedPart& part : parts) say(unexpressed_part(part, knob_for(knobs, part), typed.suffices));
-  say(unexpressed_reference(place, typed.suffices));
-  say(unexpressed_filter(place));
+  for (const AdvisedPart& part : parts) say(unexpressed_part(part, knob_for(knobs, part), !advice.lines.empty()));
+  say(unexpressed_reference(place, !advice.lines.empty()));
+  if (knobs.empty())
+    advice.cannot.push_back(fmt::format("filter.kind = {} is not written, either.", place.settings.filter.kind));
+  else
+    say(unexpressed_filter(place));
   say(unexpressed_map(place, engine.maps));
   say(unexpressed_distance(place));
   say(engine.limits(place));

@@ -160,7 +160,7 @@ Engine godot() {
           {"map.cull"},
           fit,
           {},
-          [](Settings& settings) { settings.map.pancake = true; }};
+          [](Settings& settings, const AdvicePlace&) { settings.map.pancake = true; }};
 }
 
 }  // namespace noonmark

@@ -125,7 +125,7 @@ Engine unity_urp() {
           {},
           fit,
           {{"polygon_factor", fixed_factor}, {"polygon_units", fixed_units}},
-          [](Settings& settings) {
+          [](Settings& settings, const AdvicePlace&) {
             settings.map.format = DepthFormat::d16;
             settings.map.pancake = true;
           }};
