@@ -34,6 +34,7 @@ void weld(Scene& scene) {
     }
   }
   scene.positions = std::move(positions);
+  scene.vertex_normals.clear();  // vertices at one place may have several
   scene.parts = {{scene.name, 0, static_cast<uint32_t>(scene.triangles.size())}};
 }
 
@@ -74,6 +75,8 @@ void split(Scene& scene) {
 void reverse(Scene& scene) {
   const uint32_t last_vertex = static_cast<uint32_t>(scene.positions.size()) - 1;
   const uint32_t count = static_cast<uint32_t>(scene.triangles.size());
+  if (!scene.vertex_normals.empty()) scene.vertex_normals.resize(scene.positions.size(), glm::vec3(0));
+  std::reverse(scene.vertex_normals.begin(), scene.vertex_normals.end());
   std::reverse(scene.positions.begin(), scene.positions.end());
   std::reverse(scene.triangles.begin(), scene.triangles.end());
   std::reverse(scene.single_sided.begin(), scene.single_sided.end());
@@ -86,6 +89,12 @@ constexpr std::string_view again_suffix = " again";
 
 void double_up(Scene& scene) {
   const size_t vertices = scene.positions.size(), triangles = scene.triangles.size(), parts = scene.parts.size();
+  if (!scene.vertex_normals.empty()) {
+    std::vector<glm::vec3>& normals = scene.vertex_normals;
+    normals.resize(vertices, glm::vec3(0));
+    normals.reserve(2 * vertices);
+    normals.insert(normals.end(), normals.begin(), normals.begin() + static_cast<std::ptrdiff_t>(vertices));
+  }
   for (size_t i = 0; i < vertices; ++i) scene.positions.push_back(glm::vec3(scene.positions[i]));
   for (size_t i = 0; i < triangles; ++i)
     scene.triangles.push_back(scene.triangles[i] + glm::uvec3(static_cast<uint32_t>(vertices)));
@@ -186,6 +195,7 @@ void append(Scene& scene, const Soup& soup, const std::optional<bool>& single_si
 void cut_each(Scene& scene, MeshForm form, const auto& placed) {
   const SceneSize size = remeshed_size(scene, form);
   const std::vector<glm::vec3> positions = std::exchange(scene.positions, {});
+  scene.vertex_normals.clear();  // each piece is flat
   const std::vector<glm::uvec3> triangles = std::exchange(scene.triangles, {});
   const std::vector<bool> sides = std::exchange(scene.single_sided, {});
   const std::vector<Part> uncut = std::exchange(scene.parts, {});
@@ -220,6 +230,8 @@ Scene remeshed(Scene scene, MeshForm form, const Placement& placement) {
     cut_each(scene, form, placed);
   else
     for (glm::vec3& p : scene.positions) p = glm::vec3(placed(p));
+  if (!stays)
+    for (glm::vec3& n : scene.vertex_normals) n = glm::vec3(glm::dmat3(motion) * glm::dvec3(n));
   const auto move_camera = [&](Camera& camera) {
     for (glm::dvec3* p : {&camera.eye_m, &camera.target_m}) *p = placed(*p);
     if (!stays) camera.up = glm::dvec3(motion * glm::dvec4(camera.up, 0));

@@ -86,7 +86,10 @@ struct Named {
 
 struct Scene {
   std::string name;
-  std::vector<glm::vec3> positions;   // world, metres, all finite
+  std::vector<glm::vec3> positions;  // world, metres, all finite
+  // Of the first positions, the unit normals that the scene's file gives its vertices; 0: it gives none. Shorter than positions, or
+  // empty, where the rest has none. Receivers have the normals of their triangles; these move casters (technique/casters.h).
+  std::vector<glm::vec3> vertex_normals;
   std::vector<glm::uvec3> triangles;  // indices into positions; counter-clockwise seen from outside
   // For each triangle, whether cameras see its front only (glTF's doubleSided = false). Empty: cameras see both sides
   // of all triangles. Light rays and shadow rays always meet both sides. The setting map.cull says what the map's pass

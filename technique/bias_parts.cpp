@@ -117,8 +117,9 @@ constexpr BiasPart parts[] = {
      .acts_on = BiasTarget::caster,
      .unit = "texels",
      .most = 1e4,
-     .help = "Like bias.caster_offset, but each vertex is moved against its normal, the mean of its faces' "
-             "normals, weighted by their areas.",
+     .help =
+         "Like bias.caster_offset, but each vertex is moved against its normal: that of its file, or without one the "
+         "mean of its faces' normals, weighted by their areas.",
      .law = law_35,
      .no_curve = is_in_the_map,
      .formula = WAY(caster_normal_offset)},

@@ -13,7 +13,10 @@ std::vector<glm::vec3> vertex_normals(const Scene& scene) {
   }
   std::vector<glm::vec3> normals(sums.size(), glm::vec3(0));
   for (size_t i = 0; i < sums.size(); ++i)
-    if (const double length = glm::length(sums[i]); length > 0) normals[i] = glm::vec3(sums[i] / length);
+    if (i < scene.vertex_normals.size() && scene.vertex_normals[i] != glm::vec3(0))
+      normals[i] = scene.vertex_normals[i];
+    else if (const double length = glm::length(sums[i]); length > 0)
+      normals[i] = glm::vec3(sums[i] / length);
   return normals;
 }
 

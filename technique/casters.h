@@ -13,8 +13,8 @@
 
 namespace noonmark {
 
-// Unit vectors in the world: the normalised sum of the area vectors of the faces that share the vertex's index. They
-// are computed because scenes have no vertex normals. A vertex gets 0 if none of its faces has an area.
+// Unit vectors in the world: those of the scene's file, which engines move vertices along; where it gives none, the normalised
+// sum of the area vectors of the faces that share the vertex's index. A vertex without both gets 0.
 std::vector<glm::vec3> vertex_normals(const Scene& scene);
 
 // The moved vertices, computed in double and rounded once to float. The map on the GPU and the exact map both use these

@@ -162,6 +162,7 @@ class Trial {
       if (check.state == CheckState::failed && view.refused.empty())
         view.refused = fmt::format("{}: {}", check.name, check.says);
     if (verdict.refused()) return;
+    view.counted = static_cast<size_t>(verdict.metrics.at("counted"));
     view.measured = {verdict.metrics.at("frame_error"), verdict.metrics.at("frame_acne"),
                      verdict.metrics.at("frame_contact") + verdict.metrics.at("frame_leak")};
   }
@@ -171,6 +172,8 @@ class Trial {
   EnginePromise promise_of(const EngineAdvice& advice, const Settings& condition) {
     Settings there = as_engine(advice, condition);
     there.map.placements = 1;
+    there.view.fit_depths = true;  // a file's near plane would cut off what the adapter's camera shows
+    there.view.near_m = there.view.far_m = std::nullopt;
     if (!is_plain_file(condition.scene)) {
       const Scene& scene = bench_.scene(condition.scene);
       const LightFrame frame = make_light_frame(scene, there);

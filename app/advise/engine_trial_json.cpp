@@ -14,7 +14,7 @@ nlohmann::json trial_json(const EngineTrial& trial) {
   for (const TrialView& view : trial.views) {
     nlohmann::json one{{"view", view.name}, {"held", view.broken.empty() && view.refused.empty()}};
     if (view.promise) one["promised"] = promise_json(*view.promise);
-    if (view.refused.empty()) one["measured"] = promise_json(view.measured);
+    if (view.refused.empty()) one["measured"] = promise_json(view.measured), one["counted"] = view.counted;
     if (!view.broken.empty()) one["broken"] = view.broken;
     if (!view.refused.empty()) one["not_judged"] = view.refused;
     views.push_back(one);

@@ -173,6 +173,7 @@ class Appender {
       const int coordinates = coordinates_of(d_, node.mesh, drawable.primitive, *mask);
       masked.emplace(d_, *mask, coordinates, reader(coordinates), reader(drawable.positions).count());
     }
+    const AccessorReader* const normals = normals_of(node.mesh, drawable, positions, reader);
     Part part;
     part.first_triangle = static_cast<uint32_t>(scene_.triangles.size());
     const uint64_t instances = instance_count(d_, placed.node);
@@ -188,14 +189,14 @@ class Appender {
         refuse(d_.file, fmt::format("nodes[{}]", placed.node),
                "instances of a mesh under a skin: glTF does not define their places",
                "export without EXT_mesh_gpu_instancing");
-      append_triangles(placed, drawable, source, positions, masked, false,
+      append_triangles(placed, drawable, source, positions, normals, masked, false,
                        [&](uint32_t v) { return skin.world_from_mesh(v); });
     } else {
       count_reads(placed, source, instances * (1 + positions.targets()));
       const Instances places(d_, readers_, placed.node);
       for (uint64_t i = 0; i < instances; ++i) {
         const glm::dmat4 world_from_mesh = placed.world_from_node * places.node_from_mesh(i);
-        append_triangles(placed, drawable, source, positions, masked, flattens(world_from_mesh),
+        append_triangles(placed, drawable, source, positions, normals, masked, flattens(world_from_mesh),
                          [&](uint32_t) { return world_from_mesh; });
       }
     }
@@ -223,8 +224,8 @@ class Appender {
   // the order of their corners.
   template <class WorldFromMesh>
   void append_triangles(const PlacedNode& placed, const Drawable& drawable, const Source& source,
-                        const MorphedPositions& positions, std::optional<MaskedPrimitive>& masked, bool flat,
-                        const WorldFromMesh& world_from_mesh) {
+                        const MorphedPositions& positions, const AccessorReader* normals,
+                        std::optional<MaskedPrimitive>& masked, bool flat, const WorldFromMesh& world_from_mesh) {
     const std::vector<uint32_t>& vertices = source.vertices;
     VertexMap map(vertices);
     const int mode = drawable.draco ? TINYGLTF_MODE_TRIANGLES : drawable.mode;
@@ -253,6 +254,8 @@ class Appender {
         continue;
       }
       append_piece(drawable, {0, 1, 2}, triangle, corner, map);
+      for (int k = 0; normals && k < 3; ++k)
+        keep_normal(map.place_of(triangle[k]), world_from_mesh(triangle[k]), normals->vec3(triangle[k]));
     }
     for (const Uncut& u : uncut_) {
       masked->cut(u.vertices, u.corner, scene_, pieces_);
@@ -272,6 +275,33 @@ class Appender {
                              : vertex(cut_places_[piece[k]], pieces_.positions[piece[k]]);
     scene_.triangles.push_back(made);
     scene_.single_sided.push_back(drawable.single_sided);
+  }
+
+  // The primitive's normals; null without any that can be used. Of cut masks, morphed meshes and lists that are too short the
+  // normals are computed from the faces.
+  template <class Read>
+  const AccessorReader* normals_of(int mesh, const Drawable& drawable, const MorphedPositions& positions,
+                                   const Read& read) const {
+    const auto& attributes = d_.model.meshes[static_cast<size_t>(mesh)].primitives[drawable.primitive].attributes;
+    const auto found = attributes.find("NORMAL");
+    if (found == attributes.end() || positions.targets() > 0) return nullptr;
+    const size_t accessor = static_cast<size_t>(found->second);
+    if (found->second < 0 || accessor >= d_.model.accessors.size() || d_.guarded.unknown_accessors.contains(accessor))
+      return nullptr;
+    const tinygltf::Accessor& a = d_.model.accessors[accessor];
+    if (a.type != TINYGLTF_TYPE_VEC3 || a.count < read(drawable.positions).count()) return nullptr;
+    return &read(found->second);
+  }
+
+  // A normal turns with the inverse transpose of the transform, which the cofactors are but for the determinant.
+  void keep_normal(uint32_t place, const glm::dmat4& world_from_mesh, const glm::dvec3& local) {
+    const glm::dmat3 m(world_from_mesh);
+    const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const glm::dvec3 normal = (glm::determinant(m) < 0 ? -1.0 : 1.0) * (cofactors * local);
+    const double length = glm::length(normal);
+    if (!(length > 0) || !std::isfinite(length)) return;
+    if (scene_.vertex_normals.size() <= place) scene_.vertex_normals.resize(place + 1, glm::vec3(0));
+    scene_.vertex_normals[place] = glm::vec3(normal / length);
   }
 
   // The scene's vertex at this place of a list, appended if there is none yet.

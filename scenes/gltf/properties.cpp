@@ -165,7 +165,7 @@ bool is_read_reference(std::string_view name) {
                     [](unsigned char c) { return std::isdigit(c) != 0; }))
       return true;
   }
-  return name == "POSITION" || name == "TRANSLATION" || name == "ROTATION" || name == "SCALE";
+  return name == "POSITION" || name == "NORMAL" || name == "TRANSLATION" || name == "ROTATION" || name == "SCALE";
 }
 
 }  // namespace noonmark::gltf

@@ -152,6 +152,23 @@ TEST(RemeshSides, EachTriangleKeepsItsOwn) {
     EXPECT_TRUE(remeshed(two, form).single_sided.empty());
 }
 
+TEST(RemeshNormals, VerticesKeepTheirOwn) {
+  Scene one;
+  one.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  one.triangles = {{0, 1, 2}};
+  one.vertex_normals = {{1, 0, 0}, {0, 1, 0}};  // of the first two
+  one.parts = {{"one", 0, 1}};
+  using Normals = std::vector<glm::vec3>;
+  const Normals all = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+  EXPECT_EQ(remeshed(one, MeshForm::reversed).vertex_normals, Normals(all.rbegin(), all.rend()));
+  EXPECT_EQ(remeshed(one, MeshForm::doubled).vertex_normals, (Normals{all[0], all[1], all[2], all[0], all[1], all[2]}));
+  for (MeshForm form : {MeshForm::one_mesh, MeshForm::tiles, MeshForm::t_junctions})
+    EXPECT_TRUE(remeshed(one, form).vertex_normals.empty());
+  const Scene turned = remeshed(one, MeshForm::as_built, {180, {3, 0, 0}});
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 2, 3));  // half a turn: n becomes 2 (n.a) a - n
+  EXPECT_LT(glm::distance(glm::dvec3(turned.vertex_normals[0]), 2 * axis.x * axis - glm::dvec3(1, 0, 0)), 1e-6);
+}
+
 // The size that is checked against the memory before anything is made.
 TEST_P(Remesh, IsAsLargeAsToldBefore) {
   for (MeshForm form : {MeshForm::as_built, MeshForm::one_mesh, MeshForm::split, MeshForm::reversed, MeshForm::doubled,

@@ -72,6 +72,40 @@ TEST(Casters, PancakingMovesWhatLiesBeforeNearOntoIt) {
   EXPECT_LT(before, 280);
 }
 
+// Engines move vertices along the normals of the file, so two vertices at one place part where these differ.
+TEST(Casters, MoveAlongTheNormalsOfTheFileWhereItHasSome) {
+  Scene scene = scene_lit_from({0, 9, 0}, {0, 0, 0});
+  scene.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 0, 0}};
+  scene.triangles = {{0, 1, 2}};
+  scene.vertex_normals = {{1, 0, 0}, {0, 0, 0}};
+  const std::vector<glm::vec3> normals = vertex_normals(scene);
+  EXPECT_EQ(normals, (std::vector<glm::vec3>{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {0, 0, 0}}));
+  Settings settings;
+  settings.map.extent_m = 16, settings.map.near_m = 1, settings.map.far_m = 20, settings.map.resolution = 512;
+  settings.bias["caster_normal_offset"] = 2;
+  const std::vector<glm::vec3> moved =
+      caster_positions(scene, make_light_frame(scene, settings), settings.map, Bias(settings.bias));
+  EXPECT_FLOAT_EQ(moved[0].x, -2.0f * 16 / 512);
+  EXPECT_FLOAT_EQ(moved[1].y, -2.0f * 16 / 512);
+}
+
+// Babylon.js takes the sine of the angle to the light also of faces that look away from it.
+TEST(Casters, TheSineIsThatOfTheWholeAngle) {
+  Scene scene = scene_lit_from({0, 9, 0}, {0, 0, 0});
+  const float half = std::sqrt(0.5f);
+  scene.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
+  scene.vertex_normals = {{0, -1, 0}, {1, 0, 0}, {half, -half, 0}};
+  Settings settings;
+  settings.map.extent_m = 16, settings.map.near_m = 1, settings.map.far_m = 20, settings.map.resolution = 512;
+  settings.bias["caster_normal_offset_sin"] = 2;
+  const std::vector<glm::vec3> moved =
+      caster_positions(scene, make_light_frame(scene, settings), settings.map, Bias(settings.bias));
+  const float amount = 2.0f * 16 / 512;
+  EXPECT_EQ(moved[0], scene.positions[0]);
+  EXPECT_FLOAT_EQ(moved[1].x, -amount);
+  EXPECT_FLOAT_EQ(moved[2].x, 1 - amount * half * half);
+}
+
 TEST(LightFrame, APointLightHasNoTargetThatMovesItsMap) {
   const Scene scene = make_scene({.name = "point-room"});
   Settings settings;

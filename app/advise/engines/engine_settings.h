@@ -30,6 +30,7 @@ struct TrialView {
   std::string name;                           // "given", "turned by 30 deg"
   std::optional<EnginePromise> promise = {};  // of this view, with the map as the lines lay it; empty: not known
   EnginePromise measured = {};                // by place (frames/judge.h); only if `refused` is empty
+  size_t counted = 0;                         // pixels that `measured` is a share of
   std::vector<std::string> broken = {};       // bounds: "acne 0.51% (bound 0.1%)"
   std::string refused = {};                   // why the frame is not judged
 };

@@ -229,6 +229,29 @@ TEST_F(Gltf, SidesAreThoseOfTheMaterial) {
   }
 }
 
+// The normal of a surface turns with the inverse transpose: a plane that is scaled by (1, 1, 4) leans away from z. Where a list is too
+// short, or not of vectors, the scene has none, and its faces give them.
+TEST_F(Gltf, NormalsOfVerticesAreTheFilesInTheWorld) {
+  json d = square();
+  EXPECT_TRUE(load(d).vertex_normals.empty());
+  const std::vector<float> leaning = {0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0, 0};
+  auto& primitive = d["meshes"][0]["primitives"][0];
+  primitive["attributes"]["NORMAL"] = add_accessor(d, raw(leaning), 5126, "VEC3", 4);
+  for (double x : {2, -2}) {
+    d["nodes"][0]["scale"] = {x, 1, 4};
+    const Scene s = load(d);
+    ASSERT_EQ(s.vertex_normals.size(), 3u) << "the last has no direction";
+    const double length = std::hypot(0.6, 0.8 / 4);
+    for (const glm::vec3& normal : s.vertex_normals)
+      EXPECT_LT(glm::distance(glm::dvec3(normal), glm::dvec3(0, 0.6, 0.8 / 4) / length), 1e-6) << x;
+  }
+  d["accessors"].back()["count"] = 3;
+  EXPECT_TRUE(load(d).vertex_normals.empty());
+  d["accessors"].back()["count"] = 4;
+  d["accessors"].back()["type"] = "VEC2";
+  EXPECT_TRUE(load(d).vertex_normals.empty());
+}
+
 TEST_F(Gltf, FarApartIndicesTakeOnlyTheirVertices) {
   json d = square();
   std::vector<float> many(3 * 1000, 7);
