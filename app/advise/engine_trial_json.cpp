@@ -3,10 +3,7 @@
 namespace noonmark {
 
 nlohmann::json promise_json(const EnginePromise& promise) {
-  return {{"error", promise.error},
-          {"acne", promise.acne},
-          {"peter_panning", promise.peter_panning},
-          {"all_views", promise.all_views}};
+  return {{"error", promise.error}, {"acne", promise.acne}, {"peter_panning", promise.peter_panning}};
 }
 
 nlohmann::json trial_json(const EngineTrial& trial) {

@@ -519,7 +519,8 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
              {"cannot", engine.cannot},
              {"source", engine.source}};
     if (engine.emulated) one["settings"] = settings_map(*engine.emulated);
-    if (engine.promise) one["promise"] = promise_json(*engine.promise);
+    if (engine.promise)
+      one["promise"] = promise_json(*engine.promise), one["promise"]["all_views"] = engine.promise->all_views;
     if (engine.trial) one["tried"] = trial_json(*engine.trial);
     if (!engine.why_not_emulated.empty()) one["why_not_measured"] = engine.why_not_emulated;
     all["engines"].push_back(one);

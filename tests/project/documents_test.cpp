@@ -139,7 +139,7 @@ TEST(Documents, EverySettingThatIsNamedIsThere) {
     names.insert(std::string(row.name));
   }
   for (const FrameKey& key : frame_keys()) names.insert(fmt::format("{}.{}", key.object, key.name));
-  const std::set<std::string> endings = {".h", ".cpp", ".exr", ".glsl"};
+  const std::set<std::string> endings = {".h", ".cpp", ".exr", ".glb", ".glsl"};
   for (const fs::path& file : documents())
     for (const std::string& word : in_backticks(text_of(file))) {
       const std::string name = word.substr(0, word.find_first_of(" =\""));
