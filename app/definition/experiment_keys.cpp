@@ -44,7 +44,7 @@ const std::vector<ExperimentKey>& root_keys() {
       {"law", Kind::tables, "What one number must be, given others; check judges it."},
       of_part("name", Kind::text, "The part's name; different for every part."),
       of_file("title", Kind::text, "The heading of the report."),
-      of_file("pictures", Kind::choice, "Which points get pictures.", {"first", "all", "none", "worst", "extremes"}),
+      of_file("pictures", Kind::choice, "Which points get pictures.", {"first", "all", "none", "worst", "extremes", "answers"}),
       of_file("times", Kind::flag, "Whether map and lookup are timed."),
       of_file("plot", Kind::table, "Which metrics stand at the top of the report's list."),
       of_file("answer", Kind::table, "What the answer makes small, and what it counts as cost."),

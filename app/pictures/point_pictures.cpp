@@ -16,7 +16,9 @@
 #include "base/file.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/recommendation.h"
+#include "compare/judge/tradeoff.h"
 #include "compare/ladder/flicker.h"
+#include "compare/report/speed_reading.h"
 
 namespace noonmark {
 namespace {
@@ -98,6 +100,11 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
   }
   if (pictures == "all") {
     for (const PointRecord& point : points) ids.push_back(point.id);
+    return ids;
+  }
+  if (pictures == "answers") {
+    ids = report::answer_points(compared_groups(results), results);
+    add_broken();
     return ids;
   }
   const auto badness = [](const PointRecord& p) {

@@ -19,7 +19,8 @@
 namespace noonmark {
 
 // Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error, and of a motion the
-// frame with the largest flicker too (worst_instant); they need all points; an error that is not finite is the worst. Both
+// frame with the largest flicker too (worst_instant); `answers` selects the three answers of every group (compare/report/speed_reading.h).
+// All three need all points; an error that is not finite is the worst. `worst` and `extremes`
 // also select the first point of the recommended choice, because the report's first screen shows it. But for `none`, every
 // value selects points with a broken bound too, at most most_broken_shown of them. results: with the
 // verdicts of the bounds, which the recommendation reads.

@@ -340,7 +340,8 @@ Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder&
                     "experiment. Put both below "
                     "one folder, and the results name the scene from there",
                     scene));
-  if (merged.missing.empty() && (experiment.pictures == "worst" || experiment.pictures == "extremes"))
+  if (merged.missing.empty() &&
+      (experiment.pictures == "worst" || experiment.pictures == "extremes" || experiment.pictures == "answers"))
     merged.notes.push_back(fmt::format(
         "the points with pictures are chosen by their errors, so no share has drawn them; {} --out {} draws them",
         share_command(experiment, ""), shell_quoted(out.path())));

@@ -44,7 +44,7 @@ struct SweepOutcome {
 // device; and defect if a measurement is not sound, after everything is stored.
 //
 // Of a share only its points are measured, timed and reported. No bound and no law is judged, and pictures that are chosen by
-// their errors (worst, extremes) are not drawn: both need all points (app/sweep/merge.h). Its store continues on any machine; each
+// their errors (worst, extremes, answers) are not drawn: both need all points (app/sweep/merge.h). Its store continues on any machine; each
 // point keeps the machine that measured it.
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
 

@@ -93,8 +93,10 @@ std::vector<double> pictures_of(const std::vector<Settings>& planned, size_t dra
 }  // namespace
 
 size_t drawn_after_points(const Experiment& experiment, const std::vector<Settings>& planned) {
-  // The worst point, the best one, and the answer.
-  const size_t most = experiment.pictures == "worst" ? 2 : experiment.pictures == "extremes" ? 3 : 0;
+  // The worst point, the best one, and the answer; or the three answers.
+  const size_t most = experiment.pictures == "worst"                                          ? 2
+                      : experiment.pictures == "extremes" || experiment.pictures == "answers" ? 3
+                                                                                              : 0;
   return std::min(most, planned.size());
 }
 

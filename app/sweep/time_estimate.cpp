@@ -279,6 +279,7 @@ TimeEstimate estimate_time(Workbench& bench, const Experiment& experiment, const
         std::any_of(planned.begin(), planned.end(), [](const Settings& s) { return s.view.motion.any(); });
     if (moves && experiment.pictures != "first")  // the frames of the animation are measured again
       estimate.cpu_s += std::min(all, static_cast<double>(most_motion_frames)) * mean_of(seconds);
+    if (experiment.pictures == "answers") estimate.cpu_s += std::min(3.0, all) * (mean_of(files) + mean_of(seconds));
     if (experiment.pictures == "extremes") estimate.cpu_s += std::min(2.0, all) * (mean_of(files) + mean_of(seconds));
   }
   // One diagram is measured; others have its time, by their pixels and rows.

@@ -112,15 +112,20 @@ std::optional<Interval> span_over_window(const ComparedChoice& one, const std::s
   return span;
 }
 
-std::string dominating_cause(const ComparedChoice& one, AtBias at) {
+std::vector<std::string> joined_causes(std::initializer_list<const ComparedChoice*> choices) {
   std::vector<std::string> names{"acne",   "peter_panning", "aliasing",  "coverage",
                                  "filter", "displacement",  "precision", "undecided"};
-  for (const PointRecord* point : one.choice.points)
-    for (const RungCause& cause : point->causes)
-      if (std::find(names.begin(), names.end(), cause.name) == names.end()) names.push_back(cause.name);
+  for (const ComparedChoice* one : choices)
+    for (const PointRecord* point : one->choice.points)
+      for (const RungCause& cause : point->causes)
+        if (std::find(names.begin(), names.end(), cause.name) == names.end()) names.push_back(cause.name);
+  return names;
+}
+
+std::string dominating_cause(const ComparedChoice& one, AtBias at) {
   std::string largest;
   double share = 0;
-  for (const std::string& name : names)
+  for (const std::string& name : joined_causes({&one}))
     if (const double mean = value_of(one, name, at).mean; mean > share) largest = name, share = mean;
   return largest;
 }

@@ -3,6 +3,7 @@
 //   for (const ComparedGroup& group : compared_groups(results))
 //     for (const ComparedChoice& one : group.choices) draw(value_of(one, "map_bytes").worst, value_of(one, "error").worst);
 #pragma once
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,8 +66,11 @@ bool counts_by(const ComparedChoice& one, const std::string& metric, AtBias at =
 // Empty without a window, if the metric does not follow the bias, or if a value is not finite.
 std::optional<Interval> span_over_window(const ComparedChoice& one, const std::string& metric);
 
+// The causes of the error, dark and light aliasing joined, and dark and light coverage; also those that rungs brought.
+std::vector<std::string> joined_causes(std::initializer_list<const ComparedChoice*> choices);
+
 // The cause with the largest mean over the conditions, at the bias; causes that do not follow the bias as
-// rendered. Dark and light aliasing, and dark and light coverage, count together. Empty if no cause is above 0.
+// rendered. Of joined_causes(). Empty if no cause is above 0.
 std::string dominating_cause(const ComparedChoice& one, AtBias at = AtBias::best);
 
 }  // namespace noonmark

@@ -71,9 +71,11 @@ Markup pictures(const Results& results, const ShownPoints& shown, const ReadFile
 bool opens_with_motion(const Results& results) {
   return !report::has_live_picture(results) && !report::has_diagram(results) && report::has_flicker(results);
 }
+// Parts are measured to be compared, so there the chart stands above the live picture.
 bool opens_with_speed(const Results& results, const ShownPoints& shown) {
-  return !report::has_live_picture(results) && !report::has_diagram(results) && !report::has_flicker(results) &&
-         report::has_speed_chart(results, shown);
+  const bool parts = !results.points.empty() && !results.points.front().part.empty();
+  return (parts || !report::has_live_picture(results)) && !report::has_diagram(results) &&
+         !report::has_flicker(results) && report::has_speed_chart(results, shown);
 }
 Markup motion(const Results& results, const ShownPoints&, const ReadFile&) {
   return report::has_flicker(results) ? report::flicker_section(results, opens_with_motion(results)) : "";
@@ -115,7 +117,8 @@ std::vector<ShownSection> sections_of(const Results& results, const ShownPoints&
 }
 
 // What the first screen shows: the verdict and the answer. Below them stand the live picture and the phase diagram; a
-// report without both has the strips of its motion there, or else the chart of cost against error.
+// report without both has the strips of its motion there, or else the chart of cost against error, and one of parts has that
+// chart above the live picture.
 Markup first_screen(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   using namespace report;
   const bool live = has_live_picture(results), diagram = has_diagram(results);
@@ -123,10 +126,14 @@ Markup first_screen(const Results& results, const ShownPoints& shown, const Read
   Markup figures, answer = answer_sentence(results, shown);
   if (live) figures += div(Attribute("id", "live"), live_figure(results, shown, read_file)) + "\n";
   if (diagram) figures += figure(first_diagram());
-  if (opens_with_speed(results, shown)) figures = figure(speed_chart());
+  const bool speed = opens_with_speed(results, shown);
+  if (speed) figures = figure(speed_chart()) + figures;
   if (opens_with_motion(results)) figures = figure(flicker_strips(results));
   if (has_flicker(results)) answer += " " + flicker_sentence(results);
-  const char* const beside = live && diagram ? "side-by-side two" : live || diagram ? "side-by-side" : "alone";
+  const char* const beside = speed             ? "alone"
+                             : live && diagram ? "side-by-side two"
+                             : live || diagram ? "side-by-side"
+                                               : "alone";
   return div(css("first-screen"), "\n", verdict_line(results), paragraph(css("said"), answer),
              div(css(beside), figures)) +
          "\n";

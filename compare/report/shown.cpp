@@ -12,6 +12,7 @@
 #include "compare/judge/recommendation.h"
 #include "compare/report/rules.h"
 #include "compare/report/speed.h"
+#include "compare/report/speed_reading.h"
 #include "compare/report/text.h"
 #include "compare/results/quantities.h"
 
@@ -48,6 +49,7 @@ std::vector<size_t> spoken_of(const Results& results, const std::vector<Compared
     for (size_t i : named)
       if (const PointRecord* at = value_of(group.choices[i], error).at) add(at->id);
   }
+  for (int64_t id : answer_points(groups, results)) add(id);
   for (size_t i = 0; i < results.points.size(); ++i)
     if (!results.points[i].pictures.empty()) out.push_back(i);
   return out;

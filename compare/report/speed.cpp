@@ -7,9 +7,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "compare/judge/curve_reading.h"
 #include "compare/report/findings.h"
+#include "compare/report/speed_reading.h"
 #include "compare/report/text.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
@@ -127,6 +129,58 @@ json entry_data(const ComparedChoice& one, const Axes& axes, const ChoiceNames& 
   return out;
 }
 
+// What is read off one cost and one error, in indices of the entries. entry_of: of each choice; -1 if it has none.
+json reading_data(const SpeedReadings& readings, const SpeedReading& reading, const ChoiceNames& names,
+                  const std::vector<int>& entry_of) {
+  const auto entries = [&](const std::vector<size_t>& choices) {
+    json out = json::array();
+    for (size_t i : choices)
+      if (entry_of[i] >= 0) out.push_back(entry_of[i]);
+    return out;
+  };
+  json out{{"front", entries(reading.front)}, {"words", json::array()}};
+  for (const Phrase& phrase : readings.takeovers(reading, names))  // names as a list of one
+    out["words"].push_back(phrase.is_name ? json({phrase.text}) : json(phrase.text));
+  out["curves"] = json::array();
+  for (const std::vector<size_t>& curve : reading.curves) out["curves"].push_back(entries(curve));
+  out["ahead"] = json::array();  // the techniques that err least somewhere, each once
+  std::set<size_t> ahead;
+  for (const CheapestStretch& stretch : reading.stretches)
+    if (ahead.insert(stretch.curve).second) out["ahead"].push_back(stretch.curve);
+  if (const auto& found = reading.answers) {
+    out["budget"] = found->budget;
+    for (const auto& [name, i] :
+         {std::pair("least", found->least), std::pair("balanced", found->balanced), std::pair("best", found->best)})
+      if (entry_of[i] >= 0) out["answers"][name] = entry_of[i];
+  }
+  return out;
+}
+
+// By cost, error and bias of the page. The curves of many pairs are the same and stand once. Of more than most_whole_points
+// choices only the pair that is shown first is read, because each takes time.
+void add_readings(json& out, const ComparedGroup& group, const Results& results, const Axes& axes,
+                  const ChoiceNames& names, const std::vector<int>& entry_of) {
+  const SpeedReadings readings(group, results);
+  const Techniques& techniques = readings.techniques();
+  out["scale"] = techniques.scale.empty() ? "" : setting_label(techniques.scale);
+  for (size_t i = 0; i < entry_of.size(); ++i)
+    if (entry_of[i] >= 0) out["entries"][static_cast<size_t>(entry_of[i])]["technique"] = techniques.of[i];
+  for (size_t first : techniques.first)
+    out["techniques"].push_back(names.technique(group.choices[first].choice, techniques.scale));
+  std::map<std::string, size_t> known;  // curves by their text
+  out["curves"] = json::array();
+  const bool only_first = group.choices.size() > most_whole_points;
+  for (const std::string& cost : only_first ? std::vector{axes.costs.front()} : axes.costs)
+    for (const std::string& error : only_first ? std::vector{axes.error_first} : axes.errors)
+      for (const auto& [bias, at] : {std::pair("best", AtBias::best), std::pair("set", AtBias::as_set)}) {
+        json one = reading_data(readings, readings.of(cost, error, at), names, entry_of);
+        const auto [same, is_new] = known.emplace(one["curves"].dump(), out["curves"].size());
+        if (is_new) out["curves"].push_back(std::move(one["curves"]));
+        one["curves"] = same->second;
+        out["readings"][cost][error][bias] = std::move(one);
+      }
+}
+
 json group_data(const ComparedGroup& group, const Results& results, const Axes& axes, const ChoiceNames& names,
                 const std::unordered_set<int64_t>& shown_ids) {
   const std::vector<Property> properties = properties_of(group, results);
@@ -138,6 +192,7 @@ json group_data(const ComparedGroup& group, const Results& results, const Axes& 
     out["properties"].push_back(
         {{"label", property.setting.empty() ? "part" : setting_label(property.setting)}, {"values", std::move(texts)}});
   }
+  std::vector<int> entry_of(group.choices.size(), -1);
   for (size_t i = 0; i < group.choices.size(); ++i) {
     const ComparedChoice& one = group.choices[i];
     const PointRecord* const point = point_on_page(one, axes.error_first, shown_ids);
@@ -147,15 +202,16 @@ json group_data(const ComparedGroup& group, const Results& results, const Axes& 
     entry["points"] = json::array();
     for (const PointRecord* condition : one.choice.points)
       if (shown_ids.contains(condition->id)) entry["points"].push_back(condition->id);
-    entry["recommended"] = group.recommended == i;
     entry["is"] = json::array();
     for (const Property& property : properties) {
       const auto at =
           std::find(property.values.begin(), property.values.end(), value_of_property(property, one.choice));
       entry["is"].push_back(at - property.values.begin());
     }
+    entry_of[i] = static_cast<int>(out["entries"].size());
     out["entries"].push_back(std::move(entry));
   }
+  if (!out["entries"].empty()) add_readings(out, group, results, axes, names, entry_of);
   return out;
 }
 
@@ -208,6 +264,7 @@ std::string GroupNames::of(const ComparedGroup& group) const {
 
 ChoiceNames::ChoiceNames(const Results& results) {
   for (const std::string& name : choice_settings(results.info)) {
+    if (decides_what_is_seen(name)) continue;
     std::map<std::string, std::set<std::string>> values;  // by part
     for (const PointRecord& point : results.points) values[point.part].insert(setting_of(point, name));
     for (const auto& [part, texts] : values)
@@ -216,14 +273,25 @@ ChoiceNames::ChoiceNames(const Results& results) {
 }
 
 std::string ChoiceNames::of(const Choice& choice, AtBias at) const {
+  const auto found = differing_.find(choice.first().part);
+  const std::vector<std::string> settings = found == differing_.end() ? std::vector<std::string>() : found->second;
+  const std::string name =
+      named(choice, at == AtBias::best ? without_curve_parameter(choice.first(), settings) : settings);
+  return name.empty() ? fmt::format("point {}", choice.first().id) : name;
+}
+
+std::string ChoiceNames::technique(const Choice& choice, const std::string& scale) const {
+  const auto found = differing_.find(choice.first().part);
+  std::vector<std::string> settings = found == differing_.end() ? std::vector<std::string>() : found->second;
+  settings = without_curve_parameter(choice.first(), std::move(settings));
+  std::erase(settings, scale);
+  return named(choice, std::move(settings));
+}
+
+std::string ChoiceNames::named(const Choice& choice, std::vector<std::string> settings) const {
   const PointRecord& point = choice.first();
-  std::string name = point.part;
-  if (const auto found = differing_.find(point.part); found != differing_.end())
-    if (const std::string phrase =
-            settings_phrase(point, at == AtBias::best ? without_curve_parameter(point, found->second) : found->second);
-        !phrase.empty())
-      name += (name.empty() ? "" : ", ") + phrase;
-  return name.empty() ? fmt::format("point {}", point.id) : name;
+  const std::string phrase = settings_phrase(point, settings);
+  return point.part + (point.part.empty() || phrase.empty() ? "" : ", ") + phrase;
 }
 
 const PointRecord* point_on_page(const ComparedChoice& one, const std::string& error,

@@ -19,7 +19,9 @@ namespace noonmark::report {
 inline constexpr std::array cost_metrics{"texel_work",    "traffic_bytes",  "map_bytes",     "map_texels",
                                          "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations",
                                          "map_ms",        "lookup_ms",      "shadow_ms"};
-inline constexpr std::array error_metrics{"error_soft", "error", "aliasing_rms", "shaded_rmse"};
+inline constexpr std::array error_metrics{
+    "error_soft",  "error",        "flip",       "edge_displacement_mean_pixels", "edge_displacement_p95_pixels",
+    "wrong_patch", "aliasing_rms", "shaded_rmse"};
 
 // The metrics that the reader can choose for an axis: RunInfo::cost and the other costs; the errors and
 // RunInfo::accuracy. Only those that are finite at some point.
@@ -47,14 +49,18 @@ class GroupNames {
   std::vector<std::string> differing_;
 };
 
-// Names choices by their part and by the swept settings that differ within it: "filters, filter box".
+// Names choices by their part and by the swept settings that differ within it: "filters, filter box". Settings that name the
+// group (GroupNames) are left out.
 class ChoiceNames {
  public:
   explicit ChoiceNames(const Results& results);
   // best: without the setting that the curves of the choice vary, because its own bias is said beside the name.
   std::string of(const Choice& choice, AtBias at = AtBias::as_set) const;
+  // The technique of the choice: at its own bias, and without the setting along the curve (Techniques::scale).
+  std::string technique(const Choice& choice, const std::string& scale) const;
 
  private:
+  std::string named(const Choice& choice, std::vector<std::string> settings) const;
   std::map<std::string, std::vector<std::string>> differing_;  // by part
 };
 

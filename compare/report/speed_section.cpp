@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -11,6 +14,7 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/sections.h"
 #include "compare/report/speed.h"
+#include "compare/report/speed_reading.h"
 #include "compare/report/text.h"
 #include "compare/results/quantities.h"
 
@@ -43,10 +47,6 @@ struct Plane {
   Markup with_numbers(const ComparedChoice& one, AtBias at) const {
     return prose("{} ({}, {})", bold(link(one, at)), cost_text(one), error_text(one, at));
   }
-  // What is good enough is so at its best bias, which is said where the page shows the bias as set.
-  Markup good_one(const ComparedChoice& one) const {
-    return with_numbers(one, AtBias::best) + by_bias(" at its best bias", "");
-  }
 };
 
 // "Of 32 choices 18 have a usable window; 6 have none, and ...".
@@ -66,14 +66,34 @@ std::string windows_text(const ComparedGroup& group) {
   return out + ".";
 }
 
-Markup good_text(const ComparedGroup& group, const Plane& plane) {
+std::string good_text(const ComparedGroup& group, const Plane& plane) {
   const auto good = std::count_if(group.choices.begin(), group.choices.end(), [](const auto& one) { return one.good; });
   if (is_incomplete(plane.results)) return " Not all conditions are measured yet, so nothing is recommended.";
-  if (!group.recommended) return " None is good enough.";
-  Markup out = prose(" Good enough {} {}; the cheapest of them is {}.", good == 1 ? "is" : "are", good,
-                     plane.good_one(group.choices[*group.recommended]));
-  if (group.accurate != group.recommended)
-    out += prose(" The most accurate of them is {}.", plane.good_one(group.choices[*group.accurate]));
+  return good ? fmt::format(" Good enough {} {}.", good == 1 ? "is" : "are", good) : " None is good enough.";
+}
+
+// The three answers, those that are the same choice together.
+Markup answers_text(const ComparedGroup& group, const SpeedReading& reading, const Plane& plane) {
+  if (!reading.answers) return "";
+  const ThreeAnswers& found = *reading.answers;
+  const std::string budget =
+      fmt::format("it errs least of those that cost at most {}", quantity(found.budget, find_metric(plane.cost).unit));
+  const std::tuple<const char*, size_t, std::string> answers[] = {
+      {"least", found.least, "it is the cheapest"},
+      {"balanced", found.balanced, fmt::format("no cheaper one has less than {} times its error", error_that_pays)},
+      {"best", found.best, budget}};
+  Markup out;
+  for (size_t i = 0; i < std::size(answers);) {
+    const size_t choice = std::get<1>(answers[i]);
+    std::string names, reasons;
+    for (; i < std::size(answers) && std::get<1>(answers[i]) == choice; ++i) {
+      names += (names.empty() ? "" : ", ") + std::string(std::get<0>(answers[i]));
+      reasons += (reasons.empty() ? "" : ", ") + std::get<2>(answers[i]);
+    }
+    names[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(names[0])));
+    out += prose("{}{}: {}: {}.", out.empty() ? "" : " ", names, plane.with_numbers(group.choices[choice], reading.at),
+                 reasons);
+  }
   return out;
 }
 
@@ -82,27 +102,23 @@ constexpr const char* no_front[] = {"No choice that counts has both a finite cos
 
 const char* why_no_front(AtBias at) { return no_front[at == AtBias::as_set]; }
 
-// Names the front, which goes from the cheapest to the most accurate. What good_text() named with the same numbers is not
-// named again.
-Markup front_text(const ComparedGroup& group, const std::vector<size_t>& front, const Plane& plane, AtBias at) {
-  if (front.empty()) return why_no_front(at);
+// Names the front, which goes from the cheapest to the most accurate.
+Markup front_text(const ComparedGroup& group, const SpeedReading& reading, const Plane& plane) {
+  const std::vector<size_t>& front = reading.front;
+  if (front.empty()) return why_no_front(reading.at);
   const auto place = [&](size_t i) {
     return std::make_pair(value_of(group.choices[i], plane.cost).worst,
-                          value_of(group.choices[i], plane.error, at).worst);
+                          value_of(group.choices[i], plane.error, reading.at).worst);
   };
-  const auto said = [&](size_t i, const std::optional<size_t>& named, const char* as) {
-    return at == AtBias::best && named && place(*named) == place(i) ? Markup(as)
-                                                                    : plane.with_numbers(group.choices[i], at);
-  };
-  const Markup first = said(front.front(), group.recommended, "the recommended one");
+  const auto said = [&](size_t i) { return plane.with_numbers(group.choices[i], reading.at); };
   if (place(front.front()) == place(front.back())) {
     const size_t equal = front.size() - 1;
-    return prose("No choice is cheaper than {}, and none is more accurate{}.", first,
+    return prose("No choice is cheaper than {}, and none is more accurate{}.", said(front.front()),
                  equal ? fmt::format("; {} more cost the same and are as accurate", equal) : "");
   }
   return prose(
       "The Pareto front has {}, from {} to {}: no other choice is both cheaper and more accurate than one of these.",
-      counted(front.size(), "choice"), first, said(front.back(), group.accurate, "the most accurate one"));
+      counted(front.size(), "choice"), said(front.front()), said(front.back()));
 }
 
 std::string span_cell(const ComparedChoice& one, const std::string& error, std::string_view unit) {
@@ -130,11 +146,20 @@ std::string bias_cell(const ComparedChoice& one, AtBias at) {
   return value ? bias_in_unit(*value, unit) : set;
 }
 
-Markup front_row(const ComparedChoice& one, const Plane& plane, bool recommended, AtBias at) {
+// "least, balanced"; empty if the choice is no answer.
+std::string answer_names(size_t choice, const std::optional<ThreeAnswers>& found) {
+  std::string out;
+  if (!found) return out;
+  for (const auto& [name, i] :
+       {std::pair("least", found->least), std::pair("balanced", found->balanced), std::pair("best", found->best)})
+    if (i == choice) out += (out.empty() ? "" : ", ") + std::string(name);
+  return out;
+}
+
+Markup front_row(const ComparedChoice& one, const Plane& plane, const std::string& answers, AtBias at) {
   const std::string cause = dominating_cause(one, at);
   const std::string_view unit = find_metric(plane.error).unit;
-  return tr(css(recommended ? "recommended" : ""),
-            row_head(css("text"), with_small(plane.link(one, at), recommended ? "recommended" : "")),
+  return tr(css(answers.empty() ? "" : "recommended"), row_head(css("text"), with_small(plane.link(one, at), answers)),
             td(cost_cell(one, plane.cost)), td(cell(value_of(one, plane.error, at).worst, unit)),
             td(span_cell(one, plane.error, unit)), td(bias_cell(one, at)),
             td(css("text"), cause.empty() ? "–" : swatch(cause) + metric_label(cause)));
@@ -149,12 +174,14 @@ struct FrontRows {
 };
 
 // Choices of which no point is shown have no row, because their links would lead nowhere.
-FrontRows front_rows(const ComparedGroup& group, const std::string& name, const Plane& plane, AtBias at) {
-  const std::vector<size_t> front = front_of(group, plane.cost, plane.error, at);
+FrontRows front_rows(const ComparedGroup& group, const std::string& name, const Plane& plane,
+                     const SpeedReading& reading) {
+  const std::vector<size_t>& front = reading.front;
+  const AtBias at = reading.at;
   FrontRows out;
   for (size_t i : front) {
     if (!point_on_page(group.choices[i], plane.error, plane.shown_ids)) continue;
-    out.rows += front_row(group.choices[i], plane, group.recommended == i, at), ++out.count;
+    out.rows += front_row(group.choices[i], plane, answer_names(i, reading.answers), at), ++out.count;
   }
   if (front.empty()) out.rows = tr(td(css("text"), Attribute("colspan", 6), why_no_front(at)));
   const std::string which = name.empty() ? "" : " of " + name;
@@ -167,8 +194,11 @@ FrontRows front_rows(const ComparedGroup& group, const std::string& name, const 
 // The front of one group: as set, and at the best bias of each choice. The page shows that of its bias. Empty if no
 // choice is on either.
 Markup front_table(const ComparedGroup& group, const std::string& name, const Plane& plane, bool open) {
-  const FrontRows set = front_rows(group, name, plane, AtBias::as_set),
-                  best = front_rows(group, name, plane, AtBias::best);
+  const SpeedReadings readings(group, plane.results);
+  const auto rows_at = [&](AtBias at) {
+    return front_rows(group, name, plane, readings.of(plane.cost, plane.error, at));
+  };
+  const FrontRows set = rows_at(AtBias::as_set), best = rows_at(AtBias::best);
   if (set.count == 0 && best.count == 0) return "";
   const auto body = [](std::string_view at, const Markup& rows) { return element("tbody", css(at), "\n", rows); };
   const Markup rows =
@@ -186,9 +216,9 @@ Markup front_table(const ComparedGroup& group, const std::string& name, const Pl
 
 Markup speed_chart() {
   return chart_place("cost",
-                     "Each choice at the bias that is chosen at the top: as set, or its best one. The bar is the error "
-                     "over its usable window; where choices cost the same, that of the first. The line is the Pareto "
-                     "front. Choices of equal cost and nearly equal error share one mark.");
+                     "Each choice at the bias that is chosen at the top: as set, or its best one. A line joins the "
+                     "choices of one technique; those that err least at some cost are coloured. The dotted line is the "
+                     "Pareto front. Choices of equal cost and nearly equal error share one mark.");
 }
 
 bool has_speed_chart(const Results& results, const ShownPoints& shown) {
@@ -202,8 +232,15 @@ Markup speed_section(const Results& results, const ShownPoints& shown, bool on_f
   for (const PointRecord& point : shown.results.points) plane.shown_ids.insert(point.id);
   const size_t first = group_shown_first(shown.groups);
   const ComparedGroup& group = shown.groups[first];
+  const SpeedReadings readings(group, results);
   const auto words = [&](AtBias at) {
-    return front_text(group, front_of(group, plane.cost, plane.error, at), plane, at);
+    const SpeedReading reading = readings.of(plane.cost, plane.error, at);
+    Markup takeovers;
+    for (const Phrase& phrase : readings.takeovers(reading, plane.names))
+      takeovers += phrase.is_name ? bold(phrase.text) : Markup(phrase.text);
+    std::vector<Markup> sentences{takeovers, front_text(group, reading, plane), answers_text(group, reading, plane)};
+    std::erase_if(sentences, [](const Markup& sentence) { return sentence.empty(); });
+    return joined(sentences, " ");
   };
   const GroupNames names(results, shown.groups);
   const std::string name = names.of(group);
@@ -213,9 +250,8 @@ Markup speed_section(const Results& results, const ShownPoints& shown, bool on_f
         paragraph(prose("Choices can be compared if they have the same scene, view and light: here are {}, and "
                         "these words are about {}.",
                         counted(shown.groups.size(), "group"), bold(name)));
-  out += paragraph(windows_text(group), good_text(group, plane), " ",
-                   at_both(words(AtBias::as_set), words(AtBias::best))) +
-         shown.note;
+  out += paragraph(windows_text(group), good_text(group, plane)) +
+         paragraph(at_both(words(AtBias::as_set), words(AtBias::best))) + shown.note;
   if (!on_first_screen) out += speed_chart();
   for (size_t i = 0; i < std::min(shown.groups.size(), most_tables); ++i) {
     const size_t which = i == 0 ? first : i <= first ? i - 1 : i;  // the one shown first, then the others

@@ -6,8 +6,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/pictures/point_files.h"
+#include "app/pictures/point_pictures.h"
 #include "app/pictures/view_colors.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
@@ -282,6 +286,24 @@ TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   EXPECT_FALSE(json.contains("part"));
   EXPECT_EQ(json.at("flags").at("outside"), flag_outside);
   EXPECT_EQ(json.at("command"), "noonmark render 'x'");
+}
+
+// Least, balanced and best of four settings: the cheapest; half of the error for twice the cost; a little less for four times.
+// The last one is above four times the cheapest.
+TEST(PointsWithPictures, AnswersAreThreePointsAndTheBrokenOne) {
+  Results results;
+  results.info.accuracy = "error";
+  results.info.swept = {"map.resolution"};
+  for (const auto& [cost, error] : {std::pair(1.0, 0.8), {2.0, 0.2}, {4.0, 0.19}, {8.0, 0.1}}) {
+    PointRecord point;
+    point.id = static_cast<int64_t>(results.points.size());
+    point.settings = {{"map.resolution", std::to_string(64 << point.id)}};
+    point.metrics = {{"texel_work", cost}, {"error", error}};
+    results.points.push_back(point);
+  }
+  EXPECT_EQ(points_with_pictures("answers", results), (std::vector<int64_t>{0, 1, 2}));
+  results.bounds.push_back({.metric = "acne", .max = 0, .join = "worst", .held = false, .point = 3, .points = 4});
+  EXPECT_EQ(points_with_pictures("answers", results), (std::vector<int64_t>{0, 1, 2, 3}));
 }
 
 }  // namespace

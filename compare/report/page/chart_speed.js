@@ -1,13 +1,21 @@
-// Cost against error: one mark for each choice at its best bias, a bar over its usable window, and the Pareto front.
+// Cost against error: one mark for each choice at its best bias, a curve for each technique, the Pareto front and the three
+// answers. compare/report/speed_reading.h finds all of these; the page draws them.
 (function() {
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, data = page.data, speed = data.speed;
 var shapes = kit.speed.shapes;
 if (!speed.groups.length || !speed.costs.length || !speed.errors.length) return;
+// The colours of the techniques that err least somewhere, in the order of their costs; the others are grey.
+var colours = ['var(--q0)', 'var(--q3)', 'var(--q6)', 'var(--c-peter_panning)', 'var(--q1)', 'var(--q4)'];
 var state = {group: speed.group, cost: speed.costs[0], error: speed.error, property: 0, id: null};
 
 function group() {
   return speed.groups[state.group];
+}
+// What is read off the chosen cost and error.
+function reading() {
+  var of = (group().readings[state.cost] || {})[state.error];
+  return of ? of[page.bias === 'recommended' ? 'best' : 'set'] : {front: [], ahead: [], words: []};
 }
 function isBytes() {
   return kit.measureUnit(state.cost) === 'bytes';
@@ -41,16 +49,30 @@ function costText(cost) {
       (cost.length > 2 ? ' (' + kit.shown(cost[2], unit) + ' … ' + kit.shown(cost[3], unit) + ')' : '');
 }
 
+function colourOf(technique) {
+  var at = reading().ahead.indexOf(technique);
+  return at < 0 ? 'var(--faint)' : colours[at % colours.length];
+}
 // The drawn choices of the group, with x and y in the units of the axes. low and high: the interval of a measured cost.
 function rowsOf(entries) {
-  var property = group().properties[state.property];
+  var property = group().properties[state.property], read = reading(), answers = read.answers || {};
   return entries
-      .map(function(entry) {
+      .map(function(entry, i) {
         var of = errorOf(entry), value = property ? entry.is[state.property] : 0;
-        var cost = entry.costs[state.cost];
+        var cost = entry.costs[state.cost], ahead = read.ahead.indexOf(entry.technique) >= 0;
+        var names = ['least', 'balanced', 'best'].filter(function(name) {
+          return answers[name] === i;
+        });
+        var strong = ahead || names.length > 0 || entry.id === state.id || read.front.indexOf(i) >= 0;
         return {
           id: entry.id,
+          index: i,
           entry: entry,
+          ahead: ahead,
+          answer: names.join(', '),
+          strong: strong,
+          counted: strong || !group().scale,  // along curves the numbers of equal marks would hide them
+          size: strong ? 90 : 36,
           x: inUnit(cost[0]),
           low: inUnit(cost.length > 2 ? cost[2] : cost[0]),
           high: inUnit(cost.length > 2 ? cost[3] : cost[0]),
@@ -71,6 +93,16 @@ function rowsOf(entries) {
       .filter(function(r) {
         return r.ok;
       });
+}
+// The rows of the entries, in their order. Those without finite values are left out.
+function rowsAt(rows, indices) {
+  return indices
+      .map(function(i) {
+        return rows.filter(function(r) {
+          return r.index === i;
+        })[0];
+      })
+      .filter(Boolean);
 }
 
 function tip(event, row) {
@@ -96,7 +128,9 @@ function tip(event, row) {
   if (cause) rows.push(['largest cause', kit.causeLabel[cause] || cause, cause]);
   rows.push(['good enough', e.good ? 'yes' : e.window === 'no_curve' ? 'no, or no criterion' : 'no']);
   if (many) rows.push(['conditions', String(e.conditions)]);
-  if (row.others.length) rows.push(['here too', row.others.slice(0, 6).map(name).join('; ') + (row.others.length > 6 ? ' …' : '')]);
+  if (row.answer) rows.push(['answer', row.answer]);
+  if (row.others.length)
+    rows.push(['here too', row.others.slice(0, 6).map(name).join('; ') + (row.others.length > 6 ? ' …' : '')]);
   kit.showTip(event, rows, nameOf(e));
 }
 function name(row) {
@@ -105,11 +139,18 @@ function name(row) {
 
 var shownRows = [], shownMarks = [];
 var self = kit.chart('cost', function(width) {
-  var left = 64, right = 12, w = width - left - right, height = width < 520 ? 300 : 420;
-  var entries = group().entries, rows = rowsOf(entries), all = [];
+  var g = group(), read = reading(), curves = g.curves[read.curves] || [];
+  var wide = width >= 680 && g.scale !== '';
+  var left = 64,
+      right = wide ? kit.speed.roomFor(read.ahead.map(function(technique) {
+        return g.techniques[technique];
+      })) :
+                     12;
+  var w = width - left - right, height = width < 520 ? 320 : 420;
+  var entries = g.entries, rows = rowsOf(entries), all = [];
   shownRows = rows;
   rows.forEach(function(r) {
-    all = all.concat([r.v], r.span || []);
+    all = all.concat([r.v], r.entry === described() && r.span || []);
   });
   var floor = kit.logFloor(all);
   self.plot.textContent = '';
@@ -128,25 +169,35 @@ var self = kit.chart('cost', function(width) {
     r.y = height_of(r.v);
     if (r.span) r.bottom = height_of(r.span[0]), r.top = height_of(r.span[1]);
   });
-  var front = kit.speed.frontOf(rows), last = front[front.length - 1];
+  var front = rowsAt(rows, read.front), last = front[front.length - 1];
   function rank(r) {
-    return r.id === state.id ? 0 : r.entry.recommended ? 1 : front.indexOf(r) >= 0 ? 2 : r.counts ? 3 : 4;
+    return r.id === state.id ? 0 : r.answer ? 1 : front.indexOf(r) >= 0 ? 2 : r.counts ? 3 : 4;
   }
   function before(a, b) {
     return rank(a) - rank(b) || a.v - b.v;
   }
-  var marks = shownMarks = kit.speed.together(rows, function(r) {
+  function pixels(r) {
     return height * Math.log(floor.high / r.y) / Math.log(floor.high / floor.low);
-  }, before);
+  }
+  var marks = shownMarks = kit.speed.together(rows, pixels, before);
   function only(test) {
     return rows.filter(test);
   }
-  tell(rows, entries.length - rows.length);
-  // Bars of one cost would lie on each other, so there the first choice has its bar.
-  var barred = {};
-  rows.slice().sort(before).forEach(function(r) {
-    if (r.span && !(r.x in barred)) barred[r.x] = r;
+  var lines = [], ends = [];
+  curves.forEach(function(curve, technique) {
+    var drawn = rowsAt(rows, curve);
+    if (drawn.length < 2) return;
+    drawn.forEach(function(r) {
+      lines.push({technique: technique, ahead: r.ahead, colour: colourOf(technique), px: r.px, y: r.y});
+    });
+    var end = drawn[drawn.length - 1];
+    ends.push(
+        {text: g.techniques[technique], must: end.ahead, colour: colourOf(technique), at: pixels(end), from: end.px});
   });
+  lines.sort(function(a, b) {
+    return a.ahead - b.ahead;  // those that err least somewhere lie above the others
+  });
+  tell(rows, entries.length - rows.length);
   return {
     tip: tip,
     spec: {
@@ -158,7 +209,7 @@ var self = kit.chart('cost', function(width) {
         {name: 'rows', values: marks}, {
           name: 'spans',
           values: only(function(r) {
-            return barred[r.x] === r;
+            return r.span && r.entry === described();
           })
         },
         {
@@ -167,10 +218,11 @@ var self = kit.chart('cost', function(width) {
             return r.high > r.low;
           })
         },
+        {name: 'curves', values: lines}, {name: 'labels', values: wide ? kit.speed.spread(ends, height) : []},
         {name: 'front', values: last ? front.concat([{px: w, y: last.y}]) : []}, {
-          name: 'best',
+          name: 'answers',
           values: only(function(r) {
-            return r.entry.recommended;
+            return r.answer;
           })
         },
         {
@@ -185,7 +237,7 @@ var self = kit.chart('cost', function(width) {
         kit.measureAxis(floor, state.error), {
           orient: 'bottom',
           scale: 'x',
-          values: x.type === 'log' ? kit.logTicks(x.domain[0], x.domain[1]) : undefined,
+          values: x.type === 'log' ? kit.speed.ticks(x, w) : undefined,
           labelOverlap: true,
           title: kit.measureLabel(state.cost) + ' (' +
               (isBytes()                                   ? 'MB' :
@@ -195,7 +247,7 @@ var self = kit.chart('cost', function(width) {
           encode: {labels: {update: {text: {signal: kit.axisLabel('')}}}}
         }
       ],
-      marks: kit.speed.marksOf(w, floor)
+      marks: kit.speed.marksOf(w, floor, right)
     }
   };
 });
@@ -203,17 +255,17 @@ if (!self) return;
 
 // ---- around the chart: what it says in words, its legend, the picture of a choice
 var words = kit.make('p', {class: 'facts', 'aria-live': 'polite'}), side = kit.make('figure', {class: 'beside'}),
-    notes = kit.make('p', {class: 'small'});
-self.plot.after(words);
+    notes = kit.make('p', {class: 'small'}), takeovers = kit.make('p', {class: 'takeovers'});
+self.plot.after(takeovers, words);
 self.plot.before(notes);
 self.plot.before(side);
 
 function describe(entry) {
   var of = errorOf(entry);
   return [
-    kit.make('b', {}, nameOf(entry)),
-    ': ' + costText(entry.costs[state.cost]) + ', ' +
-        kit.measureLabel(state.error).toLowerCase() + ' ' + kit.shown(of.v[0], kit.measureUnit(state.error)) +
+    kit.make('a', {href: '#p' + entry.id}, nameOf(entry)),
+    ': ' + costText(entry.costs[state.cost]) + ', ' + kit.measureLabel(state.error).toLowerCase() + ' ' +
+        kit.shown(of.v[0], kit.measureUnit(state.error)) +
         (of.at_bias ? ' at ' + entry.bias.parameter + ' ' + entry.bias.value : ' as rendered') +
         '; usable window: ' + windowText(entry) + '.'
   ];
@@ -223,21 +275,35 @@ function entryOf(id) {
     return e.points.indexOf(id) >= 0;
   })[0];
 }
-// The choice that is described: the selected one, otherwise the recommended one.
+// The choice whose picture is shown: the selected one, otherwise the balanced one.
 function described() {
-  return entryOf(state.id) || group().entries.filter(function(e) {
-    return e.recommended;
-  })[0];
+  var answers = reading().answers;
+  return entryOf(state.id) || (answers && group().entries[answers.balanced]);
 }
 // The picture first, because it takes width from the plot.
 function redraw() {
   picture(described());
   self.draw();
 }
+// Each answer, those that are the same choice together: [["Least, balanced", entry], ["Best", entry]].
+function answersOf() {
+  var found = [], answers = reading().answers || {};
+  ['least', 'balanced', 'best'].forEach(function(name) {
+    if (answers[name] === undefined) return;
+    var entry = group().entries[answers[name]], same = found[found.length - 1];
+    if (same && same[1] === entry)
+      same[0] += ', ' + name;
+    else
+      found.push([name, entry]);
+  });
+  return found;
+}
 function tell(rows, missing) {
-  var g = group(), front = kit.speed.frontOf(rows), chosen = described(), text = [];
+  var g = group(), chosen = entryOf(state.id), read = reading(), text = [];
   if (g.entries.length < g.choices)
-    text.push(g.entries.length + ' of ' + g.choices + ' choices are drawn; the front is of these.');
+    text.push(g.entries.length + ' of ' + g.choices + ' choices are drawn; front and answers are of all.');
+  if (read.curves === undefined)
+    text.push('Of so many choices only the cost and the error of the beginning have curves, front and answers.');
   if (missing) text.push(missing + ' not finite, left out.');
   var rendered = rows.filter(function(r) {
     return r.entry.window !== 'no_curve' && !errorOf(r.entry).at_bias;
@@ -252,19 +318,19 @@ function tell(rows, missing) {
       }))
     text.push(
         'Each time is a median. The bar along the cost holds it with 96 %: costs whose bars overlap count as equal, for the front too.');
-  if (front.length)
-    text.push(
-        'On the front, from the cheapest: ' +
-        front.slice(0, 5)
-            .map(function(r) {
-              return nameOf(r.entry);
-            })
-            .join('; ') +
-        (front.length > 5 ? ' … (' + front.length + ')' : '') + '.');
   notes.textContent = text.join(' ');
+  takeovers.textContent = '';
+  read.words.forEach(function(phrase) {
+    takeovers.append(typeof phrase === 'string' ? phrase : kit.make('b', {}, phrase[0]));
+  });
   words.textContent = '';
+  answersOf().forEach(function(answer, i) {
+    var name = answer[0].charAt(0).toUpperCase() + answer[0].slice(1);
+    words.append.apply(words, [i ? kit.make('br') : '', kit.make('b', {}, name), ': '].concat(describe(answer[1])));
+  });
   if (!chosen) return;
-  words.append.apply(words, (chosen.recommended ? ['Recommended: '] : []).concat(describe(chosen)));
+  words.append.apply(
+      words, [words.firstChild ? kit.make('br') : '', kit.make('b', {}, 'Selected'), ': '].concat(describe(chosen)));
   // The choices that share its mark, because a pointer cannot tell them apart.
   var mark = shownMarks.filter(function(m) {
     return m.entry === chosen;
@@ -322,6 +388,18 @@ function legend() {
             v);
     });
   }
+  function line(more, text) {
+    symbol('<line x1="0" x2="26" y1="6" y2="6" ' + more + '/>', text);
+  }
+  if (g.scale) {
+    self.legend.append(kit.make('span', {class: 'title'}, 'Over ' + g.scale + ': least error at some cost'));
+    reading().ahead.forEach(function(technique) {
+      line('stroke="' + colourOf(technique) + '" stroke-width="2.4"', g.techniques[technique] || 'all choices');
+    });
+    line('stroke="var(--faint)"', 'another technique');
+  }
+  self.legend.append(kit.make('span', {class: 'title'}, 'Marks'));
+  line('stroke="var(--accent)" stroke-width="1.6" stroke-dasharray="2 3"', 'Pareto front');
   symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable bias');
   symbol('<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>', 'over the usable window');
   symbol(
@@ -330,8 +408,9 @@ function legend() {
   if (g.entries.some(function(e) {
         return e.costs[state.cost].length > 2;
       }))
-    symbol('<line x1="0" x2="26" y1="6" y2="6" stroke="var(--soft)" stroke-width="1.6"/>', 'interval of the time');
-  symbol('<circle cx="13" cy="6" r="5" fill="none" stroke="var(--good)" stroke-width="1.8"/>', 'recommended');
+    line('stroke="var(--soft)" stroke-width="1.6"', 'interval of the time');
+  if (reading().answers)
+    symbol('<circle cx="13" cy="6" r="5" fill="none" stroke="var(--good)" stroke-width="1.8"/>', 'answer');
 }
 
 function controls() {
@@ -386,7 +465,7 @@ self.plot.addEventListener('keydown', function(event) {
     return a.px - b.px || a.v - b.v;
   }),
       at = order.findIndex(function(r) {
-        return state.id === null ? r.entry.recommended : r.id === state.id;
+        return r.entry === described();
       });
   page.select(order[Math.min(order.length - 1, Math.max(0, at + way))].id);
   event.preventDefault();

@@ -126,7 +126,7 @@ function measures() {
 function logTicks(low, high) {
   var decades = Math.log10(high / low),
       steps = decades < 0.4 ? [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6, 7, 8, 9] :
-      decades < 1.2 ? [1, 1.5, 2, 3, 5, 7] :
+      decades < 1.2         ? [1, 1.5, 2, 3, 5, 7] :
       decades < 4           ? [1, 2, 5] :
                               [1],
       out = [];
@@ -141,7 +141,8 @@ function logTicks(low, high) {
 function axisLabel(unit) {
   if (unit === 'fraction') return 'format(datum.value * 100, \'~r\') + \'\u202f%\'';
   function scaled(power, letter) {
-    return 'datum.value >= 1e' + power + ' ? format(datum.value / 1e' + power + ', \'~r\') + \'\u202f' + letter + '\' : ';
+    return 'datum.value >= 1e' + power + ' ? format(datum.value / 1e' + power + ', \'~r\') + \'\u202f' + letter +
+        '\' : ';
   }
   return scaled(9, 'G') + scaled(6, 'M') + 'datum.value >= 1e4 ? replace(format(datum.value, \',~r\'), ' +
       'regexp(\',\', \'g\'), \'\u202f\') : format(datum.value, \'~r\')';
@@ -400,6 +401,7 @@ function measureScale(floor, height) {
 }
 // No value is labelled at the place where zeros are drawn, because a zero would look like that value.
 function measureAxis(floor, measure) {
+  var unit = measureUnit(measure);  // labels have that of a fraction
   return {
     orient: 'left',
     scale: 'y',
@@ -407,8 +409,8 @@ function measureAxis(floor, measure) {
     domain: false,
     ticks: false,
     values: logTicks(floor.zero ? floor.low * 1.6 : floor.low, floor.high),
-    title: measureLabel(measure),
-    encode: {labels: {update: {text: {signal: axisLabel(measureUnit(measure))}}}}
+    title: measureLabel(measure) + (unit && unit !== 'fraction' && unit !== 'count' ? ' (' + unit + ')' : ''),
+    encode: {labels: {update: {text: {signal: axisLabel(unit)}}}}
   };
 }
 // The list of marks is empty if no value is zero.

@@ -1,4 +1,4 @@
-// What the chart of cost against error is drawn from: shapes, the front, places, and Vega's marks.
+// What the chart of cost against error is drawn from: shapes, places, labels, and Vega's marks.
 (function() {
 'use strict';
 var kit = window.noonmarkPage.kit;
@@ -13,26 +13,6 @@ var shapes = [
   'M-0.85 -0.9H0.85L-0.85 0.9H0.85Z', 'M0.75 -0.95L-0.95 0L0.75 0.95Z'
 ];
 var cross = 'M-0.8 -0.8L0.8 0.8M-0.8 0.8L0.8 -0.8', disc = 'M1 0A1 1 0 1 1 -1 0A1 1 0 1 1 1 0Z';
-
-// The Pareto front, as pareto_front() in compare/report/findings.h: ascending in cost. Costs whose intervals overlap are
-// equal; equal ones are all kept.
-function frontOf(rows) {
-  var front = [];
-  rows.filter(function(r) {
-        return r.counts;
-      })
-      .sort(function(a, b) {
-        return a.v - b.v || a.x - b.x;
-      })
-      .forEach(function(r) {
-        var last = front[front.length - 1];
-        if (!last || r.high < last.low || (r.v === last.v && r.low <= last.high)) front.push(r);
-      });
-  front.sort(function(a, b) {
-    return a.x - b.x || a.v - b.v;
-  });
-  return front;
-}
 
 // Each choice stands at its cost. Returns the scale of x; each row gets its place `px`, and that of its interval.
 function place(rows, w) {
@@ -74,16 +54,87 @@ function placed(more) {
   return Object.assign({x: {field: 'px'}, y: {scale: 'y', field: 'y'}}, more);
 }
 
-function marksOf(w, floor) {
-  var label = {
-    x: {signal: 'clamp(datum.px, 46, ' + (w - 46) + ')'},
-    y: {scale: 'y', field: 'y'},
-    dy: {value: 22},
-    align: {value: 'center'},
-    text: {value: 'recommended'},
-    fill: {value: 'var(--good)'},
-    fontWeight: {value: 600}
+// Puts the labels of curves beside the plot, one below the other. Each has `at`, where its curve ends in pixels, and `must`:
+// those without it are left out where there is no room. Returns those with a place, `py`.
+function spread(labels, height) {
+  var line = 14, placed = [];
+  function free(y) {
+    return y >= 0 && y <= height && placed.every(function(l) {
+      return Math.abs(l.py - y) >= line;
+    });
+  }
+  labels.slice()
+      .sort(function(a, b) {
+        return b.must - a.must || a.at - b.at;
+      })
+      .forEach(function(label) {
+        var most = label.must ? height : line / 2;
+        for (var off = 0; off <= most; ++off) {
+          var y = [label.at + off, label.at - off].filter(free)[0];
+          if (y === undefined) continue;
+          label.py = y;
+          placed.push(label);
+          return;
+        }
+      });
+  return placed;
+}
+
+// The width beside the plot for labels of these texts: a letter of bold text has some 8 pixels. Longer ones are cut.
+function roomFor(texts) {
+  return Math.min(280, 40 + 8 * Math.max.apply(null, [16].concat(texts.map(function(text) {
+    return text.length;
+  }))));
+}
+// Ticks of a logarithmic axis so far apart that their labels do not touch.
+function ticks(scale, w) {
+  var low = scale.domain[0], high = scale.domain[1], last = -Infinity;
+  return kit.logTicks(low, high).filter(function(v) {
+    var at = w * Math.log(v / low) / Math.log(high / low);
+    if (at - last < 58) return false;
+    last = at;
+    return true;
+  });
+}
+
+// A text that can be read over lines: the same text behind it, wide and in the colour of the page.
+function readable(name, source, encode) {
+  return [
+    {stroke: {value: 'var(--card)'}, strokeWidth: {value: 4}, strokeJoin: {value: 'round'}, fill: {value: 'none'}}, {}
+  ].map(function(more, i) {
+    return {
+      type: 'text',
+      name: name + (i ? '' : '-halo'),
+      from: {data: source},
+      interactive: false,
+      encode: {enter: Object.assign({}, encode, more)}
+    };
+  });
+}
+
+// From the end of a curve to its label.
+function leaders(w) {
+  return {
+    type: 'rule',
+    name: 'leaders',
+    from: {data: 'labels'},
+    interactive: false,
+    encode: {
+      enter: {
+        x: {field: 'from', offset: 8},
+        x2: {value: w + 14},
+        y: {field: 'at'},
+        y2: {field: 'py'},
+        stroke: {field: 'colour'},
+        strokeWidth: {signal: 'datum.must ? 1.4 : 0.7'},
+        strokeOpacity: {value: 0.7}
+      }
+    }
   };
+}
+
+// right: the width beside the plot, for the labels of curves.
+function marksOf(w, floor, right) {
   function ring(source, colour) {
     return {
       type: 'symbol',
@@ -130,6 +181,24 @@ function marksOf(w, floor) {
       }
     },
     {
+      type: 'group',
+      from: {facet: {name: 'one', data: 'curves', groupby: 'technique'}},
+      marks: [{
+        type: 'line',
+        name: 'technique-lines',
+        from: {data: 'one'},
+        interactive: false,
+        encode: {
+          enter: placed({
+            stroke: {field: 'colour'},
+            strokeWidth: {signal: 'datum.ahead ? 2.4 : 1'},
+            strokeOpacity: {signal: 'datum.ahead ? 0.95 : 0.5'},
+            strokeJoin: {value: 'round'}
+          })
+        }
+      }]
+    },
+    {
       type: 'line',
       name: 'front-line',
       from: {data: 'front'},
@@ -137,9 +206,10 @@ function marksOf(w, floor) {
       encode: {
         enter: placed({
           interpolate: {value: 'step-after'},
-          stroke: {value: 'var(--ink)'},
+          stroke: {value: 'var(--accent)'},
+          strokeDash: {value: [2, 3]},
           strokeWidth: {value: 1.5},
-          strokeOpacity: {value: 0.6}
+          strokeOpacity: {value: 0.8}
         })
       }
     },
@@ -149,14 +219,15 @@ function marksOf(w, floor) {
       from: {data: 'rows'},
       encode: {
         enter: placed({
-          size: {value: 110},
+          size: {field: 'size'},
           shape: {field: 'shape'},
           fill: {signal: 'datum.counts ? datum.fill : \'transparent\''},
           stroke: {signal: 'datum.counts ? \'var(--ink)\' : \'var(--bad)\''},
-          strokeWidth: {signal: 'datum.counts ? 1.1 : 2'}
+          strokeWidth: {signal: 'datum.counts ? 1.1 : datum.strong ? 2 : 1.2'},
+          opacity: {signal: 'datum.strong ? 1 : 0.6'}
         }),
-        update: {size: {value: 110}},
-        hover: {size: {value: 190}}
+        update: {size: {field: 'size'}},
+        hover: {size: {signal: 'datum.size + 80'}}
       }
     },
     {
@@ -186,21 +257,43 @@ function marksOf(w, floor) {
           baseline: {value: 'bottom'},
           dy: {value: -2},
           fontSize: {value: 11},
-          text: {signal: 'length(datum.others) ? \'+\' + length(datum.others) : \'\''},
+          text: {signal: 'datum.counted && length(datum.others) ? \'+\' + length(datum.others) : \'\''},
           fill: {value: 'var(--soft)'}
         })
       }
     },
-    ring('best', 'var(--good)'), ring('chosen', 'var(--accent)'),
-    {type: 'text', from: {data: 'best'}, interactive: false, encode: {enter: label}}
-  ].concat(kit.zeroLabel(floor));
+    ring('answers', 'var(--good)'), ring('chosen', 'var(--accent)')
+  ]
+      .concat(
+          leaders(w), readable('curve-names', 'labels', {
+            x: {value: w + 18},
+            y: {field: 'py'},
+            baseline: {value: 'middle'},
+            limit: {value: right - 40},
+            text: {field: 'text'},
+            fontSize: {value: 12},
+            fontWeight: {signal: 'datum.must ? 600 : 400'},
+            fill: {signal: 'datum.must ? \'var(--ink)\' : \'var(--soft)\''}
+          }),
+          readable('answer-names', 'answers', {
+            x: {signal: 'clamp(datum.px, 30, ' + (w - 30) + ')'},
+            y: {scale: 'y', field: 'y'},
+            dy: {value: 22},
+            align: {value: 'center'},
+            text: {field: 'answer'},
+            fill: {value: 'var(--good)'},
+            fontWeight: {value: 600}
+          }),
+          kit.zeroLabel(floor));
 }
 
 kit.speed = {
   shapes: shapes,
   cross: cross,
   disc: disc,
-  frontOf: frontOf,
+  spread: spread,
+  roomFor: roomFor,
+  ticks: ticks,
   place: place,
   together: together,
   marksOf: marksOf

@@ -1,5 +1,5 @@
-// Runs in the report's page after its own scripts (tests/compare/report/page_test.cpp). It reads the Pareto front at both
-// biases of the page, as the chart names it and as the table shows it, and writes both to the element `probe`.
+// Runs in the report's page after its own scripts (tests/compare/report/page_test.cpp). It reads the curves and the Pareto
+// front at both biases of the page, as the chart draws them and as table and words say, and writes them to the element `probe`.
 (async function() {
   'use strict';
   var figure = document.getElementById('chart-cost'), details;
@@ -12,6 +12,9 @@
       return getComputedStyle(e).display !== 'none';
     });
   }
+  var chart = window.noonmarkPage.kit.drawn.filter(function(one) {
+    return one.figure === figure;
+  })[0];
   function front() {
     var bodies = seen('tbody'), summary = seen('summary span')[0] || details.querySelector('summary');
     return {
@@ -22,7 +25,21 @@
             return [row.cells[0].querySelector('a').textContent, row.cells[2].textContent];
           }),
       summary: summary.textContent,
-      note: figure.querySelector('p.small').textContent
+      drawn: chart.view.data('front')
+                 .filter(function(row) {
+                   return row.entry;
+                 })
+                 .map(function(row) {
+                   return window.noonmarkPage.bias === 'set' ? row.entry.name : row.entry.name_at_bias;
+                 }),
+      lines: figure.querySelectorAll('.technique-lines path').length,
+      names: Array.prototype.map.call(
+          figure.querySelectorAll('.curve-names text'),
+          function(e) {
+            return e.textContent;
+          }),
+      legend: figure.querySelector('.legend').textContent,
+      takeovers: figure.querySelector('.takeovers').textContent
     };
   }
   var saw = {errors: errors};

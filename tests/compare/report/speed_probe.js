@@ -40,12 +40,8 @@
                    .length,
       bars: all('.span-bars line').length,
       cost_bars: all('.cost-bars line').length,
-      rings: all('.best-ring path').length,
-      labels: texts('.mark-text text')
-                  .filter(function(t) {
-                    return t === 'recommended';
-                  })
-                  .length,
+      rings: all('.answers-ring path').length,
+      labels: texts('.answer-names text'),
       zeros: texts('.mark-text.role-mark text')
                  .filter(function(t) {
                    return t === '0';
@@ -61,6 +57,20 @@
                   })
                   .length
     };
+  }
+  // The names on the drawn front, from the cheapest.
+  function front() {
+    return window.noonmarkPage.kit.drawn
+        .filter(function(chart) {
+          return chart.figure === figure;
+        })[0]
+        .view.data('front')
+        .filter(function(row) {
+          return row.entry;
+        })
+        .map(function(row) {
+          return row.entry.name_at_bias;
+        });
   }
   async function set(label, value) {
     var select = all('.controls label')
@@ -116,6 +126,12 @@
   saw.options =
       {compare: await set('Compare'), cost: await set('Cost'), error: await set('Error'), shape: await set('Shape')};
 
+  // The bar over the usable window is that of the choice that is described.
+  window.noonmarkPage.select(all_rows().filter(function(r) {
+    return r.span;
+  })[0].id);
+  await later();
+  saw.bars_of_selected = observe().bars;
   // Once it is selected, a choice that shared a mark is the first of it.
   window.noonmarkPage.select(18);
   await later();
@@ -150,7 +166,7 @@
   saw.map_ms = observe();
 saw.map_ms_legend = figure.querySelector('.legend').textContent;
 saw.map_ms_words = figure.querySelector('.facts').textContent;
-saw.map_ms_note = figure.querySelector('p.small').textContent;
+saw.map_ms_front = front();
   await set('Shape', '2');
   saw.by_resolution = observe();
   await set('Compare', '1');
