@@ -15,8 +15,8 @@ namespace {
 class SceneDigest {
  public:
   void add(const Scene& scene) {
-    const auto& [name, positions, vertex_normals, triangles, single_sided, parts, mask_error_m, camera, light, cameras, lights, map,
-                 notes] = scene;
+    const auto& [name, positions, vertex_normals, triangles, single_sided, parts, mask_error_m, camera, light, cameras,
+                 lights, map, notes] = scene;
     static_cast<void>(name);                                // a label; which scene it is, the settings say
     static_cast<void>(cameras), static_cast<void>(lights);  // no point reads any but camera and light
     add_all(positions, vertex_normals, triangles, single_sided, parts, mask_error_m, camera, light, map, notes);
