@@ -51,7 +51,7 @@ class Search {
       : bench_(bench),
         request_(request),
         say_(say),
-        searched_(searched_bounds(request)),
+        searched_(searched_bounds(request.curve)),
         screening_(bench, request, searched_, say) {}
 
   Advice run() {
@@ -76,13 +76,6 @@ class Search {
     std::array<size_t, std::size(answer_kinds)> at;  // in candidates(), as answer_kinds
     double budget = 0;
   };
-
-  static CurveOptions searched_bounds(const AdviceRequest& request) {
-    CurveOptions searched = request.curve;
-    searched.acne_bound *= searched_share;
-    searched.peter_panning_bound *= searched_share;
-    return searched;
-  }
 
   std::vector<Candidate>& candidates() { return screening_.candidates(); }
 

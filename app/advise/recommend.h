@@ -17,8 +17,8 @@
 // 3. Between the cheapest resolution that holds and its half, one more is tried: its half times the root of 2.
 // 4. Verification at 64 other placements (app/advise/recommend_verify.h). OpenGL renders the answer that was asked for at some of
 //    them; otherwise the exact map is judged.
-// Screening and confirmation ask for searched_share of the bounds on acne and Peter Panning, because other views than the
-// searched ones are a little worse.
+// Screening and confirmation ask for a share of the bounds on acne and Peter Panning (searched_bounds), because other views than
+// the searched ones are a little worse.
 #pragma once
 #include <functional>
 #include <optional>

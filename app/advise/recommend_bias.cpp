@@ -21,6 +21,17 @@ double multiple(double found, double bound) {
 
 }  // namespace
 
+CurveOptions searched_bounds(CurveOptions bounds) {
+  bounds.acne_bound *= searched_acne;
+  bounds.peter_panning_bound *= searched_peter_panning;
+  return bounds;
+}
+
+std::string searched_text() {
+  return fmt::format("{:.0f}% of the bound on acne and {:.0f}% of that on Peter Panning", 100 * searched_acne,
+                     100 * searched_peter_panning);
+}
+
 double excess(const NearestBias& nearest, const CurveOptions& bounds) {
   return std::max(multiple(nearest.acne, bounds.acne_bound),
                   multiple(nearest.peter_panning, bounds.peter_panning_bound));
@@ -42,10 +53,8 @@ NearestBias nearest_bias(const PointRecord& point, const CurveOptions& bounds) {
 
 std::string why_no_window(const PointRecord& point, const NearestBias& nearest) {
   return fmt::format(
-      "no bias keeps both within {:.0f}% of their bounds: the best, {} = {:.3g} {}, leaves {:.3g}% acne and {:.3g}% "
-      "Peter "
-      "Panning",
-      100 * searched_share, point.curve->parameter, nearest.bias, setting_of(point, "bias.unit"), 100 * nearest.acne,
+      "no bias keeps both within {}: the best, {} = {:.3g} {}, leaves {:.3g}% acne and {:.3g}% Peter Panning",
+      searched_text(), point.curve->parameter, nearest.bias, setting_of(point, "bias.unit"), 100 * nearest.acne,
       100 * nearest.peter_panning);
 }
 

@@ -27,6 +27,14 @@ void set_bias(Settings& settings, const BiasChoice& bias) {
   find_setting(bias.parameter).set(settings, fmt::format("{}", bias.value));
 }
 
+// A curve that needs no bias is that of one rasteriser. Another one moves vertices by up to 1/16 of a texel or more, and the bias is
+// to be enough there too: an eighth of a texel, where the window leaves room for that.
+double bias_in_place_of_none(const PointRecord& point, double most) {
+  if (!point.curve || !(point.curve->texels_per_depth > 0)) return 0;
+  const double wanted = parameter_per_depth(point) / point.curve->texels_per_depth / 8;
+  return most >= 2 * wanted ? short_decimal(wanted, wanted / 1.05, wanted * 1.05) : 0;
+}
+
 }  // namespace
 
 Settings settings_of(const PointRecord& point) {
@@ -62,6 +70,8 @@ void judge_bias(Workbench& bench, Tried& tried, std::vector<PointRecord> points,
     return;
   }
   tried.bias = good.front().bias;
+  if (tried.bias->value == 0)
+    tried.bias->value = bias_in_place_of_none(results.points.front(), tried.bias->window.high);
   set_bias(tried.settings, *tried.bias);
   tried.error = 0;
   for (const PointRecord& point : results.points) {

@@ -55,9 +55,9 @@ std::string causes_text(const PointRecord& point) {
   return text;
 }
 
-std::string bounds_text(const CurveOptions& bounds, double share = 1) {
-  return fmt::format("acne within {} and Peter Panning within {}", percent(share * bounds.acne_bound),
-                     percent(share * bounds.peter_panning_bound));
+std::string bounds_text(const CurveOptions& bounds) {
+  return fmt::format("acne within {} and Peter Panning within {}", percent(bounds.acne_bound),
+                     percent(bounds.peter_panning_bound));
 }
 
 std::string eye_bounds_text(const AdviceRequest& request) {
@@ -138,10 +138,11 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
         percent(std::max(nearest.eye->wrong_patch, most_wrong_patch))));
   } else if (nearest.nearest) {
     // Of the bounds only a share is used up while searching.
-    const auto enough = [](double bound, double left) { return std::max(bound, left / searched_share); };
-    lines.push_back(fmt::format("Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
-                                percent(enough(request.curve.acne_bound, nearest.nearest->acne)),
-                                percent(enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning))));
+    const auto enough = [](double bound, double left, double share) { return std::max(bound, left / share); };
+    lines.push_back(fmt::format(
+        "Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
+        percent(enough(request.curve.acne_bound, nearest.nearest->acne, searched_acne)),
+        percent(enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning, searched_peter_panning))));
   }
   if (advice.least_resolution)
     lines.push_back(constant_text(*advice.least_resolution));
@@ -190,9 +191,9 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
       any_window = any_window || tried.bias;
     }
     if (finest && !any_window)
-      lines.push_back(fmt::format(
-          "With {} nothing up to {} texels keeps {:.0f}% of both bounds under all conditions{}.", level.name, finest,
-          100 * searched_share, finest < advice.request.resolutions.back() ? ", and finer ones could not win" : ""));
+      lines.push_back(fmt::format("With {} nothing up to {} texels keeps {} under all conditions{}.", level.name,
+                                  finest, searched_text(),
+                                  finest < advice.request.resolutions.back() ? ", and finer ones could not win" : ""));
     else if (finest)
       for (const Tried& tried : advice.tried)
         if (tried.level == level.name && tried.bias) {
@@ -263,7 +264,7 @@ std::string steps_text(const Advice& advice) {
     text += fmt::format(
         "Twice the texels of {} on a side would be {:.2g} times its work, and halve what texels do to "
         "its error, on average (law 5). ",
-        kinds_text(last), last.doubled_cost / last.tried.cost);
+        answer_name(last.kinds.back()), last.doubled_cost / last.tried.cost);
   if (!text.empty()) text.pop_back();
   return text;
 }
@@ -287,12 +288,14 @@ std::vector<std::string> advice_text(const Advice& advice) {
   if (tried.bias)
     lines.push_back(fmt::format(
         "{} keeps {} from {:.3g} to {:.3g} {} under {} and at all {} placements of the map's grid that were "
-        "searched{}. That is {:.0f}% of the bounds, because conditions that were not searched may be a little worse.",
-        tried.bias->parameter, bounds_text(advice.request.curve, searched_share), tried.bias->window.low,
+        "searched{}. That is {}, because conditions that were not searched may be a little worse, and other "
+        "rasterisers "
+        "add acne.",
+        tried.bias->parameter, bounds_text(searched_bounds(advice.request.curve)), tried.bias->window.low,
         tried.bias->window.high, tried.bias->unit, counted(answer.conditions, "condition"), answer.placements,
         tried.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
                            : "; " + margin_text(*tried.bias),
-        100 * searched_share));
+        searched_text()));
   if (tried.bias && is_fragile(*tried.bias))
     lines.push_back(
         fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider "
