@@ -156,8 +156,8 @@ class Search {
           same_filter(other.tried.settings.filter, tried.settings.filter) &&
           other.tried.settings.map.resolution >= tried.settings.map.resolution &&
           other.tried.eye->edge_p95_pixels > most_edges(request_)) {
-        tried.why_not = fmt::format("its shadow edges are no nearer to the true ones than those of {} texels",
-                                    other.tried.settings.map.resolution);
+        tried.why_not = fmt::format("its shadow edges are no nearer to the true ones than those of {}",
+                                    name_of(other.tried, request_));
         return;
       }
     say_(fmt::format("looking at {} in full size", name_of(tried, request_)));

@@ -44,8 +44,9 @@ std::string answer_name(AnswerKind kind);  // "least"
 
 struct AdviceRequest {
   std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only
-  std::vector<MapPlace> places;      // of the map; at least the settings' own
-  std::vector<BiasLevel> levels;     // empty: the bias as the conditions give it
+  LightKind light = LightKind::directional;
+  std::vector<MapPlace> places;   // of the map; at least the settings' own
+  std::vector<BiasLevel> levels;  // empty: the bias as the conditions give it
   std::vector<FilterSettings> filters;
   std::vector<int> resolutions;  // ascending
   bool between = false;          // whether a resolution between two of them may be the answer

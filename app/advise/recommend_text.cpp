@@ -382,6 +382,9 @@ std::string advice_experiment(const Answer& chosen, const Advice& advice, const 
                        [&](const auto& other) { return other.at(name) != conditions.front().at(name); });
   };
   Settings settings = answer.settings;
+  const auto acts = [&](const Setting& row) {
+    return !row.why_idle || row.why_idle(settings, advice.request.light).empty();
+  };
   settings.map.placements = static_cast<int>(std::lround(std::sqrt(chosen.placements)));
   std::string scene = settings.scene.name;
   if (std::error_code none; std::filesystem::is_regular_file(scene, none))
@@ -399,7 +402,7 @@ std::string advice_experiment(const Answer& chosen, const Advice& advice, const 
             std::find(values.begin(), values.end(), one) == values.end())
           values.push_back(one);
       over += fmt::format("{} = [{}]\n", name, fmt::join(values, ", "));
-    } else if (name != "scene.name" && (value != row.get(Settings()) || relies_on(name))) {
+    } else if (name != "scene.name" && (value != row.get(Settings()) || (relies_on(name) && acts(row)))) {
       if (name.substr(0, dot) != group) text += fmt::format("\n[{}]\n", group = name.substr(0, dot));
       text += fmt::format("{} = {}\n", name.substr(dot + 1), toml_value(row, value));
     }

@@ -208,6 +208,7 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
   if (!gives(experiment, "bias.")) request.levels = bias_levels();
   request.filters = filters_to_try(light);
   for (int resolution = 256; resolution <= 8192; resolution *= 2) request.resolutions.push_back(resolution);
+  request.light = light;
   request.between = light == LightKind::directional && !gives(experiment, "map.resolution");
   take_choices(request, experiment);
   request.width_px = searched_width_px(bench, request.conditions.front());
