@@ -5,13 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "app/advise/engine_trial_json.h"
-#include "app/definition/experiment.h"
-#include "app/definition/toml_writer.h"
 #include "base/text.h"
 #include "compare/report/findings.h"
 #include "compare/results/number_text.h"
@@ -89,7 +84,7 @@ std::string needed_text(const Advice& advice) {
   if (advice.request.error && advice.shadowed <= *advice.request.error)
     return fmt::format("{}. That is within the error of {} that is allowed, so the scene needs no shadow map.", without,
                        percent(*advice.request.error));
-  return fmt::format("{}; this map leaves {}, so it removes {:.0f}% of that error.", without, percent(with),
+  return fmt::format("{}; this map leaves {}, so it removes {:.3g}% of that error.", without, percent(with),
                      100 * (1 - with / advice.shadowed));
 }
 
@@ -204,10 +199,6 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
   }
   return lines;
 }
-
-}  // namespace
-
-namespace {
 
 std::string million(double work) { return fmt::format("{:.3g} million", work / 1e6); }
 
@@ -342,85 +333,6 @@ std::vector<std::string> advice_text(const Advice& advice) {
   return lines;
 }
 
-namespace {
-
-constexpr std::string_view relied_groups[] = {"scene.", "view.", "light.", "map.", "truth."};
-
-// Whether an answer depends on a setting also where it has its default: so that another default of a later version changes no
-// answer that was written. Parts of a bias that are not there, motion and frames of others are no part of it.
-bool relies_on(std::string_view setting) {
-  if (setting == "bias.unit" || setting == "bias.reference") return true;
-  return setting == "filter.kind" || std::any_of(std::begin(relied_groups), std::end(relied_groups),
-                                                 [&](std::string_view group) { return setting.starts_with(group); });
-}
-
-}  // namespace
-
-namespace {
-
-// The line of a bound that holds at the first condition alone; empty if there is one condition.
-std::string where_of_first(const AdviceRequest& request) {
-  std::vector<std::map<std::string, std::string>> all;
-  for (const Settings& condition : request.conditions) all.push_back(settings_map(condition));
-  std::vector<std::string> parts;
-  for (const Setting& row : settings_table()) {
-    const std::string name(row.name);
-    if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != all.front().at(name); }))
-      parts.push_back(fmt::format("\"{}\" = {}", name, toml_value(row, all.front().at(name))));
-  }
-  return parts.empty() ? "" : fmt::format("where = {{{}}}\n", fmt::join(parts, ", "));
-}
-
-}  // namespace
-
-std::string advice_experiment(const Answer& chosen, const Advice& advice, const std::string& folder) {
-  const Tried& answer = chosen.tried;
-  std::vector<std::map<std::string, std::string>> conditions;
-  for (const Settings& condition : advice.request.conditions) conditions.push_back(settings_map(condition));
-  const auto is_condition = [&](const std::string& name) {
-    return std::any_of(conditions.begin(), conditions.end(),
-                       [&](const auto& other) { return other.at(name) != conditions.front().at(name); });
-  };
-  Settings settings = answer.settings;
-  const auto acts = [&](const Setting& row) {
-    return !row.why_idle || row.why_idle(settings, advice.request.light).empty();
-  };
-  settings.map.placements = static_cast<int>(std::lround(std::sqrt(chosen.placements)));
-  std::string scene = settings.scene.name;
-  if (std::error_code none; std::filesystem::is_regular_file(scene, none))
-    scene = std::filesystem::proximate(scene, folder);
-  std::string text = fmt::format("# Written by noonmark recommend. noonmark check judges it.\n\n[scene]\nname = {}\n",
-                                 toml_string(scene));
-  std::string over, group = "scene";
-  for (const Setting& row : settings_table()) {
-    const std::string name(row.name), value = row.get(settings);
-    const size_t dot = name.find('.');
-    if (is_condition(name)) {
-      std::vector<std::string> values;
-      for (const auto& condition : conditions)
-        if (const std::string one = toml_value(row, condition.at(name));
-            std::find(values.begin(), values.end(), one) == values.end())
-          values.push_back(one);
-      over += fmt::format("{} = [{}]\n", name, fmt::join(values, ", "));
-    } else if (name != "scene.name" && (value != row.get(Settings()) || (relies_on(name) && acts(row)))) {
-      if (name.substr(0, dot) != group) text += fmt::format("\n[{}]\n", group = name.substr(0, dot));
-      text += fmt::format("{} = {}\n", name.substr(dot + 1), toml_value(row, value));
-    }
-  }
-  if (!over.empty()) text += "\n[over]\n" + over;
-  text += fmt::format("\n[curve]\nacne_bound = {}\npeter_panning_bound = {}\n", advice.request.curve.acne_bound,
-                      advice.request.curve.peter_panning_bound);
-  for (const auto& [metric, max] : {std::pair("acne", advice.request.curve.acne_bound),
-                                    std::pair("peter_panning", advice.request.curve.peter_panning_bound)})
-    text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", metric, max);
-  if (advice.request.error)
-    text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", advice.request.accuracy, *advice.request.error);
-  for (const Bound& bound : advice.request.eye)
-    text += fmt::format("\n[[bound]]  # for the eye, at the given view\nmetric = \"{}\"\nmax = {}\n{}", bound.metric,
-                        *bound.max, where_of_first(advice.request));
-  return text;
-}
-
 std::vector<std::string> engine_lines(const EngineAdvice& engine) {
   std::vector<std::string> lines = engine.lines;
   if (lines.empty())
@@ -439,101 +351,6 @@ std::string advice_engines(const std::vector<EngineAdvice>& engines) {
     text += fmt::format("  Source: {}\n", engine.source);
   }
   return text;
-}
-
-namespace {
-
-nlohmann::json around_json(const Tornado& tornado) {
-  using nlohmann::json;
-  const auto of = [](const TornadoEnd& end) {
-    json one{{"value", end.value}, {"held", end.held}};
-    if (end.why_not.empty())
-      one["error"] = end.error;
-    else
-      one["why_not"] = end.why_not;
-    return one;
-  };
-  json rows = json::array();
-  for (const TornadoRow& row : tornado.rows) {
-    json low = of(row.low), high = of(row.high);
-    low["open"] = row.low_open, high["open"] = row.high_open;
-    rows.push_back({{"setting", row.setting},
-                    {"unit", row.unit},
-                    {"value", row.value},
-                    {"half", of(row.half)},
-                    {"double", of(row.twice)},
-                    {"usable_from", low},
-                    {"usable_to", high}});
-  }
-  return {{"error", tornado.error},           {"held", tornado.held},
-          {"accuracy", tornado.accuracy},     {"conditions", tornado.conditions},
-          {"placements", tornado.placements}, {"settings", rows}};
-}
-
-}  // namespace
-
-std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines) {
-  using nlohmann::json;
-  const auto of = [](const Tried& tried) {
-    json one{{"settings", settings_map(tried.settings)}, {"bias_kind", tried.level}, {"texel_work", tried.cost}};
-    if (tried.bias) {
-      one["error"] = tried.error;
-      one["screened_error"] = tried.screened_error;
-      one["bias"] = {{"parameter", tried.bias->parameter}, {"unit", tried.bias->unit},
-                     {"value", tried.bias->value},         {"from", tried.bias->window.low},
-                     {"to", tried.bias->window.high},      {"narrow", tried.bias->narrow},
-                     {"fragile", is_fragile(*tried.bias)}};
-    }
-    if (tried.eye)
-      one["eye"] = {{"edge_displacement_mean_pixels", tried.eye->edge_mean_pixels},
-                    {edge_metric, tried.eye->edge_p95_pixels},
-                    {patch_metric, tried.eye->wrong_patch},
-                    {"flip", tried.eye->flip}};
-    if (!tried.why_not.empty()) one["why_not"] = tried.why_not;
-    return one;
-  };
-  json all;
-  all["text"] = advice_text(advice);
-  all["accuracy"] = advice.request.accuracy;
-  all["answer"] = json();
-  all["answers"] = json::object();
-  for (const Answer& answer : advice.answers) {
-    json one = of(answer.tried);
-    one["verified"] = {
-        {"conditions", answer.conditions},           {"searched_placements", answer.placements},
-        {"placements", answer.verified.placements},  {"rendered_placements", answer.verified.rendered},
-        {"worst_acne", answer.verified.worst_acne},  {"worst_peter_panning", answer.verified.worst_peter_panning},
-        {"worst_error", answer.verified.worst_error}};
-    for (AnswerKind kind : answer.kinds) all["answers"][answer_name(kind)] = one;
-    if (&answer == advice.answer()) all["answer"] = one, all["answer"]["kind"] = answer_name(advice.request.answer);
-  }
-  if (!advice.answers.empty()) all["budget"] = advice.budget;
-  all["wrong_without_shadows"] = advice.shadowed;
-  if (advice.nearest) {
-    all["nearest"] = of(*advice.nearest);
-    if (advice.nearest->worst)
-      all["nearest"]["worst"] = {{"x", advice.nearest->worst->worst.x},
-                                 {"y", advice.nearest->worst->worst.y},
-                                 {"cause", advice.nearest->worst->worst.cause}};
-  }
-  if (advice.around) all["around"] = around_json(*advice.around);
-  all["engines"] = json::array();
-  for (const EngineAdvice& engine : engines) {
-    json one{{"engine", engine.engine},
-             {"version", engine.version},
-             {"lines", engine.lines},
-             {"cannot", engine.cannot},
-             {"source", engine.source}};
-    if (engine.emulated) one["settings"] = settings_map(*engine.emulated);
-    if (engine.promise)
-      one["promise"] = promise_json(*engine.promise), one["promise"]["all_views"] = engine.promise->all_views;
-    if (engine.trial) one["tried"] = trial_json(*engine.trial);
-    if (!engine.why_not_emulated.empty()) one["why_not_measured"] = engine.why_not_emulated;
-    all["engines"].push_back(one);
-  }
-  all["tried"] = json::array();
-  for (const Tried& tried : advice.tried) all["tried"].push_back(of(tried));
-  return all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace noonmark

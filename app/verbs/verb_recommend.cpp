@@ -167,7 +167,7 @@ std::vector<MapPlace> places_of(const Experiment& experiment, const AdviceReques
 }
 
 // What was given that decides the answer, beside the scene: "scene.floor = true, map.resolution = 512 | 1024". Empty: nothing.
-// Another answer for the same scene differs in one of these. A condition that has its default decides nothing.
+// Another answer for the same scene differs in one of these. What has its default decides nothing, but for what the search would choose.
 std::string given_text(const Experiment& experiment, const AdviceRequest& request) {
   const Settings& first = request.conditions.front();
   const Settings unset;
@@ -180,7 +180,7 @@ std::string given_text(const Experiment& experiment, const AdviceRequest& reques
     std::vector<std::string> values;
     if (swept != experiment.swept.end())
       for (const std::string& one : swept->values) values.push_back(setting_text(one));
-    else if (!decides_what_is_seen(name) || value != row.get(unset))
+    else if (value != row.get(unset) || name == "map.resolution" || name == "map.fit" || name == "filter.kind")
       values.push_back(setting_text(value));
     if (!values.empty()) parts.push_back(fmt::format("{} = {}", name, fmt::join(values, " | ")));
   }

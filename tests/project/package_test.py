@@ -86,16 +86,18 @@ def contents():
     expect(re.fullmatch(r"\S.* <\S+@\S+>", fields["Maintainer"]), f"the maintainer has an address: {fields['Maintainer']}")
 
     files = {str(path.relative_to(root)): path for path in root.rglob("*") if not path.is_dir()}
-    examples = "usr/share/doc/noonmark/examples/"
-    # All but the examples, so that no header, archive or file of the build comes in unseen.
+    examples, adapters = "usr/share/doc/noonmark/examples/", "usr/share/noonmark/engines/"
+    # All but the examples and the engines' adapters, so that no header, archive or file of the build comes in unseen.
     modules = [name for name in files if name.endswith("/noonmark/noonmark_images.so") and name.startswith("usr/lib/")]
     wanted = {"usr/bin/noonmark", "usr/share/man/man1/noonmark.1.gz", "usr/share/bash-completion/completions/noonmark",
               "usr/share/lintian/overrides/noonmark",
               *("usr/share/doc/noonmark/" + name for name in ("copyright", "changelog.gz", "changelog.Debian.gz")), *modules}
-    others = {name for name in files if not name.startswith(examples)}
+    others = {name for name in files if not name.startswith((examples, adapters))}
     expect(len(modules) == 1 and others == wanted, f"missing: {wanted - others}; too many: {others - wanted}")
-    in_source = {str(path.relative_to(source / "experiments")) for path in (source / "experiments").rglob("*") if path.is_file()}
-    expect({name.removeprefix(examples) for name in files if name.startswith(examples)} == in_source, "all experiments are there")
+    for folder, installed, what in (("experiments", examples, "experiments"), ("examples/engines", adapters, "adapters")):
+        in_source = {str(path.relative_to(source / folder)) for path in (source / folder).rglob("*")
+                     if path.is_file() and "node_modules" not in path.parts and path.name != "package-lock.json"}
+        expect({name.removeprefix(installed) for name in files if name.startswith(installed)} == in_source, f"all {what} are there")
     if failures:
         return
     for path in root.rglob("*"):

@@ -1,0 +1,103 @@
+// What was found, for programs (recommend_text.h).
+#include <nlohmann/json.hpp>
+
+#include "app/advise/engine_trial_json.h"
+#include "app/advise/recommend_text.h"
+
+namespace noonmark {
+namespace {
+
+nlohmann::json around_json(const Tornado& tornado) {
+  using nlohmann::json;
+  const auto of = [](const TornadoEnd& end) {
+    json one{{"value", end.value}, {"held", end.held}};
+    if (end.why_not.empty())
+      one["error"] = end.error;
+    else
+      one["why_not"] = end.why_not;
+    return one;
+  };
+  json rows = json::array();
+  for (const TornadoRow& row : tornado.rows) {
+    json low = of(row.low), high = of(row.high);
+    low["open"] = row.low_open, high["open"] = row.high_open;
+    rows.push_back({{"setting", row.setting},
+                    {"unit", row.unit},
+                    {"value", row.value},
+                    {"half", of(row.half)},
+                    {"double", of(row.twice)},
+                    {"usable_from", low},
+                    {"usable_to", high}});
+  }
+  return {{"error", tornado.error},           {"held", tornado.held},
+          {"accuracy", tornado.accuracy},     {"conditions", tornado.conditions},
+          {"placements", tornado.placements}, {"settings", rows}};
+}
+
+}  // namespace
+
+std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines) {
+  using nlohmann::json;
+  const auto of = [](const Tried& tried) {
+    json one{{"settings", settings_map(tried.settings)}, {"bias_kind", tried.level}, {"texel_work", tried.cost}};
+    if (tried.bias) {
+      one["error"] = tried.error;
+      one["screened_error"] = tried.screened_error;
+      one["bias"] = {{"parameter", tried.bias->parameter}, {"unit", tried.bias->unit},
+                     {"value", tried.bias->value},         {"from", tried.bias->window.low},
+                     {"to", tried.bias->window.high},      {"narrow", tried.bias->narrow},
+                     {"fragile", is_fragile(*tried.bias)}};
+    }
+    if (tried.eye)
+      one["eye"] = {{"edge_displacement_mean_pixels", tried.eye->edge_mean_pixels},
+                    {edge_metric, tried.eye->edge_p95_pixels},
+                    {patch_metric, tried.eye->wrong_patch},
+                    {"flip", tried.eye->flip}};
+    if (!tried.why_not.empty()) one["why_not"] = tried.why_not;
+    return one;
+  };
+  json all;
+  all["text"] = advice_text(advice);
+  all["accuracy"] = advice.request.accuracy;
+  all["answer"] = json();
+  all["answers"] = json::object();
+  for (const Answer& answer : advice.answers) {
+    json one = of(answer.tried);
+    one["verified"] = {
+        {"conditions", answer.conditions},           {"searched_placements", answer.placements},
+        {"placements", answer.verified.placements},  {"rendered_placements", answer.verified.rendered},
+        {"worst_acne", answer.verified.worst_acne},  {"worst_peter_panning", answer.verified.worst_peter_panning},
+        {"worst_error", answer.verified.worst_error}};
+    for (AnswerKind kind : answer.kinds) all["answers"][answer_name(kind)] = one;
+    if (&answer == advice.answer()) all["answer"] = one, all["answer"]["kind"] = answer_name(advice.request.answer);
+  }
+  if (!advice.answers.empty()) all["budget"] = advice.budget;
+  all["wrong_without_shadows"] = advice.shadowed;
+  if (advice.nearest) {
+    all["nearest"] = of(*advice.nearest);
+    if (advice.nearest->worst)
+      all["nearest"]["worst"] = {{"x", advice.nearest->worst->worst.x},
+                                 {"y", advice.nearest->worst->worst.y},
+                                 {"cause", advice.nearest->worst->worst.cause}};
+  }
+  if (advice.around) all["around"] = around_json(*advice.around);
+  all["engines"] = json::array();
+  for (const EngineAdvice& engine : engines) {
+    json one{{"engine", engine.engine},
+             {"version", engine.version},
+             {"lines", engine.lines},
+             {"cannot", engine.cannot},
+             {"source", engine.source}};
+    if (engine.emulated) one["settings"] = settings_map(*engine.emulated);
+    if (engine.promise)
+      one["promise"] = promise_json(*engine.promise), one["promise"]["all_views"] = engine.promise->all_views;
+    if (engine.trial) one["tried"] = trial_json(*engine.trial);
+    if (!engine.why_not_emulated.empty()) one["why_not_measured"] = engine.why_not_emulated;
+    all["engines"].push_back(one);
+  }
+  all["tried"] = json::array();
+  for (const Tried& tried : advice.tried) all["tried"].push_back(of(tried));
+  return all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace noonmark
