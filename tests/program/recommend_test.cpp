@@ -217,7 +217,7 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_FALSE(says("note: ")) << "nothing of it is set in vain: " << output_;
   // The report has the same text for the engines, for the same settings, also when it is made again from the store. Only
   // `recommend` measures what the lines give.
-  EXPECT_EQ(found()["engines"].size(), 7u);
+  EXPECT_EQ(found()["engines"].size(), 8u);
   EXPECT_NE(text("out/engines.txt").find("% with these lines (recommended: "), std::string::npos);
   const std::string engines =
       "<pre class=\"engines\">" + report::Markup(without_promises(text("out/engines.txt"))).html() + "</pre>";
