@@ -254,7 +254,7 @@ void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines
     fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
 }
 
-// Placements, along each axis, at which what an engine does is measured. There are up to seven engines, and the answer itself was
+// Placements, along each axis, at which what an engine does is measured. There are up to eight engines, and the answer itself was
 // searched at four times as many and verified at others.
 constexpr int promised_placements = 4;
 
