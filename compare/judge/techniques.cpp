@@ -79,7 +79,7 @@ std::optional<MoreOf> more_of(const ComparedChoice& one, const ComparedChoice& o
   std::optional<MoreOf> most;
   for (const std::string& cause : joined_causes({&one, &other})) {
     const MoreOf here{cause, value_of(one, cause, at).mean, value_of(other, cause, at).mean};
-    const double more = here.one - here.other;  // NaN is never more
+    const double more = here.one - here.other;  // a NaN is not above the least
     if (more > (most ? most->one - most->other : 0)) most = here;
   }
   return most;
