@@ -43,6 +43,7 @@ void DebugLog::install(DebugMode mode) {
 }
 
 void DebugLog::receive(unsigned type, unsigned severity, const char* message) {
+  if (type == GL_DEBUG_TYPE_PERFORMANCE) return;  // of where a driver keeps a buffer: nothing that a user could change
   const bool error = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
   if (mode_ == DebugMode::fatal && error) {
     if (first_error_.empty()) first_error_ = message;

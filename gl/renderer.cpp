@@ -45,6 +45,7 @@ DeviceInfo describe(const EglContext& context) {
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   info.max_map_resolution = std::min({gl_integer(GL_MAX_TEXTURE_SIZE), gl_integer(GL_MAX_FRAMEBUFFER_WIDTH),
                                       gl_integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
+  info.subpixel_bits = gl_integer(GL_SUBPIXEL_BITS);
   return info;
 }
 
@@ -124,6 +125,7 @@ void Renderer::Impl::draw_scene(const Program& program) {
   glUseProgram(program.id());
   glBindVertexArray(scene_vertices.id());
   glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
+  glUseProgram(0);
 }
 
 void Renderer::Impl::draw_screen(const Program& program, GLenum depth_test) {
@@ -138,6 +140,8 @@ void Renderer::Impl::draw_screen(const Program& program, GLenum depth_test) {
   glUseProgram(program.id());
   glBindVertexArray(no_vertices.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  // A driver judges the current program with the textures that are bound then, also where only a clear follows.
+  glUseProgram(0);
 }
 
 const char* text_of(TimeSource source) {

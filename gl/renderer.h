@@ -59,6 +59,7 @@ struct DeviceInfo {
   bool software = false;  // llvmpipe and other software renderers
   TimeSource times = TimeSource::steady_clock;
   int max_map_resolution = 0;
+  int subpixel_bits = 0;  // a vertex moves to whole 1 / 2^bits of a texel before its triangle is drawn
 };
 
 // The taps whose texels a probe holds. The texel of the middle tap is always known.
