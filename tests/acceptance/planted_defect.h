@@ -6,8 +6,10 @@
 #include <iostream>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "gl/renderer.h"
 #include "tests/acceptance/planted_support.h"
 #include "tests/support/measured.h"
 
@@ -48,6 +50,14 @@ inline void PrintTo(const Planted& planted, std::ostream* out) { *out << planted
 
 inline std::string name_of(const testing::TestParamInfo<Planted>& defect) { return defect.param.name; }
 
+// What a GPU adds to a sound map's own error: it interpolates depths between vertices that moved to whole 1/256 of a
+// texel, where Mesa's software renderers interpolate between the vertices as they were. 23 steps in place of 1 were seen
+// on an H100.
+inline double rasteriser_scale(std::string_view metric) {
+  static const bool software = gl::Renderer(gl::DebugMode::off).info().software;
+  return !software && (metric == "map_error_quanta" || metric == "precision") ? 32 : 1;
+}
+
 inline void expect_moves(const Planted& p) {
   const Figures sound = measure(p.settings), broken = measure(p.settings, p.defect);
   EXPECT_GT(sound.at("counted"), 5000);
@@ -60,8 +70,9 @@ inline void expect_moves(const Planted& p) {
       EXPECT_GE(before, moves.before) << moves.metric;
       EXPECT_LE(after, moves.after) << moves.metric;
     } else {
-      EXPECT_LE(before, moves.before) << moves.metric;
+      EXPECT_LE(before, rasteriser_scale(moves.metric) * moves.before) << moves.metric;
       EXPECT_GE(after, moves.after) << moves.metric;
+      EXPECT_GT(after, before) << moves.metric;
     }
   }
   for (const char* metric : p.still) {

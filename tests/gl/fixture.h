@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <random>
 
 #include "base/error.h"
@@ -15,6 +16,17 @@ namespace noonmark::gl {
 class GlTest : public testing::Test {
  protected:
   Renderer renderer{DebugMode::fatal};
+
+  // How far the depth (or another quantity) of a drawn triangle lies from that of its plane, because its vertices move to
+  // whole 1 / 2^GL_SUBPIXEL_BITS of a texel. gradient: its change along a texel's two axes. Mesa's software renderers
+  // interpolate from the vertices as they were.
+  double moved_vertices_error(glm::dvec2 gradient) const {
+    if (renderer.info().software) return 0;
+    return (std::abs(gradient.x) + std::abs(gradient.y)) * std::exp2(-1 - renderer.info().subpixel_bits);
+  }
+  // Of storing a fixed-point depth, in its steps. A GPU need not round to the nearest: Direct3D allows it 0.6 of a step
+  // ("Data Conversion Rules", FLOAT to UNORM), and OpenGL 4.5 (2.3.5) says nothing stricter. An H100 took 0.56.
+  double rounding_of_a_step() const { return renderer.info().software ? 0.5 : 0.6; }
 };
 
 // Looks straight down on the origin from 10 m; the picture's right is +X and its top is -Z.

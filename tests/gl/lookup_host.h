@@ -24,11 +24,18 @@ inline float stored_at(const Image<float>& map, Wrap wrap, glm::ivec2 texel) {
   return at.x < 0 ? border_depth : map.at(at.x, at.y);
 }
 
-// Computed in floats as in the shader; for bilinear patterns in double.
+// A step of a fixed-point depth format; 0 for floats.
+inline double step_of(DepthFormat format) {
+  return format == DepthFormat::d16 ? 1.0 / 65535 : format == DepthFormat::d24 ? 1.0 / 16777215 : 0;
+}
+
+// Computed in floats as in the shader; for bilinear patterns in double. ties: the weight of the taps whose verdict may be
+// either, because a sampler may round the reference to the map's fixed-point format before it compares.
 inline Image<double> lookup_on_host(const LookupProbe& probe, const ReceiverImage& receivers, const Image<float>& map,
-                                    const Settings& s, Met& met) {
+                                    const Settings& s, Met& met, Image<double>* ties = nullptr) {
   const Bias bias(s.bias);
   Image<double> visibility(receivers.width(), receivers.height());
+  if (ties) *ties = Image<double>(receivers.width(), receivers.height());
   for (size_t i = 0; i < visibility.size(); ++i) {
     // The probe is all zeros where there is no receiver, or where the receiver lies behind the light.
     if (receivers.primitive[i] == no_primitive || probe.bias_unit[i] == 0) {
@@ -43,7 +50,10 @@ inline Image<double> lookup_on_host(const LookupProbe& probe, const ReceiverImag
       float biased = probe.tap_depth(i, tap) - depth_bias;
       // OpenGL 4.5, 8.23.1: the sampler clamps the reference when the map has fixed-point depths.
       if (probe.pattern.bilinear() && s.map.format != DepthFormat::d32f) biased = std::clamp(biased, 0.0f, 1.0f);
-      const bool tap_lit = !(biased > stored_at(map, s.map.wrap, texel));
+      const float stored = stored_at(map, s.map.wrap, texel);
+      const bool tap_lit = !(biased > stored);
+      if (ties && std::abs(static_cast<double>(biased) - stored) <= step_of(s.map.format))
+        (*ties)[i] += probe.weight(i, tap);
       lit += tap_lit;
       weighted += tap_lit ? probe.weight(i, tap) : 0;
       met.outside += !inside_map(texel, {map.width, map.height});

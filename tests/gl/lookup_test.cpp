@@ -13,8 +13,8 @@ const std::string kind_names[] = {"directional", "spot", "point"};
 
 // How far a sampler's blended result may be from the exact weights. llvmpipe blends in floats: a place among up to 1024
 // texels is rounded three times on each of both axes, each time by at most 2^-15 of a texel (seen: 1e-5). GPUs keep 8
-// bits of a texel's fraction: half of 2^-8 more on each axis.
-double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.software ? 0 : 2 * 0x1p-9); }
+// bits of a texel's fraction, and need not round it to the nearest: 2^-8 more on each axis (an H100: 1.2 x 2^-8 in all).
+double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.software ? 0 : 2 * 0x1p-8); }
 
 // Random scenes and settings, in parts: most of the time goes into compiling a shader for each settings.
 constexpr int parts_of_a_kind = 6, settings_of_a_part = 24;
@@ -42,15 +42,18 @@ TEST_P(GlLookupOnHostTest, EqualsTheHost) {
     const LightFrame frame = make_light_frame(drawn.scene, settings);
     const ShadowMap map = renderer.render_map({settings, frame});
     const LookupProbe probe = renderer.probe({settings, frame});
-    const Image<double> host = lookup_on_host(probe, receivers, renderer.read_map(map), settings, met);
+    Image<double> ties;
+    const Image<double> host = lookup_on_host(probe, receivers, renderer.read_map(map), settings, met, &ties);
     const Image<float> gpu = renderer.lookup(map, {settings, frame});
+    // llvmpipe compares floats, also with a fixed-point map.
+    const bool rounds_reference = probe.pattern.bilinear() && !renderer.info().software;
     const double allowed = probe.pattern.bilinear() ? sampler_error(renderer.info()) : 0;
     ASSERT_EQ(gpu.size(), host.size());
     size_t different = 0, first = 0;
     for (size_t i = gpu.size(); i-- > 0;) {
       const double off = std::abs(gpu[i] - host[i]);
       if (probe.pattern.bilinear()) worst_blend = std::max(worst_blend, off);
-      if (!(off <= allowed)) ++different, first = i;
+      if (!(off <= allowed + (rounds_reference ? ties[i] : 0))) ++different, first = i;
       ASSERT_TRUE(gpu[i] >= 0 && gpu[i] <= 1) << gpu[i];
     }
     EXPECT_EQ(different, 0u) << describe(settings) << ": first at index " << first << ", shader " << gpu[first]

@@ -56,7 +56,7 @@ TEST_F(GlTest, DepthOfATiltedPlane) {
             const double z = glm::dot(normal, a - start) / glm::dot(normal, frame.forward);
             worst = std::max(worst, std::abs(map.at(i, j) - frame.tile(0).window_depth(z)));
           }
-        EXPECT_LE(worst, rasteriser_error + f.quantum / 2 + read_back_error)
+        EXPECT_LE(worst, rasteriser_error + rounding_of_a_step() * f.quantum + read_back_error)
             << f.name << " theta " << theta_deg << " phi " << phi_deg << ": " << worst * 0x1p24 << " x 2^-24";
         if (theta_deg > 0) {
           EXPECT_GT(worst, f.quantum / 4) << f.name << ": a slope's depths fall between the quanta";

@@ -14,10 +14,18 @@ class GlProbeTest : public GlLookupTest {};
 
 constexpr LightKind probed_kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 
-bool same_probe(const LookupProbe& a, const LookupProbe& b, size_t i) {
-  return same_bits(a.reference[i], b.reference[i]) && a.texel(i, 0) == b.texel(i, 0) &&
-         (a.map_texels.size() == 0 ||
-          (same_bits(a.map_texels[i].x, b.map_texels[i].x) && same_bits(a.map_texels[i].y, b.map_texels[i].y)));
+testing::AssertionResult same_probe(const LookupProbe& a, const LookupProbe& b, size_t i) {
+  if (!same_bits(a.reference[i], b.reference[i]))
+    return testing::AssertionFailure() << "receiver " << i << ": depth " << a.reference[i] << " and " << b.reference[i]
+                                       << ", apart by " << (a.reference[i] - b.reference[i]) * 0x1p24f << " x 2^-24";
+  if (a.texel(i, 0) != b.texel(i, 0))
+    return testing::AssertionFailure() << "receiver " << i << ": texel " << a.texel(i, 0).x << " " << a.texel(i, 0).y
+                                       << " and " << b.texel(i, 0).x << " " << b.texel(i, 0).y;
+  for (int axis = 0; axis < 2 && a.map_texels.size() > 0; ++axis)
+    if (!same_bits(a.map_texels[i][axis], b.map_texels[i][axis]))
+      return testing::AssertionFailure() << "receiver " << i << ": place along axis " << axis << " "
+                                         << a.map_texels[i][axis] << " and " << b.map_texels[i][axis] << " texels";
+  return testing::AssertionSuccess();
 }
 
 // The probe of a moved lookup equals the probe of receivers at the moved places. No other part of a bias changes these

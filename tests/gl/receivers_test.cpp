@@ -126,6 +126,19 @@ TEST_F(GlTest, AnImpossiblePictureIsAUsageError) {
   EXPECT_NE(message.find(std::to_string(renderer.info().max_map_resolution)), std::string::npos) << message;
 }
 
+// A pixel where the picture changes from one primitive to another. A GPU may clip with other near and far planes what it
+// did not clip before, and moves the new vertices to its grid, so that a pixel at an edge may change sides.
+bool at_an_edge(const Image<uint32_t>& image, size_t index) {
+  const int x = static_cast<int>(index) % image.width, y = static_cast<int>(index) / image.width;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const int beside_x = x + dx, beside_y = y + dy;
+      if (beside_x < 0 || beside_y < 0 || beside_x >= image.width || beside_y >= image.height) continue;
+      if (image.at(beside_x, beside_y) != image[index]) return true;
+    }
+  return false;
+}
+
 // Near and far only clip. A near plane at 1e-6 m, or a far plane at 1e9 m, must not change which surface a pixel sees.
 TEST_F(GlTest, NearAndFarThatCutNothingOffChangeNothing) {
   for (const BuiltinScene& builtin : builtin_scenes()) {
@@ -146,9 +159,13 @@ TEST_F(GlTest, NearAndFarThatCutNothingOffChangeNothing) {
         camera.near_m = near_m;
         camera.far_m = far_m;
         const Image<uint32_t> other = renderer.render_primitives(camera, 160, 90);
-        int different = 0;
-        for (size_t i = 0; i < image.size(); ++i) different += other[i] != image[i];
+        int different = 0, at_edges = 0;
+        for (size_t i = 0; i < image.size(); ++i) {
+          if (other[i] == image[i]) continue;
+          ++(!renderer.info().software && at_an_edge(image, i) ? at_edges : different);
+        }
         EXPECT_EQ(different, 0) << builtin.name << ", near " << near_m << ", far " << far_m;
+        EXPECT_LE(at_edges, 2) << builtin.name << ", near " << near_m << ", far " << far_m;
       }
     }
   }
