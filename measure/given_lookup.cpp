@@ -86,4 +86,11 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   return made;
 }
 
+Image<float> GivenLookup::visibility(const ReceiverImage& receivers, glm::dvec3 eye_m, const Technique& technique) {
+  gl::Renderer& renderer = impl_->renderer;
+  renderer.load_receivers(receivers, eye_m);
+  const MapStage map = impl_->stages.draw_map(renderer, impl_->scene, technique);
+  return renderer.lookup(*map.map, technique);
+}
+
 }  // namespace noonmark

@@ -1,9 +1,11 @@
-// The rungs below a frame of another renderer whose shadow map was handed over: its map is looked up by OpenGL as the frame
-// declares, and an exact map too, so that every cause of the ladder is known.
+// Lookups at the receivers of another renderer's frame. If its shadow map was handed over: the rungs below the frame, because
+// its map is looked up by OpenGL as the frame declares, and an exact map too, so that every cause of the ladder is known.
+// With a map of our own: what a technique shows there.
 //
 //   GivenLookup lookup(scene, tracer);
 //   GivenClimb climb = lookup.climb({receivers, eye, truth, technique, depth, {.name = "frame", .picture = visibility, ...}});
 //   climb.metrics.at("acne");
+//   Image<float> ours = lookup.visibility(receivers, eye, technique);
 #pragma once
 #include <map>
 #include <memory>
@@ -45,6 +47,10 @@ class GivenLookup {
 
   // Throws Error(defect) if the measurement contradicts itself (compare/judge/soundness.h).
   GivenClimb climb(const GivenPoint& point);
+
+  // Of each receiver, 0 dark to 1 lit, by a map that OpenGL draws for the technique. Without a meaning where there is no
+  // receiver.
+  Image<float> visibility(const ReceiverImage& receivers, glm::dvec3 eye_m, const Technique& technique);
 
  private:
   struct Impl;

@@ -15,6 +15,7 @@
 #include "base/file.h"
 #include "compare/results/quantities.h"
 #include "frames/judge.h"
+#include "measure/given_lookup.h"
 #include "raytrace/tracer.h"
 #include "scenes/camera_fit.h"
 #include "scenes/gltf/write_glb.h"
@@ -26,9 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the pictures: an engine's rasteriser moves vertices to 1/16 of a pixel, so of the pixels at edges a few differ from
-// Noonmark's; in a picture of this width that is some thousandths of a point.
-constexpr int trial_width_px = 640;
+// Of the pictures. A software rasteriser of a browser draws one in a few seconds.
+constexpr int trial_width_px = 1280;
 
 // The engine's light shines where the settings say: to the float of a direction that went through its matrices.
 constexpr double same_direction_rad = 1e-4;
@@ -126,8 +126,7 @@ class Trial {
           {fmt::format("width={}", condition.view.width_px), fmt::format("height={}", condition.view.height_px),
            "eye=" + exact(camera.eye_m), "target=" + exact(camera.target_m), "up=" + exact(camera.up),
            fmt::format("fov_y_deg={}", camera.fov_y_deg), "lines=" + lines});
-    judge_view(view, folder + "/frame.json", condition);
-    if (advice.emulated) view.promise = promise_of(advice, condition);
+    judge_view(view, folder + "/frame.json", condition, advice);
     const auto require = [&](const char* what, double found, double most) {
       if (!(found <= most))
         view.broken.push_back(fmt::format("{} {:.3g}% (bound {:.3g}%)", what, 100 * found, 100 * most));
@@ -139,14 +138,44 @@ class Trial {
     return view;
   }
 
+  // The condition for the file that the engine loads. In the file of a scene that is not a plain file each triangle has
+  // vertices of its own, which casters are moved by.
+  Settings in_file(const Settings& condition) {
+    Settings there = condition;
+    there.view.fit_depths = true;  // a file's near plane would cut off what the adapter's camera shows
+    there.view.near_m = there.view.far_m = std::nullopt;
+    if (is_plain_file(condition.scene)) return there;
+    const Scene& scene = bench_.scene(condition.scene);
+    const LightFrame frame = make_light_frame(scene, there);
+    const Camera camera = effective_camera(scene, condition.view);
+    const Light light = effective_light(scene, condition);
+    there.light = {};
+    there.light.position_m = light.position_m, there.light.target_m = light.target_m;
+    there.light.angular_diameter_deg = light.angular_diameter_deg;
+    if (!fits_view(there.map.fit)) lay_as(frame, there);
+    there.view.eye_m = camera.eye_m, there.view.target_m = camera.target_m, there.view.up = camera.up;
+    there.view.fov_deg = camera.fov_y_deg;
+    there.scene = SceneSettings();
+    there.scene.name = model_;
+    return there;
+  }
+
   // By place, as for a frame whose map is not known: where a truth is lit and the frame dark away from edges is acne, and
-  // the reverse is Peter Panning.
-  void judge_view(TrialView& view, const std::string& path, const Settings& condition) {
+  // the reverse is Peter Panning. The promise is what Noonmark's own map and lookup show at the receivers of the engine's
+  // frame, judged in the same way: an engine's rasteriser samples each pixel at another place, some hundredths of a pixel
+  // off, which changes by itself which pixels at an edge are wrong.
+  void judge_view(TrialView& view, const std::string& path, const Settings& condition, const EngineAdvice& advice) {
     FrameFile file = read_frame_file(path);
     file.map.reset();
-    const Scene& scene = bench_.scene(condition.scene);
+    const Settings shown = in_file(condition);
+    std::optional<Settings> promised;
+    if (advice.emulated) {
+      promised = in_file(as_engine(advice, condition));
+      promised->map.placements = 1;
+    }
+    const Scene& scene = bench_.scene(shown.scene);
     GivenFrame frame = given_frame(file, scene);
-    const Light wanted = effective_light(scene, condition);
+    const Light wanted = effective_light(scene, shown);
     const auto way = [](const Light& light) { return glm::normalize(light.target_m - light.position_m); };
     if (const double off = std::acos(std::min(1.0, glm::dot(way(frame.light), way(wanted))));
         off > same_direction_rad) {
@@ -163,33 +192,19 @@ class Trial {
         view.refused = fmt::format("{}: {}", check.name, check.says);
     if (verdict.refused()) return;
     view.counted = static_cast<size_t>(verdict.metrics.at("counted"));
-    view.measured = {verdict.metrics.at("frame_error"), verdict.metrics.at("frame_acne"),
-                     verdict.metrics.at("frame_contact") + verdict.metrics.at("frame_leak")};
+    view.measured = shares(verdict);
+    if (!promised) return;
+    const Image<float> ours =
+        GivenLookup(scene, tracer)
+            .visibility(verdict.receivers, effective_camera(scene, shown.view).eye_m, Technique(scene, *promised));
+    for (size_t i = 0; i < ours.size(); ++i)
+      if (verdict.counted[i]) frame.visibility[i] = ours[i];
+    view.promise = shares(judge_frame(scene, tracer, frame, rules));
   }
 
-  // Of the map as the lines lay it, in the same picture, of the file that the engine loads: in it each triangle of a scene that is not
-  // a plain file has vertices of its own, which casters are moved by.
-  EnginePromise promise_of(const EngineAdvice& advice, const Settings& condition) {
-    Settings there = as_engine(advice, condition);
-    there.map.placements = 1;
-    there.view.fit_depths = true;  // a file's near plane would cut off what the adapter's camera shows
-    there.view.near_m = there.view.far_m = std::nullopt;
-    if (!is_plain_file(condition.scene)) {
-      const Scene& scene = bench_.scene(condition.scene);
-      const LightFrame frame = make_light_frame(scene, there);
-      const Camera camera = effective_camera(scene, condition.view);
-      const Light light = effective_light(scene, condition);
-      there.light = {};
-      there.light.position_m = light.position_m, there.light.target_m = light.target_m;
-      there.light.angular_diameter_deg = light.angular_diameter_deg;
-      if (!fits_view(there.map.fit)) lay_as(frame, there);
-      there.view.eye_m = camera.eye_m, there.view.target_m = camera.target_m, there.view.up = camera.up;
-      there.view.fov_deg = camera.fov_y_deg;
-      there.scene = SceneSettings();
-      there.scene.name = model_;
-    }
-    const PointRecord point = bench_.measure(there, std::nullopt).record;
-    return {metric_of(point, bounds_.accuracy), metric_of(point, "acne"), metric_of(point, "peter_panning")};
+  static EnginePromise shares(const FrameVerdict& verdict) {
+    return {verdict.metrics.at("frame_error"), verdict.metrics.at("frame_acne"),
+            verdict.metrics.at("frame_contact") + verdict.metrics.at("frame_leak")};
   }
 
   Workbench& bench_;

@@ -20,8 +20,7 @@ std::string trial_verdict(const TrialView& view) {
 std::vector<std::string> trial_table(const EngineAdvice& engine) {
   const EngineTrial& trial = *engine.trial;
   std::vector<std::string> lines = {fmt::format(
-      "Tried in {}: the error that was promised for each view with the map as the lines lay it, and the engine's own "
-      "frame ({})",
+      "Tried in {}: what these lines promise at the places that each frame shows, and the engine's own frame ({})",
       engine.engine, trial.folder)};
   lines.push_back(
       fmt::format("  {:<20}{:>10}{:>10}{:>10}{:>15}", "view", "promised", "measured", "acne", "Peter Panning"));

@@ -391,9 +391,10 @@ RunVerb add_recommend(CLI::App& verb) {
   for (const EngineAdapter& adapter : engine_adapters()) names.emplace_back(adapter.name);
   verb.add_option("--engine", options->engines,
                   "Also run the lines in this engine, in headless Chromium, and judge its own frames in each view "
-                  "(repeatable)")
+                  "(repeatable; or a list with commas)")
       ->expected(1)
       ->take_all()
+      ->delimiter(',')
       ->type_name(joined(names));
   verb.add_option("--adapters", options->adapters,
                   "Folder of the pages that --engine runs (examples/engines); without it that of this program")

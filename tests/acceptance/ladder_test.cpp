@@ -6,6 +6,7 @@
 #include <random>
 
 #include "compare/results/metrics.h"
+#include "measure/given_lookup.h"
 #include "scenes/builtin.h"
 #include "tests/support/measured.h"
 
@@ -54,6 +55,27 @@ const std::vector<std::vector<Assignment>> ladder_techniques = {
     {{"bias.constant", "0"}, {"bias.normal_offset", "1"}},
     {{"bias.constant", "0"}, {"bias.normal_offset", "2.2"}, {"filter.kind", "box"}, {"map.extent_scale", "0.4"}},
 };
+
+// What recommend promises at the receivers of an engine's frame is what a point shows at its own.
+TEST(LookupAtReceivers, IsThePointsOwnPicture) {
+  std::vector<std::vector<Assignment>> techniques = ladder_techniques;
+  techniques.push_back({{"bias.constant", "0"}, {"bias.caster_normal_offset", "1"}});
+  for (const auto& technique : techniques) {
+    Workbench bench(gl::DebugMode::fatal);
+    const Settings settings = with(technique, small("cube-room", 160, 90));
+    const Measurement m = bench.measure(settings, std::nullopt);
+    const raytrace::Tracer tracer(m.scene);
+    const Image<float> found =
+        GivenLookup(m.scene, tracer).visibility(m.receivers, m.camera.eye_m, Technique(m.scene, settings));
+    size_t facing = 0;
+    for (size_t i = 0; i < found.size(); ++i) {
+      if (!(m.ladder.flags[i] & flag_facing)) continue;
+      ++facing;
+      ASSERT_EQ(found[i], m.ladder[Rung::shown][i]) << i;
+    }
+    EXPECT_GT(facing, 1000);
+  }
+}
 
 TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
   Workbench bench(gl::DebugMode::fatal);

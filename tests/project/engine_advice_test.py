@@ -4,7 +4,6 @@ bounds, and has the error that was promised for its view.
 Skips (77) where neither engine can run: node, Chromium, or the packages of examples/engines/package.json (NODE_MODULES names their
 folder) are not installed."""
 import json
-import math
 import os
 import pathlib
 import shutil
@@ -16,10 +15,9 @@ modules = pathlib.Path(os.environ.get("NODE_MODULES", source / "examples/engines
 models = source.parent / "shared/scenes"
 SKIP = 77
 ENGINES = {"three": ["three"], "babylon": ["babylonjs", "babylonjs-loaders", "babylonjs-materials"]}
-# 0.02 points; and three standard deviations of a share of so many pixels, because 40 shares are compared: the engine's rasteriser shades other points of a pixel than its
-# centre (a software rasteriser moves vertices to 1/16 of a pixel), so which pixels at an edge are wrong is another sample.
+# 0.02 points. The promise is of the frame's own receivers, so that what is left is the engine's rasteriser, which covers other texels at
+# the edges of its map. In frames of 1280 x 720 pixels, which have 28,000 receivers and more, it changed up to 0.009 points.
 SAME = 0.0002
-PICTURE = ["view.width_px=640", "view.height_px=360"]
 # Scenes, with settings that make the search short. The first has an offset that neither engine has a field for, so that what replaces it
 # is tried; its light is not the file's, so that the lines move it.
 SCENES = {"room": ("room.glb", ["view.eye_m=-6,7,-6", "view.target_m=-1,0,-1", "map.fit=tight", "map.resolution=1024", "filter.kind=none",
@@ -48,7 +46,7 @@ for name, (scene, settings) in SCENES.items():
         continue
     out = folder / name
     command = [program, "recommend", scene, "--out", str(out), "--acne", "1%", "--peter-panning", "1%", "--quiet"]
-    command += [part for setting in PICTURE + settings for part in ("--set", setting)] + [part for engine in engines for part in ("--engine", engine)]
+    command += [part for setting in settings for part in ("--set", setting)] + [part for engine in engines for part in ("--engine", engine)]
     ran = subprocess.run(command, capture_output=True, text=True, cwd=folder, env={**os.environ, "NODE_MODULES": str(modules)})
     tried = [line for line in ran.stdout.splitlines() if line.startswith("Tried in")]
     if ran.returncode != 0 or len(tried) != len(engines):
@@ -59,7 +57,7 @@ for name, (scene, settings) in SCENES.items():
     for engine in (one for one in found["engines"] if "tried" in one):
         for view in engine["tried"]["views"]:
             promised, measured = view["promised"]["error"], view["measured"]["error"]
-            same = abs(promised - measured) <= SAME + 3 * math.sqrt(promised / view["counted"])
+            same = abs(promised - measured) <= SAME
             print(f"{name}, {engine['engine']}, {view['view']}: promised {promised:.4%}, measured {measured:.4%}{'' if same else ': they differ'}")
             bad = bad or not same or not view["held"] or measured == 0
         bad = bad or len(engine["tried"]["views"]) != 5

@@ -28,7 +28,7 @@ struct EnginePromise {
 // A frame of the engine itself with these lines, under one condition.
 struct TrialView {
   std::string name;                           // "given", "turned by 30 deg"
-  std::optional<EnginePromise> promise = {};  // of this view, with the map as the lines lay it; empty: not known
+  std::optional<EnginePromise> promise = {};  // at the frame's own receivers, judged as the frame is; empty: not known
   EnginePromise measured = {};                // by place (frames/judge.h); only if `refused` is empty
   size_t counted = 0;                         // pixels that `measured` is a share of
   std::vector<std::string> broken = {};       // bounds: "acne 0.51% (bound 0.1%)"
