@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include "scenes/camera_frame.h"
+#include "technique/map_fit.h"
 #include "technique/setting_rules.h"
 #include "technique/sun.h"
-#include "technique/view_fit.h"
 
 namespace noonmark {
 
@@ -209,9 +209,10 @@ Light effective_light(const Scene& scene, const Settings& settings) {
 
 namespace {
 
-std::optional<ViewFit> fit_of_view(const Scene& scene, const Settings& settings, const LightFrame& axes) {
+std::optional<FittedMap> moved_fit(const Scene& scene, const Settings& settings, const LightFrame& axes) {
   if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, axes);
   if (settings.map.fit == MapFit::sphere) return fit_to_sphere(scene, settings.view, settings.map, axes);
+  if (settings.map.fit == MapFit::casters) return fit_to_casters(scene, axes);
   return std::nullopt;
 }
 
@@ -247,14 +248,14 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   const KindOfLight& kind = kind_of_light(light.kind);
   const bool scenes_own = scene.map && settings.map.fit == MapFit::scene && why_not_the_scenes(scene, settings).empty();
   LightFrame frame = kind.axes(light);
-  const std::optional<ViewFit> in_view = fit_of_view(scene, settings, frame);
-  MapVolume volume = in_view ? in_view->volume : scenes_own ? *scene.map : fit_map(scene, light);
+  const std::optional<FittedMap> moved = moved_fit(scene, settings, frame);
+  MapVolume volume = moved ? moved->volume : scenes_own ? *scene.map : fit_map(scene, light);
   if (settings.map.depth_range == DepthRange::scene && kind.rays().have_one_direction()) {
     const MapVolume whole = fit_map(scene, light);
     volume.near_m = whole.near_m;
     volume.far_m = whole.far_m;
   }
-  if (in_view) frame.origin_m += in_view->middle_m.x * frame.right + in_view->middle_m.y * frame.up;
+  if (moved) frame.origin_m += moved->middle_m.x * frame.right + moved->middle_m.y * frame.up;
   frame.near_m = settings.map.near_m.value_or(volume.near_m);
   frame.far_m = settings.map.far_m.value_or(volume.far_m);
   frame.resolution = settings.map.resolution;

@@ -97,7 +97,7 @@ std::string on_flat_map(const Settings&, LightKind light) {
 std::string where_map_is_given(const Settings& s, LightKind light) {
   if (!s.map.near_m || !s.map.far_m) return "";
   if (!kind_of_light(light).rays().have_one_direction()) return "with both map.near_m and map.far_m";
-  if (fits_view(s.map.fit)) return "";  // it also places the map's middle
+  if (moves_map(s.map.fit)) return "";  // it also places the map's middle
   return s.map.extent_m ? "with map.extent_m, map.near_m and map.far_m" : "";
 }
 // A light has a size only if the settings give it one: neither the built-in scenes nor glTF have lights with a size.
@@ -128,10 +128,17 @@ std::string sun_of_azimuth(const Settings& s, std::optional<LightKind> light) {
 std::string sun_of_elevation(const Settings& s, std::optional<LightKind> light) {
   return s.light.elevation_deg ? sun_and(s, light, "light.elevation_deg") : "";
 }
-std::string view_fit_without_parallel_rays(const Settings& s, std::optional<LightKind> light) {
-  if (!fits_view(s.map.fit) || !light || kind_of_light(*light).rays().have_one_direction()) return "";
+std::string moved_fit_without_parallel_rays(const Settings& s, std::optional<LightKind> light) {
+  if (!moves_map(s.map.fit) || !light || kind_of_light(*light).rays().have_one_direction()) return "";
   return fmt::format("map.fit = {} needs a directional light, and this one is a {} light; take map.fit = tight",
                      find_setting("map.fit").get(s), kind_of_light(*light).name());
+}
+std::string casters_without_lit_border(const Settings& s, std::optional<LightKind>) {
+  if (s.map.fit != MapFit::casters || s.map.wrap == Wrap::clamp_to_border) return "";
+  return fmt::format(
+      "outside of the map of map.fit = casters everything is lit, but map.wrap = {} reads the map there; take "
+      "map.wrap = clamp_to_border, or map.fit = tight",
+      find_setting("map.wrap").get(s));
 }
 std::string without_sphere(const Settings& s, LightKind) {
   return s.map.fit == MapFit::sphere ? "" : "with map.fit = " + find_setting("map.fit").get(s);

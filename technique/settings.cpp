@@ -250,15 +250,18 @@ std::vector<Setting> make_table() {
               MEMBER(map.resolution)),
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format))
           .only_read_by({Stage::map}),
-      choice("map.fit", {"scene", "tight", "view", "sphere"},
-             "Where extent, near and far come from if they are auto. scene: from the scene, or fitted tightly if the "
-             "scene has none or the light is not the scene's; tight: always fitted tightly around the scene; view "
-             "(directional): fitted to the part of the scene in the picture's frustum, and near also to what can cast "
-             "a shadow on it; sphere (directional): around the least sphere that holds the picture's frustum up to "
-             "map.reach_m, so that the extent is the same wherever the camera stands and looks.",
-             MEMBER(map.fit))
+      choice(
+          "map.fit", {"scene", "tight", "view", "sphere", "casters"},
+          "Where extent, near and far come from if they are auto. scene: from the scene, or fitted tightly if the "
+          "scene has none or the light is not the scene's; tight: always fitted tightly around the scene; view "
+          "(directional): fitted to the part of the scene in the picture's frustum, and near also to what can cast "
+          "a shadow on it; sphere (directional): around the least sphere that holds the picture's frustum up to "
+          "map.reach_m, so that the extent is the same wherever the camera stands and looks; casters (directional): "
+          "around everything that can cast a shadow, wherever the camera is, but not a ground below everything: what "
+          "lies outside of such a map is lit.",
+          MEMBER(map.fit))
           .idle(where_map_is_given)
-          .refused(view_fit_without_parallel_rays),
+          .refused(moved_fit_without_parallel_rays),
       real(
           "map.reach_m", "m", 1e-6, 1e9,
           "map.fit = sphere: how far from the camera the map covers what is in view; auto: the diagonal of the scene's "
@@ -318,7 +321,8 @@ std::vector<Setting> make_table() {
            MEMBER(map.far_m)),
       choice("map.wrap", {"repeat", "clamp_to_edge", "clamp_to_border"},
              "What a lookup outside the map reads. The border of clamp_to_border is lit.", MEMBER(map.wrap))
-          .idle(on_cube_map),
+          .idle(on_cube_map)
+          .refused(casters_without_lit_border),
       flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.",
            MEMBER(map.lit_beyond_far))
           .only_read_by({Stage::ladder}),

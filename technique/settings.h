@@ -31,7 +31,7 @@ namespace noonmark {
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
-enum class MapFit { scene, tight, view, sphere };
+enum class MapFit { scene, tight, view, sphere, casters };
 enum class DepthRange { fit, scene };
 enum class CubePass { layered, six_passes };
 enum class BiasUnit { depth, m, texel };
@@ -52,6 +52,9 @@ struct LightSettings {  // automatic and empty: as the scene's light
 
 // Whether the map covers what the camera sees, and so depends on it.
 inline bool fits_view(MapFit fit) { return fit == MapFit::view || fit == MapFit::sphere; }
+
+// Whether the fit also moves the map off the light's axis, as only a directional light's can be.
+inline bool moves_map(MapFit fit) { return fits_view(fit) || fit == MapFit::casters; }
 
 struct MapSettings {
   int resolution = 1024;  // texels on a side

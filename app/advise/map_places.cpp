@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "technique/light_frame.h"
 
@@ -45,35 +46,51 @@ MapPlace over_scene(const Scene& scene, const Settings& settings, const Light& l
   return place;
 }
 
-// The box of the maps that map.fit = view lays for each view. Where a view shows nothing, it needs no map.
-MapPlace over_views(const Scene& scene, const Settings& settings, std::span<const Settings> views, const Light& light) {
-  const LightFrame axes = axes_of(light);
+LightBox box_of(const LightFrame& frame, const LightFrame& axes) {
+  const glm::dvec3 middle = axes.to_light(frame.origin_m);
+  const double half = 0.5 * frame.extent_m;
   LightBox box;
-  for (const Settings& view : views) {
-    Settings fitted = settings;
-    fitted.view = view.view;
-    fitted.map.fit = MapFit::view;
-    fitted.map.extent_m.reset();
-    fitted.map.near_m.reset();
-    fitted.map.far_m.reset();
-    const LightFrame frame = make_light_frame(scene, fitted);
-    const glm::dvec3 middle = axes.to_light(frame.origin_m);
-    const double half = 0.5 * frame.extent_m;
-    box.add({middle.x - half, middle.y - half, frame.near_m});
-    box.add({middle.x + half, middle.y + half, frame.far_m});
-  }
+  box.add({middle.x - half, middle.y - half, frame.near_m});
+  box.add({middle.x + half, middle.y + half, frame.far_m});
+  return box;
+}
+
+LightFrame fitted(const Scene& scene, Settings settings, MapFit fit) {
+  settings.map.fit = fit;
+  settings.map.extent_m.reset();
+  settings.map.near_m.reset();
+  settings.map.far_m.reset();
+  return make_light_frame(scene, settings);
+}
+
+MapPlace over(const char* covers, const LightBox& box, const Light& light) {
   MapPlace place;
-  place.covers = "what these views show";
+  place.covers = covers;
   place.extent_m = box.side();
-  place.moves_with = true;
-  place.apply = [light, axes, box](Settings& there) {
-    aim(there, light, axes, box.middle());
+  place.apply = [light, box](Settings& there) {
+    aim(there, light, axes_of(light), box.middle());
     there.map.extent_m = box.side();
     there.map.near_m = box.low.z;
     there.map.far_m = box.high.z;
   };
   return place;
 }
+
+// The box of the maps that map.fit = view lays for each view. Where a view shows nothing, it needs no map.
+LightBox box_of_views(const Scene& scene, const Settings& settings, std::span<const Settings> views,
+                      const LightFrame& axes) {
+  LightBox all;
+  for (const Settings& view : views) {
+    Settings there = settings;
+    there.view = view.view;
+    const LightBox box = box_of(fitted(scene, there, MapFit::view), axes);
+    all.add(box.low);
+    all.add(box.high);
+  }
+  return all;
+}
+
+LightBox both(const LightBox& a, const LightBox& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
 
 bool same_light_and_scene(const Scene& scene, std::span<const Settings> conditions, const Light& light) {
   const auto first_scene = settings_map(conditions.front());
@@ -118,10 +135,20 @@ std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> c
   if (light.kind != LightKind::directional || light_moves || !same_light_and_scene(scene, conditions, light))
     return places;
   places.front().extent_m = make_light_frame(scene, first).extent_m;
-  if (MapPlace whole = over_scene(scene, first, light); whole.extent_m < places.front().extent_m)
-    places.front() = std::move(whole);
-  if (MapPlace seen = over_views(scene, first, views, light); places_differ * seen.extent_m < places.front().extent_m)
-    places.push_back(std::move(seen));
+  const LightFrame axes = axes_of(light);
+  LightBox needed = box_of_views(scene, first, views, axes);
+  // Outside of the map that holds all casters everything is lit, if the border is.
+  std::optional<LightBox> casters;
+  if (first.map.wrap == Wrap::clamp_to_border) casters = box_of(fitted(scene, first, MapFit::casters), axes);
+  MapPlace whole = over_scene(scene, first, light);
+  if (casters && places_differ * casters->side() < whole.extent_m)
+    whole = over("all that casts shadows", *casters, light);
+  if (whole.extent_m < places.front().extent_m) places.front() = std::move(whole);
+  if (casters) needed = both(needed, *casters);
+  if (needed.side() > 0 && places_differ * needed.side() < places.front().extent_m) {
+    places.push_back(over("what these views show", needed, light));
+    places.back().moves_with = true;
+  }
   return places;
 }
 

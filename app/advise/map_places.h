@@ -27,9 +27,10 @@ void lay_as(const LightFrame& frame, Settings& settings);
 // The place that the settings give.
 MapPlace place_as_given();
 
-// The first is the settings' own, or, if that is narrower, the map around the whole scene whose middle is the middle of the scene.
-// If what `views` show is covered by one that is narrower by places_differ, that comes second. The settings' own is the only one
-// where the light is not directional, and where its direction or the scene is not the same in all conditions.
+// The first is the settings' own, or, if that is narrower, the map around the whole scene whose middle is the middle of the scene;
+// or the one around all that casts shadows (map.fit = casters), if it is narrower by places_differ and map.wrap lights what lies
+// outside. If the casters that `views` need are covered by one that is narrower again, that comes second. The settings' own is the
+// only one where the light is not directional, and where its direction or the scene is not the same in all conditions.
 // conditions, views: at least one each; of `views` only the view is read. Throws Error as make_light_frame() does.
 inline constexpr double places_differ = 1.12;  // its square, 1.25, is what a map of equal texels saves
 std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> conditions,

@@ -1,4 +1,4 @@
-// map.fit = view as it is measured: no receiver of the picture has a coverage error.
+// map.fit = view and casters as they are measured: no receiver of the picture has a coverage error.
 #include <gtest/gtest.h>
 
 #include "scenes/builtin.h"
@@ -40,6 +40,22 @@ TEST(ViewFitMeasured, AnotherCameraGetsAnotherMap) {
              alone = fresh.measure(near, std::nullopt).record.metrics;
   for (const char* name : {"error", "acne", "residual", "tap_residual", "precision"})
     EXPECT_EQ(again.at(name), alone.at(name)) << name;
+}
+
+// Outside of the map there are receivers, and all of them are lit in truth.
+TEST(CasterFitMeasured, NoReceiverHasACoverageError) {
+  Workbench bench(gl::DebugMode::fatal);
+  double most_outside = 0;
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    const std::string name(builtin.name);
+    Settings settings = small(name, 240, 136);
+    if (bench.scene(settings.scene).light.kind != LightKind::directional) continue;
+    settings.map.fit = MapFit::casters;
+    const Measurement m = bench.measure(settings, std::nullopt);
+    EXPECT_EQ(metric(m, "coverage"), 0) << name;
+    most_outside = std::max(most_outside, metric(m, "outside"));
+  }
+  EXPECT_GT(most_outside, 0.5);
 }
 
 }  // namespace

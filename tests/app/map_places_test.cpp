@@ -37,12 +37,17 @@ bool in_picture(const Scene& scene, const Settings& settings, glm::dvec3 world) 
 }
 
 TEST(MapPlaces, HoldWhatTheySay) {
+  size_t of_casters = 0;
   for (const char* name : {"cube-room", "facade", "pillars", "bowl", "foliage"}) {
     const Settings settings = of(name);
     const Scene scene = make_scene(settings.scene);
     std::vector<Settings> conditions = turned_views(settings, scene);
     const std::vector<MapPlace> places = map_places(scene, conditions, views_between(settings, scene));
     const LightFrame given = make_light_frame(scene, settings);
+    Settings fitted = settings;
+    fitted.map.fit = MapFit::casters;
+    const LightFrame casters = make_light_frame(scene, fitted);
+    of_casters += places.front().covers == "all that casts shadows";
     EXPECT_LE(places.front().extent_m, given.extent_m) << name;
     for (const MapPlace& place : places)
       for (Settings there : conditions) {
@@ -51,7 +56,8 @@ TEST(MapPlaces, HoldWhatTheySay) {
         EXPECT_EQ(frame.ray_direction, given.ray_direction) << name;
         EXPECT_DOUBLE_EQ(frame.extent_m, place.extent_m) << name;
         for (const glm::vec3& p : scene.positions) {
-          if (place.covers != "the whole scene" && !(place.moves_with && in_picture(scene, there, p))) continue;
+          if (place.moves_with && !in_picture(scene, there, p)) continue;
+          if (place.covers != "the whole scene" && !inside(casters, p)) continue;
           ASSERT_TRUE(inside(frame, p)) << name << " over " << place.covers;
         }
       }
@@ -59,6 +65,20 @@ TEST(MapPlaces, HoldWhatTheySay) {
       EXPECT_LT(places_differ * places.back().extent_m, places.front().extent_m) << name;
     }
   }
+  EXPECT_GT(of_casters, 1u);
+}
+
+// Where a lookup outside of the map does not read a lit border, the map must hold the ground too.
+TEST(MapPlaces, HoldAGroundIfTheBorderIsNotLit) {
+  Settings settings = of("cube-room");
+  const Scene scene = make_scene(settings.scene);
+  const auto first_width = [&] {
+    const std::vector<Settings> one = {settings};
+    return map_places(scene, one, one).front().extent_m;
+  };
+  const double lit = first_width();
+  settings.map.wrap = Wrap::clamp_to_edge;
+  EXPECT_GT(first_width(), 3 * lit);
 }
 
 // A camera that looks at a corner of a wide scene needs a map of that corner alone.

@@ -1,5 +1,6 @@
-// map.fit = view: what is in the picture is in the map, and so is all that can cast a shadow on it.
-#include "technique/view_fit.h"
+// map.fit = view: what is in the picture is in the map, and so is all that can cast a shadow on it. map.fit = casters: so is
+// all that can cast a shadow, and a ground below everything is not.
+#include "technique/map_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -188,6 +189,109 @@ TEST(ViewFit, NeedsADirectionalLight) {
     const Scene scene = make_scene({.name = name});
     EXPECT_THROW(make_light_frame(scene, fitted(MapFit::view)), Error) << name;
   }
+}
+
+// A ground of n x n quads, turned about the x axis.
+Scene ground_with_box(int n, double tilt_deg) {
+  const double c = std::cos(glm::radians(tilt_deg)), sine = std::sin(glm::radians(tilt_deg));
+  const auto turned = [&](glm::dvec3 p) { return glm::dvec3(p.x, c * p.y - sine * p.z, sine * p.y + c * p.z); };
+  Scene scene;
+  add_surface(scene, "ground", n, n, false, [&](double s, double t) {
+    return turned({100 * s - 50, 0, 50 - 100 * t});
+  });
+  const size_t first = scene.positions.size();
+  add_box(scene, "box", {2, 1, -1}, {6, 3, 1});
+  for (size_t i = first; i < scene.positions.size(); ++i)
+    scene.positions[i] = glm::vec3(turned(glm::dvec3(scene.positions[i])));
+  scene.light = {.position_m = {0, 20, 0}, .target_m = {0, 0, 0}};
+  return scene;
+}
+
+// Closed form: of a box over a ground the square is that of the box alone, wherever the ground ends.
+TEST(CasterFit, IsTheSquareOfWhatStandsOnAGround) {
+  const double margin = 1 + 0x1p-10;  // lights::map_margin
+  for (const int n : {1, 40}) {
+    const Scene scene = ground_with_box(n, 0);
+    const LightFrame frame = make_light_frame(scene, fitted(MapFit::casters));
+    EXPECT_NEAR(frame.extent_m, 4 * margin, 4 * fit_rounding);
+    const glm::dvec3 middle = frame.to_light({4, 0, 0});
+    EXPECT_NEAR(middle.x, 0, 100 * fit_rounding);
+    EXPECT_NEAR(middle.y, 0, 100 * fit_rounding);
+    EXPECT_NEAR(frame.near_m, 17 - 3 * 0x1p-10, 20 * fit_rounding) << "from the top of the box";
+    EXPECT_NEAR(frame.far_m, 20 + 3 * 0x1p-10, 20 * fit_rounding) << "to the ground below it";
+  }
+  // The floats of a turned ground are off its plane by their rounding.
+  EXPECT_LT(make_light_frame(ground_with_box(40, 17), fitted(MapFit::casters)).extent_m, 5);
+}
+
+// A sheet below the ground is in its shadow, so the ground casts one.
+TEST(CasterFit, HoldsAGroundWithSomethingBelow) {
+  Scene scene = ground_with_box(4, 0);
+  const double alone = make_light_frame(scene, fitted(MapFit::casters)).extent_m;
+  add_quad(scene, "below", {10, -2, 10}, {1, 0, 0}, {0, 0, -1});
+  const double both = make_light_frame(scene, fitted(MapFit::casters)).extent_m;
+  EXPECT_LT(alone, 5);
+  EXPECT_GT(both, 100);
+}
+
+// Whether another triangle lies between the point and the light.
+bool shadowed(const Scene& scene, glm::dvec3 point, glm::dvec3 to_light) {
+  for (const glm::uvec3& t : scene.triangles) {
+    const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    const double along = glm::dot(n, a - point) / glm::dot(n, to_light);
+    if (!(along > 1e-3)) continue;
+    const glm::dvec3 hit = point + along * to_light;
+    if (glm::dot(glm::cross(b - a, hit - a), n) >= 0 && glm::dot(glm::cross(c - b, hit - b), n) >= 0 &&
+        glm::dot(glm::cross(a - c, hit - c), n) >= 0)
+      return true;
+  }
+  return false;
+}
+
+// Nothing that lies outside of the square is in shadow: of grounds and walls that are hollow to the light, of boxes
+// above, beside and below them.
+TEST(CasterFit, LeavesNoShadowOutside) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int dark = 0, outside = 0;
+  for (int k = 0; k < 60; ++k) {
+    Scene scene;
+    add_quad(scene, "ground", {-10, 0, 10}, {20, 0, 0}, {0, 0, -20});
+    if (k % 2) add_quad(scene, "wall", {-10, 0, -10}, {20, 0, 0}, {0, 8, 0});
+    if (k % 3 == 0) add_quad(scene, "below", {unit(random), -1, unit(random)}, {3, 0, 0}, {0, 0, -3});
+    const glm::dvec3 low(6 * unit(random), 2 + unit(random), 6 * unit(random));
+    add_box(scene, "box", low, low + glm::dvec3(1.5 + unit(random), 1, 1));
+    scene.light = {.position_m = {5 * unit(random), 12, 6 + 3 * unit(random)}, .target_m = {0, 0, 0}};
+    const LightFrame frame = make_light_frame(scene, fitted(MapFit::casters));
+    for (int i = 0; i < 300; ++i) {
+      const glm::dvec3 point = random_point_of(scene, random), there = frame.to_light(point);
+      const bool beside = std::max(std::abs(there.x), std::abs(there.y)) > frame.extent_m / 2;
+      const bool in_shadow = shadowed(scene, point, -frame.forward);
+      EXPECT_FALSE(beside && in_shadow) << k;
+      dark += in_shadow, outside += beside;
+    }
+  }
+  EXPECT_GT(dark, 1000);
+  EXPECT_GT(outside, 1000);
+}
+
+TEST(CasterFit, IsNeverLargerThanTheFitOfTheWholeScene) {
+  int smaller = 0;
+  for (const Scene& scene : directional_scenes()) {
+    const LightFrame casters = make_light_frame(scene, fitted(MapFit::casters)),
+                     whole = make_light_frame(scene, fitted(MapFit::tight));
+    EXPECT_LE(casters.extent_m, whole.extent_m) << scene.name;
+    smaller += casters.extent_m < 0.5 * whole.extent_m;
+  }
+  EXPECT_GT(smaller, 2);
+}
+
+TEST(CasterFit, NeedsADirectionalLightAndALitBorder) {
+  EXPECT_THROW(make_light_frame(make_scene({.name = "spot-room"}), fitted(MapFit::casters)), Error);
+  Settings repeated = fitted(MapFit::casters);
+  repeated.map.wrap = Wrap::repeat;
+  EXPECT_THROW(make_light_frame(make_scene({.name = "cube-room"}), repeated), Error);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// The map volume of map.fit = view: fitted to the part of the scene that the picture's frustum holds.
+// Where the map of a directional light lies and what it covers, for each fit that moves it off the light's axis: to what
+// the camera sees (map.fit = view, sphere), or to what casts shadows (casters).
 //
-//   const LightFrame axes = kind_of_light(light.kind).axes(light);       // a directional light's
+//   const LightFrame axes = kind_of_light(light.kind).axes(light);
 //   if (const auto fit = fit_to_view(scene, settings.view, axes)) use(fit->volume, fit->middle_m);
 #pragma once
 #include <glm/glm.hpp>
@@ -14,12 +15,12 @@ namespace noonmark {
 
 struct LightFrame;
 
-struct ViewFit {
+struct FittedMap {
   MapVolume volume;
   glm::dvec2 middle_m{0};  // of the square, along the frame's right and up, from its origin
 };
 
-// The rule, in double:
+// map.fit = view. The rule, in double:
 // 1. Every triangle is clipped to the frustum of effective_camera(scene, view): the four sides of the picture, near and
 //    far. What is left is the part in view, whether or not something hides it.
 // 2. The square is the smallest one, along the frame's axes, that holds the part in view; its middle is the middle of
@@ -30,13 +31,21 @@ struct ViewFit {
 // The fit reads the camera and the shape of the picture, but neither the number of its pixels nor the map's resolution
 // nor the filter. A tap that leaves the square, as at the edge of the picture, is outside the map (cause: coverage).
 // Nothing if no part of the scene is in view. Throws Error(usage) as effective_camera() does.
-std::optional<ViewFit> fit_to_view(const Scene& scene, const ViewSettings& view, const LightFrame& axes);
+std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& view, const LightFrame& axes);
 
 // map.fit = sphere: the square around the least sphere that holds the picture's frustum from the eye to map.reach_m (the
 // square of a perspective camera, law 29 with near = 0). The sphere's radius reads the angle of view, the shape of the
 // picture and map.reach_m, and neither place nor direction of the camera; the square is one texel wider, so that snapping
 // (map.snap) never uncovers its edge. Near and far hold the sphere, and near all of the scene that can cast a shadow into
 // it.
-ViewFit fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapSettings& map, const LightFrame& axes);
+FittedMap fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapSettings& map, const LightFrame& axes);
+
+// map.fit = casters: the smallest square, with the margin of a tight fit, that holds every triangle that can cast a shadow;
+// near and far hold the scene inside the square. A triangle can cast none if its plane has the whole scene on the light's
+// side, as that of a ground below everything: then no point lies behind it. So what lies outside of the square is lit, and
+// the map must read so there (map.wrap = clamp_to_border). Points within the rounding of the scene's float positions are on
+// the plane. A triangle along the light's rays, or one of very many that would take too long to prove, counts as a caster:
+// the square is never too small. Nothing if nothing casts.
+std::optional<FittedMap> fit_to_casters(const Scene& scene, const LightFrame& axes);
 
 }  // namespace noonmark
