@@ -211,6 +211,9 @@ class Search {
       tried.why_not =
           fmt::format("its window, {:.3g} to {:.3g} {}, is too narrow for a margin of {:.0f}% on both sides",
                       tried.bias->window.low, tried.bias->window.high, tried.bias->unit, 100 * (bias_margin - 1));
+    else if (request_.why_not_elsewhere)
+      tried.why_not = request_.why_not_elsewhere(tried);
+    if (!candidate.holds()) say_(fmt::format("{}: {}", name_of(tried, request_), tried.why_not));
   }
 
   // A map over what some views show must not leave out what another one shows.
@@ -348,12 +351,12 @@ class Search {
 
 }  // namespace
 
-std::vector<Settings> answer_under_conditions(const Answer& answer, const AdviceRequest& request) {
-  const Settings& chosen = answer.tried.settings;
+std::vector<Settings> under_conditions(const Tried& tried, const AdviceRequest& request) {
+  const Settings& chosen = tried.settings;
   std::vector<Settings> all;
   for (const Settings& condition : request.conditions) {
     Settings there = small_picture(condition, request.width_px);
-    request.places[answer.tried.place].apply(there);
+    request.places[tried.place].apply(there);
     there.bias = chosen.bias, there.filter = chosen.filter;
     there.map.resolution = chosen.map.resolution, there.map.cull = chosen.map.cull;
     there.map.placements = searched_placements;

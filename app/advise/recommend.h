@@ -42,6 +42,8 @@ enum class AnswerKind { least, balanced, best };
 inline constexpr AnswerKind answer_kinds[] = {AnswerKind::least, AnswerKind::balanced, AnswerKind::best};
 std::string answer_name(AnswerKind kind);  // "least"
 
+struct Tried;
+
 struct AdviceRequest {
   std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only
   LightKind light = LightKind::directional;
@@ -58,6 +60,8 @@ struct AdviceRequest {
   AnswerKind answer = AnswerKind::least;
   std::string given;                 // what the user gave that decides the answer, for a sentence; empty: nothing
   int width_px = least_searched_px;  // of the pictures that are searched on
+  // Further reasons why settings with their bias are no answer, as a sentence; empty: none. Asked last, of few.
+  std::function<std::string(const Tried&)> why_not_elsewhere;
 };
 
 // Settings that were measured.
@@ -111,8 +115,8 @@ struct Advice {
   const Answer* answer() const { return of(request.answer); }
 };
 
-// The settings of an answer under each condition, as they were searched: small pictures, all placements.
-std::vector<Settings> answer_under_conditions(const Answer& answer, const AdviceRequest& request);
+// These settings under each condition, as they were searched: small pictures, all placements.
+std::vector<Settings> under_conditions(const Tried& tried, const AdviceRequest& request);
 
 // say: progress, one line. Throws Error.
 Advice search(Workbench& bench, const AdviceRequest& request, const std::function<void(const std::string&)>& say);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "app/advise/answer_engines.h"
 #include "app/advise/engine_promise.h"
 #include "app/advise/engine_trial.h"
 #include "app/advise/experiment_engines.h"
@@ -254,25 +255,6 @@ void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines
     fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
 }
 
-// Placements, along each axis, at which what an engine does is measured. There are up to eight engines, and the answer itself was
-// searched at four times as many and verified at others.
-constexpr int promised_placements = 4;
-
-// What to type, and what error it gives under the searched conditions.
-std::vector<EngineAdvice> measured_engines(Workbench& bench, const Advice& advice,
-                                           const std::function<void(const std::string&)>& say) {
-  const Settings& settings = advice.answer()->tried.settings;
-  const double farthest_m = farthest_in_views_m(bench, advice.request.conditions);  // the lines must hold in each view
-  const Scene& loaded = bench.scene(settings.scene);
-  std::vector<EngineAdvice> engines = engine_advice(settings, make_light_frame(loaded, settings), loaded, farthest_m);
-  std::vector<Settings> conditions = answer_under_conditions(*advice.answer(), advice.request);
-  for (Settings& condition : conditions)
-    condition.map.placements = std::min(condition.map.placements, promised_placements);
-  const EnginePromise recommended = measure_promises(bench, engines, conditions, advice.request.accuracy, say);
-  for (EngineAdvice& engine : engines) engine.promised = promise_text(engine, recommended, advice.request.curve);
-  return engines;
-}
-
 int recommend(const RecommendOptions& options) {
   const std::string& what = options.what;
   ExperimentArguments arguments = options.arguments;
@@ -283,9 +265,16 @@ int recommend(const RecommendOptions& options) {
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_image_files();
-  const AdviceRequest request = request_of(experiment, options, bench);
+  AdviceRequest request = request_of(experiment, options, bench);
   std::optional<TrialPlan> plan;
-  if (!options.engines.empty()) plan = plan_trial(bench, request.conditions, options.engines, options.adapters);
+  if (!options.engines.empty()) {
+    plan = plan_trial(bench, request.conditions, options.engines, options.adapters);
+    std::vector<std::string> names;
+    for (const std::string& name : plan->names) names.emplace_back(engine_adapter(name).engine);
+    request.why_not_elsewhere = [&bench, &request, names](const Tried& tried) {
+      return why_not_in_engines(bench, names, tried, request);
+    };
+  }
 
   make_output_folder(out);
   clear_abandoned_files(out);
@@ -294,10 +283,10 @@ int recommend(const RecommendOptions& options) {
   const auto say = [&](const std::string& step) { progress.say(printable(step)); };
   Advice advice = search(bench, request, say);
   if (advice.answer() && options.around)
-    advice.around = settings_around(bench, answer_under_conditions(*advice.answer(), request),
+    advice.around = settings_around(bench, under_conditions(advice.answer()->tried, request),
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
   std::vector<EngineAdvice> engines;
-  if (advice.answer()) engines = measured_engines(bench, advice, say);
+  if (advice.answer()) engines = measured_engines(bench, advice.answer()->tried, request, say);
   if (advice.answer() && plan) {
     for (Settings& view : plan->views) request.places[advice.answer()->tried.place].apply(view);
     try_engines(bench, *plan, engines, {request.curve, request.error, request.accuracy}, out, say);

@@ -1,0 +1,63 @@
+#include "app/advise/answer_engines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/advise/engine_promise.h"
+#include "app/advise/experiment_engines.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+// Placements, along each axis, at which what an engine does is measured. There are up to eight engines, and the answer itself was
+// searched at four times as many and verified at others.
+constexpr int promised_placements = 4;
+
+// The lines must hold in each view.
+std::vector<EngineAdvice> engines_of(Workbench& bench, const Tried& tried, const AdviceRequest& request) {
+  const double farthest_m = farthest_in_views_m(bench, request.conditions);
+  const Scene& scene = bench.scene(tried.settings.scene);
+  return engine_advice(tried.settings, make_light_frame(scene, tried.settings), scene, farthest_m);
+}
+
+std::vector<Settings> promised_under(const Tried& tried, const AdviceRequest& request) {
+  std::vector<Settings> conditions = under_conditions(tried, request);
+  for (Settings& condition : conditions)
+    condition.map.placements = std::min(condition.map.placements, promised_placements);
+  return conditions;
+}
+
+}  // namespace
+
+std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer, const AdviceRequest& request,
+                                           const std::function<void(const std::string&)>& say) {
+  std::vector<EngineAdvice> engines = engines_of(bench, answer, request);
+  const EnginePromise recommended =
+      measure_promises(bench, engines, promised_under(answer, request), request.accuracy, say);
+  for (EngineAdvice& engine : engines) engine.promised = promise_text(engine, recommended, request.curve);
+  return engines;
+}
+
+std::string why_not_in_engines(Workbench& bench, std::span<const std::string> engines, const Tried& tried,
+                               const AdviceRequest& request) {
+  for (const EngineAdvice& advice : engines_of(bench, tried, request)) {
+    if (std::find(engines.begin(), engines.end(), advice.engine) == engines.end()) continue;
+    if (advice.lines.empty()) return fmt::format("{} has no lines for it: {}", advice.engine, advice.cannot.front());
+    if (!advice.emulated) continue;
+    std::vector<Settings> there = promised_under(tried, request);
+    for (Settings& condition : there) condition = as_engine(advice, condition);
+    const EnginePromise promise = measured_promise(bench, there, request.accuracy);
+    const auto broken = [&](const char* what, double found, double most) {
+      return found <= most ? "" : fmt::format("in {} it has {:.3g}% {}", advice.engine, 100 * found, what);
+    };
+    for (const std::string& why : {broken("acne", promise.acne, request.curve.acne_bound),
+                                   broken("Peter Panning", promise.peter_panning, request.curve.peter_panning_bound),
+                                   broken("error", promise.error, request.error.value_or(1))})
+      if (!why.empty()) return why;
+  }
+  return "";
+}
+
+}  // namespace noonmark

@@ -1,0 +1,23 @@
+// What engines do with the settings of an answer: the lines to type, and whether the bounds hold with them.
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/advise/engines/engine_settings.h"
+#include "app/advise/recommend.h"
+#include "measure/workbench.h"
+
+namespace noonmark {
+
+// Advice for every engine, with what its lines promise under the searched conditions. say: progress, one line. Throws Error.
+std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer, const AdviceRequest& request,
+                                           const std::function<void(const std::string&)>& say);
+
+// Why these settings are no answer for one of the engines (EngineAdvice::engine): it has no lines for them, or what it does with
+// them breaks a bound under a searched condition. Empty if all do; an engine that is not emulated is not asked. Throws Error.
+std::string why_not_in_engines(Workbench& bench, std::span<const std::string> engines, const Tried& tried,
+                               const AdviceRequest& request);
+
+}  // namespace noonmark
