@@ -1,18 +1,21 @@
 // The members of a Renderer, for its own source files: renderer.cpp (construction, scene), renderer_receivers.cpp,
 // renderer_map.cpp (maps drawn as engines draw them), renderer_map_data.cpp (maps uploaded and read back),
-// renderer_lookup.cpp and renderer_probe.cpp.
+// renderer_map_tiles.cpp (flat maps, at some of their texels), renderer_lookup.cpp and renderer_probe.cpp.
 #pragma once
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "gl/egl_context.h"
 #include "gl/gl_objects.h"
 #include "gl/pass_timer.h"
 #include "gl/program.h"
 #include "gl/renderer.h"
+#include "gl/spare_maps.h"
 #include "technique/bias.h"
 
 namespace noonmark::gl {
@@ -28,6 +31,10 @@ struct ShadowMap::Impl {
   int resolution = 0;
   bool cube = false;
   Wrap wrap = Wrap::clamp_to_border;
+  // Of a map that was uploaded by tiles: where its texture goes in the end, and what of TiledMap it holds.
+  std::weak_ptr<SpareMaps> spares{};
+  float elsewhere = 1;
+  std::vector<uint8_t> written{};
 
   Impl(std::shared_ptr<EglContext> owner, Texture texture, int side, bool is_cube, Wrap mode)
       : context(std::move(owner)), depth(std::move(texture)), resolution(side), cube(is_cube), wrap(mode) {}
@@ -60,7 +67,8 @@ struct Renderer::Impl {
   Target primitive_colour, primitive_depth;
   Target position_image, normal_image;
   glm::vec3 eye_m{0};
-  Target lit, map_strip;
+  Target lit, map_strip, listed_texels, listed_depths;
+  std::shared_ptr<SpareMaps> spares = std::make_shared<SpareMaps>();  // shared, because a map may exist longer
   Target probe_scalars, probe_texels, probe_radius;
   Buffer tap_rows;
   Sampler comparing;   // for hardware comparison
@@ -93,8 +101,14 @@ struct Renderer::Impl {
   // Throw Error(usage) if the device or its memory does not allow such a map.
   void check_resolution(int resolution, bool cube) const;
   Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);
+  // The wrap mode and what else the lookup's sampler needs to know of a map.
+  static void set_sampling(const Texture& map, bool cube, Wrap wrap);
   // A map of 32-bit floats. copy_row(y, row) writes row y of the map's image.
   Texture upload_rows(const MapSettings& settings, bool cube, const std::function<void(int, float*)>& copy_row);
+  // A flat map of these depths. elsewhere: of the texels that are not in the set, in [0, 1].
+  TiledMap upload_tiles(const MapDepths& map, float elsewhere, Wrap wrap);
+  // The depths of a flat map at the texels of the set, by TexelSet::index. Throws Error(device).
+  void read_listed(GLuint map, const TexelSet& texels, std::span<float> depth);
 
   // Sets the uniforms of light, bias and receiver in a program that includes shaders/receiver.glsl, and binds the
   // receivers.
