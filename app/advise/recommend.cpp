@@ -153,7 +153,7 @@ class Search {
     // Edges move by the texel and by what the filter blurs, whatever the bias.
     for (const Candidate& other : candidates())
       if (other.tried.eye && !other.holds() && other.tried.place == tried.place &&
-          same_filter(other.tried.settings.filter, tried.settings.filter) &&
+          other.tried.settings.filter == tried.settings.filter &&
           other.tried.settings.map.resolution >= tried.settings.map.resolution &&
           other.tried.eye->edge_p95_pixels > most_edges(request_)) {
         tried.why_not = fmt::format("its shadow edges are no nearer to the true ones than those of {}",
