@@ -193,7 +193,7 @@ void Renderer::load_scene(const Scene& scene) {
 
 ShadowMap::Impl::~Impl() {
   context->make_current();
-  if (const auto kept = spares.lock()) kept->put({std::move(depth), resolution, elsewhere, std::move(written)});
+  if (const auto kept = spares.lock()) kept->put({std::move(depth), format, resolution, elsewhere, std::move(written)});
 }
 
 ShadowMap::ShadowMap(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -66,11 +66,24 @@ void Renderer::Impl::check_resolution(int resolution, bool cube) const {
 
 Texture Renderer::Impl::make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap) {
   check_resolution(resolution, cube);
-  spares->keep_only(cube ? 0 : resolution);
+  keep_spares_of(cube ? 0 : resolution);
   Texture texture = make_texture(format, resolution, resolution, cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D);
   check_memory("a shadow map", resolution, resolution);
   set_sampling(texture, cube, wrap);
   return texture;
+}
+
+TiledMap Renderer::Impl::spare_or_new(SpareMaps& spares, GLenum format, int resolution, Wrap wrap) {
+  keep_spares_of(resolution);
+  std::optional<TiledMap> spare = spares.take(format, resolution);
+  if (!spare) return {make_map_texture(format, resolution, false, wrap), format, resolution};
+  set_sampling(spare->texture, false, wrap);
+  return std::move(*spare);
+}
+
+void Renderer::Impl::keep_spares_of(int side) {
+  uploaded->keep_only(side);
+  drawn->keep_only(side);
 }
 
 void Renderer::Impl::set_sampling(const Texture& map, bool cube, Wrap wrap) {
@@ -128,17 +141,13 @@ ShadowMap Renderer::upload_map(const MapDepths& map, const MapSettings& settings
   }
   TiledMap tiled = r.upload_tiles(map, whole ? 1 : map.elsewhere, settings.wrap);  // of a whole map it says nothing
   r.context->check("upload_map");
-  auto made = std::make_unique<ShadowMap::Impl>(r.context, std::move(tiled.texture), side, cube, settings.wrap);
-  made->spares = r.spares;
-  made->elsewhere = tiled.elsewhere;
-  made->written = std::move(tiled.written);
-  return ShadowMap(std::move(made));
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, r.uploaded, std::move(tiled), settings.wrap));
 }
 
 void Renderer::release_deleted() {
   Impl& r = *impl_;
   r.context->make_current();
-  r.spares->clear();
+  r.keep_spares_of(0);
   // A draw without textures: what the driver has bound for the draw before is bound no longer.
   r.require(r.map_strip, GL_R32F, 1, 1);
   r.draw_into({r.map_strip.texture.id()}, 0, 1, 1);

@@ -56,22 +56,18 @@ void write_tiles(GLuint texture, const MapDepths& map, float elsewhere, const st
 TiledMap Renderer::Impl::upload_tiles(const MapDepths& map, float elsewhere, Wrap wrap) {
   const int side = map.size().x;
   const TexelSet& texels = *map.texels;
-  std::optional<TiledMap> uploaded = spares->take(side);
-  if (uploaded)
-    set_sampling(uploaded->texture, false, wrap);
-  else
-    uploaded = TiledMap{make_map_texture(GL_DEPTH_COMPONENT32F, side, false, wrap), side};
-  if (uploaded->elsewhere != elsewhere) {
-    glClearTexImage(uploaded->texture.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &elsewhere);
-    uploaded->elsewhere = elsewhere;
-    uploaded->written.assign(texels.tiles(), 0);
+  TiledMap made = spare_or_new(*uploaded, GL_DEPTH_COMPONENT32F, side, wrap);
+  if (made.elsewhere != elsewhere) {
+    glClearTexImage(made.texture.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &elsewhere);
+    made.elsewhere = elsewhere;
+    made.written.assign(texels.tiles(), 0);
   }
-  std::vector<uint8_t> written(texels.tiles()), wanted = uploaded->written;
+  std::vector<uint8_t> written(texels.tiles()), wanted = made.written;
   for (size_t n = 0; n < texels.tiles(); ++n)
     if (texels.count(n)) written[n] = wanted[n] = 1;
-  write_tiles(uploaded->texture.id(), map, elsewhere, wanted);
-  uploaded->written = std::move(written);
-  return std::move(*uploaded);
+  write_tiles(made.texture.id(), map, elsewhere, wanted);
+  made.written = std::move(written);
+  return made;
 }
 
 void Renderer::Impl::read_listed(GLuint map, const TexelSet& texels, std::span<float> depth) {

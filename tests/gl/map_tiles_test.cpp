@@ -103,16 +103,20 @@ TEST_F(GlTest, ListedTexelsAreThoseOfTheWholeMap) {
   }
 }
 
-TEST(GlSpareMaps, AreFewAndOfOneSide) {
-  const auto of_side = [](int side) { return TiledMap{Texture(), side}; };
-  SpareMaps spares;
-  EXPECT_FALSE(spares.take(64));
+TEST(GlSpareMaps, AreFewAndOfOneKind) {
+  constexpr GLenum kind = GL_DEPTH_COMPONENT32F;
+  const auto of_side = [](int side) { return TiledMap{Texture(), kind, side}; };
+  SpareMaps spares(2);
+  EXPECT_FALSE(spares.take(kind, 64));
   for (int i = 0; i < 5; ++i) spares.put(of_side(64));
-  EXPECT_EQ(spares.count(), SpareMaps::most_maps);
-  EXPECT_EQ(spares.take(64)->side, 64);
-  EXPECT_EQ(spares.count(), SpareMaps::most_maps - 1);
-  EXPECT_FALSE(spares.take(65)) << "maps of another side";
+  EXPECT_EQ(spares.count(), 2u);
+  EXPECT_EQ(spares.take(kind, 64)->side, 64);
+  EXPECT_EQ(spares.count(), 1u);
+  EXPECT_FALSE(spares.take(kind, 65)) << "a map of another side";
   EXPECT_EQ(spares.count(), 0u) << "must not take memory beside that map";
+  spares.put(of_side(64));
+  EXPECT_FALSE(spares.take(GL_DEPTH_COMPONENT16, 64)) << "a map of another format";
+  EXPECT_EQ(spares.count(), 0u) << "must not take the place of one of that format";
   spares.put(of_side(64));
   spares.keep_only(64);
   EXPECT_EQ(spares.count(), 1u);
@@ -148,6 +152,36 @@ TEST_F(GlTest, SpareTexturesAreDeleted) {
   upload_two(100);
   renderer.release_deleted();
   EXPECT_EQ(live_textures(), before);
+}
+
+// A map is drawn into the texture of the one before, if that has its format; nothing of that is left.
+TEST_F(GlTest, ADrawnMapShowsNothingOfTheOneBefore) {
+  Scene wide, narrow;
+  wide.light = narrow.light = light_from_above();
+  add_floor(wide, 1, 4);
+  add_floor(narrow, 0, 1);
+  Settings settings = map_of(50);
+  settings.map.extent_m = 6;
+  settings.map.near_m = 1;
+  settings.map.far_m = 20;
+  renderer.release_deleted();
+  const int before = live_textures();
+  for (const DepthFormat format : {DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d16, DepthFormat::d32f}) {
+    settings.map.format = format;
+    renderer.load_scene(wide);
+    { const ShadowMap drawn = renderer.render_map({wide, settings}); }
+    EXPECT_EQ(live_textures(), before + 1) << "one is kept for the next";
+    renderer.load_scene(narrow);
+    const ShadowMap drawn = renderer.render_map({narrow, settings});
+    EXPECT_EQ(live_textures(), before + 1) << "which was used";
+    Renderer other(DebugMode::fatal);
+    other.load_scene(narrow);
+    const Image<float> expected = other.read_map(other.render_map({narrow, settings}));
+    EXPECT_LT(expected.at(25, 25), 1.0f);
+    EXPECT_EQ(expected.at(2, 2), 1.0f) << "where the wide floor was";
+    EXPECT_TRUE(renderer.read_map(drawn).pixels == expected.pixels);
+    renderer.release_deleted();
+  }
 }
 
 TEST(GlLife, AnUploadedMapMayOutliveItsRenderer) {
