@@ -195,7 +195,10 @@ void Renderer::load_scene(const Scene& scene) {
   r.index_count = static_cast<GLsizei>(3 * scene.triangles.size());
 }
 
-ShadowMap::Impl::~Impl() { context->make_current(); }
+ShadowMap::Impl::~Impl() {
+  context->make_current();
+  if (const auto kept = spares.lock()) kept->put({std::move(depth), format, resolution, elsewhere, std::move(written)});
+}
 
 ShadowMap::ShadowMap(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ShadowMap::ShadowMap(ShadowMap&&) noexcept = default;

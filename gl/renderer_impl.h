@@ -1,18 +1,22 @@
 // The members of a Renderer, for its own source files: renderer.cpp (construction, scene), renderer_receivers.cpp,
 // renderer_map.cpp (maps drawn as engines draw them), renderer_map_data.cpp (maps uploaded and read back),
-// renderer_lookup.cpp and renderer_probe.cpp.
+// renderer_map_tiles.cpp (flat maps, at some of their texels), renderer_lookup.cpp and renderer_probe.cpp.
 #pragma once
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "gl/egl_context.h"
 #include "gl/gl_objects.h"
 #include "gl/pass_timer.h"
 #include "gl/program.h"
 #include "gl/renderer.h"
+#include "gl/spare_maps.h"
 #include "technique/bias.h"
 
 namespace noonmark::gl {
@@ -28,7 +32,21 @@ struct ShadowMap::Impl {
   int resolution = 0;
   bool cube = false;
   Wrap wrap = Wrap::clamp_to_border;
+  // Of a flat map: where its texture goes in the end, and what is known of it (TiledMap).
+  std::weak_ptr<SpareMaps> spares{};
+  GLenum format = 0;
+  float elsewhere = std::numeric_limits<float>::quiet_NaN();
+  std::vector<uint8_t> written{};
 
+  Impl(std::shared_ptr<EglContext> owner, const std::shared_ptr<SpareMaps>& ends_in, TiledMap map, Wrap mode)
+      : context(std::move(owner)),
+        depth(std::move(map.texture)),
+        resolution(map.side),
+        wrap(mode),
+        spares(ends_in),
+        format(map.format),
+        elsewhere(map.elsewhere),
+        written(std::move(map.written)) {}
   Impl(std::shared_ptr<EglContext> owner, Texture texture, int side, bool is_cube, Wrap mode)
       : context(std::move(owner)), depth(std::move(texture)), resolution(side), cube(is_cube), wrap(mode) {}
   ~Impl();
@@ -60,7 +78,9 @@ struct Renderer::Impl {
   Target primitive_colour, primitive_depth;
   Target position_image, normal_image;
   glm::vec3 eye_m{0};
-  Target lit, map_strip;
+  Target lit, map_strip, listed_texels, listed_depths;
+  // Two uploaded ones: an exact map and a tie map come by turns. Shared, because a map may exist longer.
+  std::shared_ptr<SpareMaps> uploaded = std::make_shared<SpareMaps>(2), drawn = std::make_shared<SpareMaps>(1);
   Target probe_scalars, probe_texels, probe_radius;
   Buffer tap_rows;
   Sampler comparing;   // for hardware comparison
@@ -93,8 +113,17 @@ struct Renderer::Impl {
   // Throw Error(usage) if the device or its memory does not allow such a map.
   void check_resolution(int resolution, bool cube) const;
   Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);
+  // Of a flat map: a spare one, or a new one. keep_spares_of: deletes the spare maps of other sides.
+  TiledMap spare_or_new(SpareMaps& spares, GLenum format, int resolution, Wrap wrap);
+  void keep_spares_of(int side);
+  // The wrap mode and what else the lookup's sampler needs to know of a map.
+  static void set_sampling(const Texture& map, bool cube, Wrap wrap);
   // A map of 32-bit floats. copy_row(y, row) writes row y of the map's image.
   Texture upload_rows(const MapSettings& settings, bool cube, const std::function<void(int, float*)>& copy_row);
+  // A flat map of these depths. elsewhere: of the texels that are not in the set, in [0, 1].
+  TiledMap upload_tiles(const MapDepths& map, float elsewhere, Wrap wrap);
+  // The depths of a flat map at the texels of the set, by TexelSet::index. Throws Error(device).
+  void read_listed(GLuint map, const TexelSet& texels, std::span<float> depth);
 
   // Sets the uniforms of light, bias and receiver in a program that includes shaders/receiver.glsl, and binds the
   // receivers.

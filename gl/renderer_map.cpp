@@ -82,7 +82,9 @@ ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std:
                                                frame.resolution, side));
   const bool cube = frame.map_shape() == MapShape::cube;
   const bool layered = cube && map.cube_pass == CubePass::layered;
-  Texture depth = r.make_map_texture(gl_format(map.format), side, cube, map.wrap);
+  TiledMap flat;  // unless it is a cube
+  if (!cube) flat = r.spare_or_new(*r.drawn, gl_format(map.format), side, map.wrap);
+  Texture depth = cube ? r.make_map_texture(gl_format(map.format), side, cube, map.wrap) : std::move(flat.texture);
   Program& program = r.programs.get(
       !cube     ? ShaderStages{"shaders/scene.vert", "shaders/depth.frag"}
       : layered ? ShaderStages{"shaders/cube_layers.vert", "shaders/distance.frag", "shaders/cube_layers.geom"}
@@ -140,7 +142,9 @@ ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std:
   if (!casters.empty()) glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, r.positions.id(), 0, sizeof(glm::vec3));
   r.detach(0);
   r.context->check("render_map");
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), side, cube, map.wrap));
+  if (cube) return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), side, cube, map.wrap));
+  flat.texture = std::move(depth);
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, r.drawn, std::move(flat), map.wrap));
 }
 
 double Renderer::polygon_offset_unit(DepthFormat format) {

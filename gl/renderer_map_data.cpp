@@ -66,16 +66,34 @@ void Renderer::Impl::check_resolution(int resolution, bool cube) const {
 
 Texture Renderer::Impl::make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap) {
   check_resolution(resolution, cube);
+  keep_spares_of(cube ? 0 : resolution);
   Texture texture = make_texture(format, resolution, resolution, cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D);
   check_memory("a shadow map", resolution, resolution);
+  set_sampling(texture, cube, wrap);
+  return texture;
+}
+
+TiledMap Renderer::Impl::spare_or_new(SpareMaps& spares, GLenum format, int resolution, Wrap wrap) {
+  keep_spares_of(resolution);
+  std::optional<TiledMap> spare = spares.take(format, resolution);
+  if (!spare) return {make_map_texture(format, resolution, false, wrap), format, resolution};
+  set_sampling(spare->texture, false, wrap);
+  return std::move(*spare);
+}
+
+void Renderer::Impl::keep_spares_of(int side) {
+  uploaded->keep_only(side);
+  drawn->keep_only(side);
+}
+
+void Renderer::Impl::set_sampling(const Texture& map, bool cube, Wrap wrap) {
   // A direction always hits a cube. At an edge, rounding must not wrap to the other side of the face, so the mode is
   // clamp to edge.
   const GLint mode = gl_wrap(cube ? Wrap::clamp_to_edge : wrap);
-  glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, mode);
-  glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, mode);
-  glTextureParameterfv(texture.id(), GL_TEXTURE_BORDER_COLOR, lit_border);
-  glTextureParameteri(texture.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
-  return texture;
+  glTextureParameteri(map.id(), GL_TEXTURE_WRAP_S, mode);
+  glTextureParameteri(map.id(), GL_TEXTURE_WRAP_T, mode);
+  glTextureParameterfv(map.id(), GL_TEXTURE_BORDER_COLOR, lit_border);
+  glTextureParameteri(map.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
 }
 
 Texture Renderer::Impl::upload_rows(const MapSettings& settings, bool cube,
@@ -114,15 +132,22 @@ ShadowMap Renderer::upload_map(const MapDepths& map, const MapSettings& settings
   const bool cube = shape == MapShape::cube;
   require_size(map.size(), settings, cube);
   require_depths(map.depth);
-  const auto side = static_cast<size_t>(map.size().x);
-  if (map.texels->count() < side * static_cast<size_t>(map.size().y)) require_depths({&map.elsewhere, 1});
-  Texture texture = r.upload_rows(settings, cube, [&](int y, float* row) { map.copy_row(y, row); });
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), map.size().x, cube, settings.wrap));
+  const int side = map.size().x;
+  const bool whole = map.texels->count() == static_cast<size_t>(side) * static_cast<size_t>(map.size().y);
+  if (!whole) require_depths({&map.elsewhere, 1});
+  if (cube) {
+    Texture texture = r.upload_rows(settings, cube, [&](int y, float* row) { map.copy_row(y, row); });
+    return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), side, cube, settings.wrap));
+  }
+  TiledMap tiled = r.upload_tiles(map, whole ? 1 : map.elsewhere, settings.wrap);  // of a whole map it says nothing
+  r.context->check("upload_map");
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, r.uploaded, std::move(tiled), settings.wrap));
 }
 
 void Renderer::release_deleted() {
   Impl& r = *impl_;
   r.context->make_current();
+  r.keep_spares_of(0);
   // A draw without textures: what the driver has bound for the draw before is bound no longer.
   r.require(r.map_strip, GL_R32F, 1, 1);
   r.draw_into({r.map_strip.texture.id()}, 0, 1, 1);
@@ -168,6 +193,12 @@ Image<float> Renderer::read_map(const ShadowMap& map) {
 
 MapDepths Renderer::read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels) {
   MapDepths found(texels, MapDepths::unknown);
+  // A listed texel takes about as long as two of whole rows.
+  if (!map.impl_->cube && 2 * texels->count() < map.texels()) {
+    impl_->context->make_current();
+    impl_->read_listed(map.impl_->depth.id(), *texels, found.depth);
+    return found;
+  }
   const int band = rows_of_band(map.resolution());
   for (int first = 0; first < texels->size().y; first += band) {
     const Image<float> rows = read_rows(map, first, std::min(band, texels->size().y - first));

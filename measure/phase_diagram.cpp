@@ -232,7 +232,8 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
     diagram.bias_m.push_back(edges.back());
   }
 
-  for (int r = 0; r < options.rows; ++r) {
+  for (int k = 0; k < options.rows; ++k) {
+    const int r = options.usable_only ? options.rows - 1 - k : k;
     settings.map.resolution = resolution_of(r);
     const Technique technique(scene, settings);
     const LookupProbe probe = renderer.probe(technique, gl::ProbeTaps::none);
@@ -256,9 +257,11 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
     row.last_acne_m = counts.acne_free_from();
     diagram.rows.push_back(std::move(row));
     diagram.receivers = static_cast<double>(counts.receivers());
-    if (r == 0) add_law(diagram, view, truth, technique);
-    row_done(r + 1);
+    if (r == 0 && !options.usable_only) add_law(diagram, view, truth, technique);
+    row_done(k + 1);
+    if (options.usable_only && diagram.usable(diagram.rows.back()).empty()) break;
   }
+  if (options.usable_only) std::reverse(diagram.rows.begin(), diagram.rows.end());
   return diagram;
 }
 

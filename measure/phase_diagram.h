@@ -13,6 +13,8 @@ struct PhaseOptions : CauseBounds {
   int coarsest = 128, finest = 8192;  // texels on a side, at the present extent
   int placements = 8;                 // S, along each axis
   int biases_per_octave = 16;
+  // Measures from the finest row on, until one has no usable bias: that is the first of the diagram, which has no law.
+  bool usable_only = false;
 };
 
 // The settings that the diagram is about: those given, with the bias in metres if nothing else of it is set. Throws

@@ -69,10 +69,9 @@ void add_time(PointRecord& record, const std::string& stage, const StageTime& ti
 
 // The point's numbers and times, without its curve.
 PointRecord record_of(const Measurement& m, const SceneStage& loaded, const ViewStage& view, const TruthStage& truth,
-                      const LookupStage& lookup, const std::map<std::string, double>& soundness) {
+                      const LookupStage& lookup, const std::map<std::string, double>& soundness, ShadedMetrics shaded) {
   const Technique& t = m.technique;
   const Image<float> occluders = loaded.tracer->occluder_distance(m.receivers, t.frame, peter_panning_mask(m.ladder));
-  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   PointRecord record;
   record.settings = settings_map(t.settings);
   const MeasureInput input{m.ladder,  m.receivers,       t.frame,        m.probe, t.bias, lookup.edge_distance_texels,
@@ -82,8 +81,11 @@ PointRecord record_of(const Measurement& m, const SceneStage& loaded, const View
       measure_laws({m.ladder, m.scene, m.receivers, m.camera, t.frame, t.settings.map.format, m.probe}));
   record.metrics.insert(soundness.begin(), soundness.end());
   record.metrics.insert(view.metrics.begin(), view.metrics.end());
-  record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
-  record.metrics["flip"] = shaded_flip(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
+  if (shaded == ShadedMetrics::yes) {
+    const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+    record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
+    record.metrics["flip"] = shaded_flip(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
+  }
   add_cost(record, frame_cost(t.settings, t.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
                               static_cast<int64_t>(m.scene.triangles.size())));
   add_time(record, "hard_truth", truth.hard);
@@ -103,6 +105,10 @@ Settings of_scene(const SceneSettings& scene) {
 }
 
 }  // namespace
+
+ShadedMetrics shaded_metrics_for(std::string_view metric) {
+  return metric == "shaded_rmse" || metric == "flip" ? ShadedMetrics::yes : ShadedMetrics::no;
+}
 
 struct Workbench::Impl {
   Impl(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> all)
@@ -350,7 +356,8 @@ PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup
   return times;
 }
 
-Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {
+Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
+                               ShadedMetrics shaded) {
   Impl& b = *impl_;
   const Impl::Asked asked = b.begin(settings);
   const SceneStage& loaded = asked.loaded;
@@ -384,7 +391,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   if (placements) placements->finish();
   Measurement m{{},           technique, std::move(climbed.ladder), view.camera,        scene, view.receivers,
                 lookup.probe, {},        std::move(shown.stored),   lookup.exact_depth, {}};
-  m.record = record_of(m, loaded, view, truth, lookup, climbed.soundness);
+  m.record = record_of(m, loaded, view, truth, lookup, climbed.soundness, shaded);
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);

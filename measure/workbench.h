@@ -46,6 +46,10 @@ struct PassTimes {
 // pictures: true if the run writes picture files.
 void require_room_to_start(bool pictures);
 
+// Whether a record has the metrics of the shaded frame too: shaded_rmse and flip. A search that needs neither saves the time.
+enum class ShadedMetrics { yes, no };
+ShadedMetrics shaded_metrics_for(std::string_view metric);  // what is needed to know this one
+
 class Workbench {
  public:
   // shaders: variants to measure in place of the program's own. stages: the program's; a test replaces some of them.
@@ -55,7 +59,8 @@ class Workbench {
 
   // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). The record has no metric that is a
   // time: see measure/pass_times.h. Throws Error.
-  Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve);
+  Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
+                      ShadedMetrics shaded = ShadedMetrics::yes);
 
   // One sample of the time of each pass that is asked for. The images of the last measurement may be gone afterwards.
   // Throws Error.

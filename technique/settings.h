@@ -113,6 +113,9 @@ struct FilterSettings {
   double operator[](std::string_view parameter) const;
   int whole(std::string_view parameter) const { return static_cast<int>((*this)[parameter]); }
 
+  // The same kind, and the same value of each parameter, also of those that this kind does not read.
+  bool operator==(const FilterSettings&) const = default;
+
  private:
   static std::vector<double> defaults();
   std::vector<double> values_ = defaults();  // in the order of filter_parameters() (technique/filters.h)

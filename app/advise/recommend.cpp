@@ -153,7 +153,7 @@ class Search {
     // Edges move by the texel and by what the filter blurs, whatever the bias.
     for (const Candidate& other : candidates())
       if (other.tried.eye && !other.holds() && other.tried.place == tried.place &&
-          same_filter(other.tried.settings.filter, tried.settings.filter) &&
+          other.tried.settings.filter == tried.settings.filter &&
           other.tried.settings.map.resolution >= tried.settings.map.resolution &&
           other.tried.eye->edge_p95_pixels > most_edges(request_)) {
         tried.why_not = fmt::format("its shadow edges are no nearer to the true ones than those of {}",
@@ -185,7 +185,7 @@ class Search {
                                                           tried.settings.filter, tried.settings.map.resolution),
                                      request_.width_px);
       there.map.placements = searched_placements;
-      PointRecord record = bench_.measure(there, searched_).record;
+      PointRecord record = bench_.measure(there, searched_, shaded_metrics_for(request_.accuracy)).record;
       if (nothing_judged(record)) {
         say_("a view in which nothing can be judged is left out");
         continue;

@@ -74,7 +74,7 @@ PointRecord::Worst worst_of_bias(const Measurement& m) {
 
 std::optional<int> constant_bias_resolution(Workbench& bench, const Settings& settings, const CurveOptions& bounds) {
   PhaseOptions options;
-  options.rows = 17, options.coarsest = 1024, options.finest = 16384;
+  options.rows = 17, options.coarsest = 1024, options.finest = 16384, options.usable_only = true;
   static_cast<CauseBounds&>(options) = bounds;
   try {
     const PhaseDiagram diagram = bench.phase(phase_settings(settings, bench.scene(settings.scene)), options);

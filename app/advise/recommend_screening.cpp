@@ -13,12 +13,6 @@
 
 namespace noonmark {
 
-bool same_filter(const FilterSettings& a, const FilterSettings& b) {
-  Settings first, second;
-  first.filter = a, second.filter = b;
-  return settings_map(first) == settings_map(second);
-}
-
 std::string name_of(const Tried& tried, const AdviceRequest& request) {
   const FilterSettings& filter = tried.settings.filter;
   const MapPlace& place = request.places[tried.place];
@@ -71,8 +65,7 @@ const Candidate* Screening::find(const Is& is) const {
 const Candidate* Screening::known(const Choice& choice) const {
   return find([&](const Candidate& one) {
     return one.level == choice.level && one.tried.place == choice.place &&
-           one.tried.settings.map.resolution == choice.resolution &&
-           same_filter(one.tried.settings.filter, choice.filter);
+           one.tried.settings.map.resolution == choice.resolution && one.tried.settings.filter == choice.filter;
   });
 }
 
@@ -112,7 +105,7 @@ bool Screening::fails_for_good(const Choice& choice) const {
            const Tried& tried = coarser.tried;
            const int resolution = tried.settings.map.resolution;
            return coarser.level == choice.level && tried.place == choice.place && tried.nearest &&
-                  resolution < choice.resolution && same_filter(tried.settings.filter, choice.filter) &&
+                  resolution < choice.resolution && tried.settings.filter == choice.filter &&
                   excess(*tried.nearest, searched_) * resolution > request_.resolutions.back();
          }) != nullptr;
 }
@@ -133,7 +126,7 @@ bool Screening::another_bias_can_pay(const Choice& choice) const {
 // the order of their reach.
 bool Screening::lesser_filter_has_no_window(const Choice& choice) const {
   for (const FilterSettings& lesser : request_.filters) {
-    if (same_filter(lesser, choice.filter)) return false;
+    if (lesser == choice.filter) return false;
     const Candidate* one = known({choice.level, choice.place, lesser, choice.resolution});
     if (one && one->tried.nearest) return true;
   }
@@ -144,7 +137,7 @@ bool Screening::lesser_filter_has_no_window(const Choice& choice) const {
 bool Screening::more_blur_is_worse(const Choice& choice) const {
   double before = std::numeric_limits<double>::infinity();
   for (const FilterSettings& lesser : request_.filters) {
-    if (same_filter(lesser, choice.filter)) return false;
+    if (lesser == choice.filter) return false;
     const Candidate* one = known({choice.level, choice.place, lesser, choice.resolution});
     if (!one || !one->tried.bias) continue;
     if (one->tried.screened_error > before || one->edges_mean_pixels > 2 * most_edges(request_)) return true;
@@ -159,8 +152,7 @@ bool Screening::finer_is_not_better(const Choice& choice) const {
   const Candidate* coarser = nullptr;
   for (const Candidate& one : candidates_)
     if (one.level == choice.level && one.tried.place == choice.place && one.tried.bias &&
-        one.tried.settings.map.resolution < choice.resolution &&
-        same_filter(one.tried.settings.filter, choice.filter) &&
+        one.tried.settings.map.resolution < choice.resolution && one.tried.settings.filter == choice.filter &&
         (!coarser || one.tried.settings.map.resolution > coarser->tried.settings.map.resolution))
       coarser = &one;
   if (!coarser) return false;
@@ -213,7 +205,7 @@ void Screening::measure(const Choice& choice) {
   try {
     const Settings settings = small_picture(tried.settings, request_.width_px);
     require_memory(bench_.memory(settings, true, false), bench_.memory_of_program(false), "the search");
-    PointRecord record = bench_.measure(settings, searched_).record;
+    PointRecord record = bench_.measure(settings, searched_, shaded_metrics_for(request_.accuracy)).record;
     if (nothing_judged(record))
       throw Error(ErrorKind::usage, "nothing of the scene that faces the light is in view; choose another view");
     if (!seen_) seen_ = seen_share(record);

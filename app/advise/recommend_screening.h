@@ -100,6 +100,4 @@ double most_edges(const AdviceRequest& request);
 // Empty if its error is within the one that is asked for.
 std::string why_too_wrong(const Tried& tried, const AdviceRequest& request);
 
-bool same_filter(const FilterSettings& a, const FilterSettings& b);
-
 }  // namespace noonmark

@@ -88,6 +88,7 @@ Range range_of(const std::vector<Settings>& points, const std::vector<PhasePlace
 std::string measured_text(const Settings& settings, const PhaseOptions& options, const std::string& scene) {
   struct AllMembers : CauseBounds {
     int rows, coarsest, finest, placements, biases_per_octave;
+    bool usable_only;  // never: a report shows all rows
   };
   static_assert(sizeof(PhaseOptions) == sizeof(AllMembers), "every member but the bounds must stand in the text");
   std::string text =

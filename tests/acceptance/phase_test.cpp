@@ -101,6 +101,34 @@ TEST(PhaseDiagram, TexelsOfOneSizeGiveOneRow) {
   }
 }
 
+TEST(PhaseDiagram, UsableRowsAloneAreTheFinestOfAll) {
+  PhaseOptions options{{}, 5, 8, 2048, 4, 4};
+  const Settings settings = small("cube-room", 120, 68);
+  PhaseDiagram all = phase_of(settings, options);
+  // The least Peter Panning of a row without acne. The coarsest row breaks the bound, the finest one does not.
+  const auto least = [&](const PhaseRow& row) {
+    double most = 1;
+    for (size_t i = 0; i < all.bias_m.size(); ++i)
+      if (row.acne_worst[i] <= all.acne_bound) most = std::min(most, row.peter_panning_worst[i]);
+    return most;
+  };
+  ASSERT_GT(least(all.rows.front()), least(all.rows.back()));
+  all.peter_panning_bound = options.peter_panning_bound = (least(all.rows.front()) + least(all.rows.back())) / 2;
+  size_t first = all.rows.size() - 1;
+  while (!all.usable(all.rows[first]).empty()) --first;
+  options.usable_only = true;
+  const PhaseDiagram few = phase_of(settings, options);
+  EXPECT_EQ(few.bias_m, all.bias_m);
+  EXPECT_EQ(few.receivers, all.receivers);
+  ASSERT_EQ(few.rows.size(), all.rows.size() - first);
+  for (size_t r = 0; r < few.rows.size(); ++r) {
+    const PhaseRow &one = few.rows[r], &same = all.rows[first + r];
+    EXPECT_EQ(one.resolution, same.resolution);
+    EXPECT_EQ(one.acne_worst, same.acne_worst);
+    EXPECT_EQ(one.peter_panning_worst, same.peter_panning_worst);
+  }
+}
+
 TEST(PhaseDiagram, SaysWhatItCannotShow) {
   EXPECT_THROW(phase_of(small("point-room"), {}), Error);
   EXPECT_THROW(phase_of(with({{"bias.slope", "0.01"}}, small("cube-room")), {}), Error);

@@ -1,0 +1,115 @@
+// The data of flat maps at some of their texels: uploaded by tiles, read back by a list. A large map has many more texels
+// than a picture asks for, so that all of them would take most of the time of a small picture.
+#include <algorithm>
+#include <bit>
+
+#include "gl/renderer_impl.h"
+
+namespace noonmark::gl {
+namespace {
+
+constexpr int tile_side = TexelSet::side;
+
+// Texels that are read with one draw: rows of the list, and texels in a row. 1024 x 1024 of them take 16 MiB on both
+// sides of OpenGL.
+constexpr int list_side = 1024;
+
+// The texels of tile n, in the image of a row of tiles whose first column is `left`.
+void put_tile(const MapDepths& map, size_t n, int left, int width, std::vector<float>& image) {
+  const TexelSet& texels = *map.texels;
+  const auto column = static_cast<size_t>(texels.origin(n).x - left);
+  size_t index = texels.first(n);
+  for (int row = 0; row < tile_side; ++row) {
+    const size_t first = static_cast<size_t>(row) * static_cast<size_t>(width) + column;
+    for (uint64_t bits = texels.bits(n, row); bits; bits &= bits - 1, ++index)
+      image[first + static_cast<size_t>(std::countr_zero(bits))] = map.depth[index];
+  }
+}
+
+// Writes these tiles, neighbours in a row of tiles with one call.
+void write_tiles(GLuint texture, const MapDepths& map, float elsewhere, const std::vector<uint8_t>& wanted) {
+  const glm::ivec2 size = map.size();
+  const size_t across = static_cast<size_t>((size.x + tile_side - 1) / tile_side);
+  std::vector<float> image;
+  for (size_t first = 0; first < wanted.size();) {
+    const size_t end_of_row = (first / across + 1) * across;
+    const auto is_wanted = [&](size_t n) { return n < end_of_row && wanted[n]; };
+    size_t end = first;
+    while (is_wanted(end)) ++end;
+    if (end == first) {
+      ++first;
+      continue;
+    }
+    const glm::ivec2 corner = map.texels->origin(first);
+    const int width = std::min(static_cast<int>(end - first) * tile_side, size.x - corner.x),
+              height = std::min(tile_side, size.y - corner.y);
+    image.assign(static_cast<size_t>(width) * static_cast<size_t>(height), elsewhere);
+    for (size_t n = first; n < end; ++n)
+      if (map.texels->count(n)) put_tile(map, n, corner.x, width, image);
+    glTextureSubImage2D(texture, 0, corner.x, corner.y, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, image.data());
+    first = end;
+  }
+}
+
+}  // namespace
+
+TiledMap Renderer::Impl::upload_tiles(const MapDepths& map, float elsewhere, Wrap wrap) {
+  const int side = map.size().x;
+  const TexelSet& texels = *map.texels;
+  TiledMap made = spare_or_new(*uploaded, GL_DEPTH_COMPONENT32F, side, wrap);
+  if (made.elsewhere != elsewhere) {
+    glClearTexImage(made.texture.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &elsewhere);
+    made.elsewhere = elsewhere;
+    made.written.assign(texels.tiles(), 0);
+  }
+  std::vector<uint8_t> written(texels.tiles()), wanted = made.written;
+  for (size_t n = 0; n < texels.tiles(); ++n)
+    if (texels.count(n)) written[n] = wanted[n] = 1;
+  write_tiles(made.texture.id(), map, elsewhere, wanted);
+  made.written = std::move(written);
+  return made;
+}
+
+void Renderer::Impl::read_listed(GLuint map, const TexelSet& texels, std::span<float> depth) {
+  require(listed_texels, GL_R32UI, list_side, list_side);
+  require(listed_depths, GL_R32F, list_side, list_side);
+  Program& program = programs.get({"shaders/screen.vert", "shaders/read_texels.frag"});
+  std::vector<uint32_t> list;
+  list.reserve(std::min<size_t>(texels.count(), list_side * list_side));
+  std::vector<float> found;
+  size_t done = 0;
+  const auto read = [&] {
+    const size_t count = list.size();
+    const int rows = static_cast<int>((count + list_side - 1) / list_side);
+    list.resize(static_cast<size_t>(rows) * list_side);  // the rest of the last row reads texel (0, 0)
+    found.resize(list.size());
+    glTextureSubImage2D(listed_texels.texture.id(), 0, 0, 0, list_side, rows, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                        list.data());
+    draw_into({listed_depths.texture.id()}, 0, list_side, rows);
+    glBindTextureUnit(2, map);
+    glBindTextureUnit(6, listed_texels.texture.id());
+    draw_screen(program);
+    glGetTextureSubImage(listed_depths.texture.id(), 0, 0, 0, 0, list_side, rows, 1, GL_RED, GL_FLOAT,
+                         static_cast<GLsizei>(found.size() * sizeof(float)), found.data());
+    std::copy_n(found.begin(), count, depth.begin() + static_cast<std::ptrdiff_t>(done));
+    done += count;
+    list.clear();
+  };
+  for (size_t n = 0; n < texels.tiles(); ++n) {
+    if (!texels.count(n)) continue;
+    const glm::ivec2 corner = texels.origin(n);
+    for (int row = 0; row < tile_side; ++row)
+      for (uint64_t bits = texels.bits(n, row); bits; bits &= bits - 1) {
+        list.push_back(static_cast<uint32_t>(corner.x + std::countr_zero(bits)) | static_cast<uint32_t>(corner.y + row)
+                                                                                      << 16);
+        if (list.size() == size_t{list_side} * list_side) read();
+      }
+  }
+  if (!list.empty()) read();
+  glBindTextureUnit(6, 0);
+  glBindTextureUnit(2, 0);
+  detach(1);
+  context->check("read_map");
+}
+
+}  // namespace noonmark::gl

@@ -1,0 +1,63 @@
+// Textures of flat maps that are looked up no more, for the next maps of the same side. What a texture of an uploaded map
+// holds is known, so that the next one writes only the tiles that hold something else (renderer_map_tiles.cpp). And new
+// memory costs more than it seems: the driver clears it, and the system gives it page by page.
+//
+//   SpareMaps spares(2);
+//   spares.put(std::move(map));                                              // at the end of a ShadowMap
+//   std::optional<TiledMap> next = spares.take(GL_DEPTH_COMPONENT32F, 1024);  // empty: make one
+//
+// The context must be current for every call, because textures are deleted.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "gl/gl_objects.h"
+
+namespace noonmark::gl {
+
+// A flat map. All its texels are known to have the depth `elsewhere`, but for those of some tiles.
+struct TiledMap {
+  Texture texture;
+  GLenum format = 0;
+  int side = 0;                                               // texels
+  float elsewhere = std::numeric_limits<float>::quiet_NaN();  // NaN: nothing is known, as of a drawn map
+  std::vector<uint8_t>
+      written{};  // for each tile of a TexelSet of this size: 1 if a texel of it may have another depth
+};
+
+class SpareMaps {
+ public:
+  static constexpr size_t most_map_bytes = size_t{128} << 20;  // of one map; a larger one is deleted
+
+  // most: maps that are kept. Their memory is there already, so that put() allocates nothing: destructors call it.
+  explicit SpareMaps(size_t most) : most_(most) { maps_.reserve(most); }
+
+  // Deletes the maps of other formats and sides.
+  std::optional<TiledMap> take(GLenum format, int side) {
+    std::erase_if(maps_, [&](const TiledMap& map) { return map.format != format || map.side != side; });
+    if (maps_.empty()) return std::nullopt;
+    TiledMap map = std::move(maps_.back());
+    maps_.pop_back();
+    return map;
+  }
+  // Deletes the map if there are enough.
+  void put(TiledMap map) {
+    const auto side = static_cast<size_t>(map.side);
+    if (maps_.size() < most_ && side * side * sizeof(float) <= most_map_bytes) maps_.push_back(std::move(map));
+  }
+  // Deletes the maps of any other side. So they take no memory beside maps of another size.
+  void keep_only(int side) {
+    std::erase_if(maps_, [&](const TiledMap& map) { return map.side != side; });
+  }
+  void clear() { maps_.clear(); }
+  size_t count() const { return maps_.size(); }
+
+ private:
+  size_t most_;
+  std::vector<TiledMap> maps_;
+};
+
+}  // namespace noonmark::gl
