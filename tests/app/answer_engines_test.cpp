@@ -1,0 +1,64 @@
+// recommend --engine takes what holds in the engine, too.
+#include "app/advise/answer_engines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+AdviceRequest small_request() {
+  AdviceRequest request;
+  Settings settings;
+  settings.scene.name = "cube-room";
+  settings.view.width_px = 320, settings.view.height_px = 180;
+  settings.map.fit = MapFit::tight;
+  request.conditions = {settings};
+  request.places = {place_as_given()};
+  request.levels = {bias_levels().front()};
+  request.filters = {{"none", {}}, {"hardware", {}}};
+  request.resolutions = {1024};
+  return request;
+}
+
+const auto quiet = [](const std::string&) {};
+
+TEST(AnswerInEngines, IsNotWhatFailsElsewhere) {
+  Workbench bench(gl::DebugMode::fatal);
+  AdviceRequest request = small_request();
+  const Advice free = search(bench, request, quiet);
+  ASSERT_NE(free.answer(), nullptr);
+  ASSERT_EQ(free.answer()->tried.settings.filter.kind, "none");
+  size_t asked = 0;
+  request.why_not_elsewhere = [&](const Tried& tried) {
+    ++asked;
+    EXPECT_TRUE(tried.bias.has_value());
+    return tried.settings.filter.kind == "none" ? "in an engine it has 1% acne" : "";
+  };
+  const Advice held = search(bench, request, quiet);
+  EXPECT_GT(asked, 1u);
+  ASSERT_NE(held.answer(), nullptr);
+  EXPECT_EQ(held.answer()->tried.settings.filter.kind, "hardware");
+  EXPECT_TRUE(std::any_of(held.tried.begin(), held.tried.end(), [](const Tried& tried) {
+    return tried.settings.filter.kind == "none" && tried.why_not == "in an engine it has 1% acne";
+  }));
+}
+
+// three.js does one constant bias without a filter as it is. PlayCanvas always blurs, which needs a larger bias.
+TEST(AnswerInEngines, FailsWhereTheEngineDoesSomethingElse) {
+  Workbench bench(gl::DebugMode::fatal);
+  const AdviceRequest request = small_request();
+  const Advice advice = search(bench, request, quiet);
+  ASSERT_NE(advice.answer(), nullptr);
+  Tried tried = advice.answer()->tried;
+  tried.settings.bias["constant"] = 1.02 * tried.bias->window.low;
+  const std::vector<std::string> three = {"three.js"}, both = {"three.js", "PlayCanvas"};
+  EXPECT_EQ(why_not_in_engines(bench, three, tried, request), "");
+  EXPECT_NE(why_not_in_engines(bench, both, tried, request).find("in PlayCanvas it has"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace noonmark
