@@ -67,7 +67,7 @@ std::string advice_experiment(const Answer& chosen, const Advice& advice, const 
             std::find(values.begin(), values.end(), one) == values.end())
           values.push_back(one);
       over += fmt::format("{} = [{}]\n", name, fmt::join(values, ", "));
-    } else if (name != "scene.name" && (value != row.get(Settings()) || (relies_on(name) && acts(row)))) {
+    } else if (name != "scene.name" && acts(row) && (value != row.get(Settings()) || relies_on(name))) {
       if (name.substr(0, dot) != group) text += fmt::format("\n[{}]\n", group = name.substr(0, dot));
       text += fmt::format("{} = {}\n", name.substr(dot + 1), toml_value(row, value));
     }
