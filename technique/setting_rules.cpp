@@ -41,7 +41,10 @@ std::string sun_and(const Settings& s, std::optional<LightKind> light, std::stri
         "directional, or leave {} out",
         setting, kind_of_light(*light).name(), setting);
   if (!s.light.position_m) return "";
-  return fmt::format("{} and light.position_m both set the light's direction; leave one of them out", setting);
+  return fmt::format(
+      "{0} and light.position_m both set the light's direction; leave one of them out, or give one of them as auto "
+      "(--set {0}=auto takes back what a file sets)",
+      setting);
 }
 
 std::string shifted_cube(std::string_view setting, double texels, std::optional<LightKind> light) {

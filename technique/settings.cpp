@@ -207,8 +207,9 @@ std::vector<Setting> make_table() {
           .idle(where_depths_are_fitted),
       light_kind_row(),
       point("light.position_m", "m",
-            "Position of a spot or point light; the depth of a directional light's map is measured from here; auto: "
-            "the scene's.",
+            "Position of a spot or point light. A directional light shines from here towards light.target_m, and the "
+            "depth "
+            "of its map is measured from here; auto: the scene's.",
             MEMBER(light.position_m)),
       point("light.target_m", "m",
             "The point that the light points at, which is the middle of its map; auto: the scene's.",

@@ -36,26 +36,24 @@ std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer
   std::vector<EngineAdvice> engines = engines_of(bench, answer, request);
   const EnginePromise recommended =
       measure_promises(bench, engines, promised_under(answer, request), request.accuracy, say);
-  for (EngineAdvice& engine : engines) engine.promised = promise_text(engine, recommended, request.curve);
+  for (EngineAdvice& engine : engines) {
+    engine.promised = promise_text(engine, recommended);
+    engine.broken = broken_promise_text(engine, request.curve, request.error);
+  }
   return engines;
 }
 
 std::string why_not_in_engines(Workbench& bench, std::span<const std::string> engines, const Tried& tried,
                                const AdviceRequest& request) {
-  for (const EngineAdvice& advice : engines_of(bench, tried, request)) {
+  for (EngineAdvice& advice : engines_of(bench, tried, request)) {
     if (std::find(engines.begin(), engines.end(), advice.engine) == engines.end()) continue;
     if (advice.lines.empty()) return fmt::format("{} has no lines for it: {}", advice.engine, advice.cannot.front());
     if (!advice.emulated) continue;
     std::vector<Settings> there = promised_under(tried, request);
     for (Settings& condition : there) condition = as_engine(advice, condition);
-    const EnginePromise promise = measured_promise(bench, there, request.accuracy);
-    const auto broken = [&](const char* what, double found, double most) {
-      return found <= most ? "" : fmt::format("in {} it has {:.3g}% {}", advice.engine, 100 * found, what);
-    };
-    for (const std::string& why : {broken("acne", promise.acne, request.curve.acne_bound),
-                                   broken("Peter Panning", promise.peter_panning, request.curve.peter_panning_bound),
-                                   broken("error", promise.error, request.error.value_or(1))})
-      if (!why.empty()) return why;
+    advice.promise = measured_promise(bench, there, request.accuracy);
+    if (const std::string broken = broken_promise_text(advice, request.curve, request.error); !broken.empty())
+      return fmt::format("in {} {}", advice.engine, broken);
   }
   return "";
 }

@@ -70,20 +70,24 @@ EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engi
   return recommended;
 }
 
-std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended, const CurveOptions& bounds) {
+std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended) {
   if (!advice.promise) return "error not known: " + advice.why_not_emulated;
-  std::string text =
-      fmt::format("error {} with these lines (recommended: {}){}", percent_of(advice.promise->error),
-                  percent_of(recommended.error), advice.promise->all_views ? "" : ", measured at the given view alone");
+  return fmt::format("error {} with these lines (recommended: {}){}", percent_of(advice.promise->error),
+                     percent_of(recommended.error),
+                     advice.promise->all_views ? "" : ", measured at the given view alone");
+}
+
+std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& bounds, std::optional<double> error) {
+  if (!advice.promise) return "";
   std::string broken;
   const auto compare = [&](const char* name, double value, double bound) {
     if (value <= bound) return;
-    broken += fmt::format("{}{} {}", broken.empty() ? "; " : ", ", name, percent_of(value));
+    broken += fmt::format("{}{} {} (bound {})", broken.empty() ? "" : ", ", name, percent_of(value), percent_of(bound));
   };
   compare("acne", advice.promise->acne, bounds.acne_bound);
   compare("Peter Panning", advice.promise->peter_panning, bounds.peter_panning_bound);
-  if (!broken.empty()) text += broken + ": above the bound, so these lines are not an answer";
-  return text;
+  if (error) compare("error", advice.promise->error, *error);
+  return broken.empty() ? "" : "these lines are not an answer: " + broken;
 }
 
 }  // namespace noonmark

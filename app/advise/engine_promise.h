@@ -2,9 +2,10 @@
 // Noonmark with the same effect as these lines in the engine, and they are measured as any settings are.
 //
 //   const EnginePromise recommended = measure_promises(bench, engines, under_conditions(answer, request), "error", say);
-//   print(promise_text(engines[0], recommended, request.curve));   // "error 0.31% with these lines (recommended: 0.29%)"
+//   print(promise_text(engines[0], recommended));   // "error 0.31% with these lines (recommended: 0.29%)"
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,8 +28,11 @@ EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engi
                                std::span<const Settings> conditions, const std::string& accuracy,
                                const std::function<void(const std::string&)>& say);
 
-// One sentence without a full stop: the error with the lines, beside the recommended one, and which bounds they break. recommended:
-// as measure_promises() returns it.
-std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended, const CurveOptions& bounds);
+// One sentence without a full stop: the error with the lines, beside the recommended one. recommended: as measure_promises() returns it.
+std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended);
+
+// The same of the bounds that the lines break: "these lines are not an answer: acne 0.5% (bound 0.1%)". error: the most error, if one was
+// asked for. Empty: they break none, or it is not known.
+std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& bounds, std::optional<double> error);
 
 }  // namespace noonmark

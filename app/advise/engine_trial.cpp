@@ -1,6 +1,7 @@
 #include "app/advise/engine_trial.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -243,8 +244,14 @@ void try_engines(Workbench& bench, const TrialPlan& plan, std::vector<EngineAdvi
   Trial trial(bench, plan, bounds, out);
   for (const std::string& name : plan.names) {
     const EngineAdapter& adapter = engine_adapter(name);
-    for (EngineAdvice& advice : engines)
-      if (advice.engine == adapter.engine) advice.trial = trial.of(adapter, advice, say);
+    for (EngineAdvice& advice : engines) {
+      if (advice.engine != adapter.engine) continue;
+      advice.trial = trial.of(adapter, advice, say);
+      for (const TrialView& view : advice.trial->views)
+        if (!view.broken.empty() && advice.broken.empty())
+          advice.broken = fmt::format("these lines are not an answer: in the engine, view {}, {}", view.name,
+                                      fmt::join(view.broken, " and "));
+    }
   }
 }
 

@@ -3,7 +3,7 @@
 //
 //   const TrialPlan plan = plan_trial(bench, request.conditions, {"three"}, "");   // before the search
 //   try_engines(bench, plan, engines, {.bounds = request.curve, .accuracy = "error_soft"}, out, say);
-//   for (const std::string& line : trial_text(engines)) print(line);
+//   for (const std::string& line : trial_text(engines[0])) print(line);
 //   return broken_in_engine(engines) ? 1 : 0;
 #pragma once
 #include <functional>
@@ -39,13 +39,12 @@ TrialPlan plan_trial(Workbench& bench, const std::vector<Settings>& conditions, 
 // The folder of the frames below that of the recommendation, and what may be removed of an earlier one.
 inline constexpr const char* trial_folder = "recommended-engines";
 
-// Sets EngineAdvice::trial of the plan's engines, and adds what was measured to EngineAdvice::promised. out: the
-// recommendation's folder. An adapter that gives no frame ends nothing: the trial says so. Throws Error.
+// Sets EngineAdvice::trial of the plan's engines, and EngineAdvice::broken if a bound breaks there. out: the recommendation's folder. An adapter that gives no frame ends nothing: the trial says so. Throws Error.
 void try_engines(Workbench& bench, const TrialPlan& plan, std::vector<EngineAdvice>& engines, const TrialBounds& bounds,
                  const std::string& out, const std::function<void(const std::string&)>& say);
 
-// A table for each engine that was tried, and a sentence for each bound that breaks there.
-std::vector<std::string> trial_text(const std::vector<EngineAdvice>& engines);
+// The table of an engine, and a sentence for each bound that breaks there. Empty: it was not tried.
+std::vector<std::string> trial_text(const EngineAdvice& engine);
 
 // Whether lines do not hold in their engine.
 bool broken_in_engine(const std::vector<EngineAdvice>& engines);

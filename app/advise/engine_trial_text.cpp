@@ -36,27 +36,24 @@ std::vector<std::string> trial_table(const EngineAdvice& engine) {
 
 }  // namespace
 
-std::vector<std::string> trial_text(const std::vector<EngineAdvice>& engines) {
+std::vector<std::string> trial_text(const EngineAdvice& engine) {
+  if (!engine.trial) return {};
+  const EngineTrial& trial = *engine.trial;
   std::vector<std::string> lines;
-  for (const EngineAdvice& engine : engines) {
-    if (!engine.trial) continue;
-    const EngineTrial& trial = *engine.trial;
-    if (!trial.views.empty())
-      for (std::string& line : trial_table(engine)) lines.push_back(std::move(line));
-    if (!trial.no_frame.empty()) lines.push_back(fmt::format("{}: {}.", engine.engine, trial.no_frame));
-    for (const TrialView& view : trial.views) {
-      if (!view.refused.empty())
-        lines.push_back(
-            fmt::format("{}, view {}: the frame is not judged, because {}.", engine.engine, view.name, view.refused));
-      if (!view.broken.empty())
-        lines.push_back(fmt::format(
-            "{}, view {}: measured {}{}. So these lines are not an answer in this engine.", engine.engine, view.name,
-            fmt::join(view.broken, " and "),
-            view.promise
-                ? fmt::format(", promised acne {:.3g}%, Peter Panning {:.3g}% and error {:.3g}%",
-                              100 * view.promise->acne, 100 * view.promise->peter_panning, 100 * view.promise->error)
-                : ""));
-    }
+  if (!trial.views.empty()) lines = trial_table(engine);
+  if (!trial.no_frame.empty()) lines.push_back(fmt::format("{}: {}.", engine.engine, trial.no_frame));
+  for (const TrialView& view : trial.views) {
+    if (!view.refused.empty())
+      lines.push_back(
+          fmt::format("{}, view {}: the frame is not judged, because {}.", engine.engine, view.name, view.refused));
+    if (!view.broken.empty())
+      lines.push_back(fmt::format(
+          "{}, view {}: measured {}{}. So these lines are not an answer in this engine.", engine.engine, view.name,
+          fmt::join(view.broken, " and "),
+          view.promise
+              ? fmt::format(", promised acne {:.3g}%, Peter Panning {:.3g}% and error {:.3g}%",
+                            100 * view.promise->acne, 100 * view.promise->peter_panning, 100 * view.promise->error)
+              : ""));
   }
   return lines;
 }

@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/results/quantities.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 
@@ -255,13 +256,16 @@ class Search {
     }
   }
 
-  Answer answer_of(const Candidate& one, std::vector<AnswerKind> kinds) const {
+  Answer answer_of(const Candidate& one, std::vector<AnswerKind> kinds) {
     Answer answer;
     answer.kinds = std::move(kinds);
     answer.tried = one.tried;
     answer.doubled_cost = screening_.cost_at(one, 2 * one.tried.settings.map.resolution);
     answer.conditions = one.conditions;
     answer.placements = searched_placements * searched_placements;
+    if (const LightFrame frame = make_light_frame(bench_.scene(one.tried.settings.scene), one.tried.settings);
+        frame.kind == LightKind::directional)
+      answer.extent_m = frame.extent_m;
     answer.verified = *one.verified;
     return answer;
   }

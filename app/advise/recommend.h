@@ -58,7 +58,9 @@ struct AdviceRequest {
   std::optional<double> error;   // the most of `accuracy`
   std::optional<double> budget;  // the most texel_work; empty: budget_of_least times that of `least`
   AnswerKind answer = AnswerKind::least;
+  std::vector<std::string> about;    // what it is asked for, as sentences (app/advise/recommend_about.h)
   std::string given;                 // what the user gave that decides the answer, for a sentence; empty: nothing
+  std::string source_of_bounds;      // for a sentence: "the defaults of recommend"; empty: it is not said
   int width_px = least_searched_px;  // of the pictures that are searched on
   // Further reasons why settings with their bias are no answer, as a sentence; empty: none. Asked last, of few.
   std::function<std::string(const Tried&)> why_not_elsewhere;
@@ -88,6 +90,7 @@ struct Answer {
   std::vector<AnswerKind> kinds;  // one answer can be several of the three
   Tried tried;
   double doubled_cost = 0;  // texel_work with twice the texels on a side
+  double extent_m = 0;      // of a directional light's map under the first condition; 0: the light is another one
   size_t conditions = 0;
   int placements = 0;  // that were searched, under each condition
   Verified verified;   // at other placements

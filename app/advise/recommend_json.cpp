@@ -1,8 +1,10 @@
 // What was found, for programs (recommend_text.h).
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/advise/engine_trial_json.h"
 #include "app/advise/recommend_text.h"
+#include "scenes/library.h"
 
 namespace noonmark {
 namespace {
@@ -36,6 +38,17 @@ nlohmann::json around_json(const Tornado& tornado) {
 
 }  // namespace
 
+std::string subject_of(const Settings& settings) {
+  const std::string& name = settings.scene.name;
+  return names_file(name) ? std::filesystem::absolute(name).lexically_normal().string() : name;
+}
+
+std::string subject_in(const std::string& advice) {
+  const nlohmann::json found = nlohmann::json::parse(advice, nullptr, false);
+  return found.is_object() && found.contains("scene") && found["scene"].is_string() ? found["scene"].get<std::string>()
+                                                                                    : "";
+}
+
 std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines) {
   using nlohmann::json;
   const auto of = [](const Tried& tried) {
@@ -58,6 +71,9 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
   };
   json all;
   all["text"] = advice_text(advice);
+  all["rejected"] = rejected_text(advice);
+  all["notes"] = advice.request.about;
+  all["scene"] = subject_of(advice.request.conditions.front());
   all["accuracy"] = advice.request.accuracy;
   all["answer"] = json();
   all["answers"] = json::object();
@@ -89,6 +105,7 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
              {"cannot", engine.cannot},
              {"source", engine.source}};
     if (engine.emulated) one["settings"] = settings_map(*engine.emulated);
+    if (!engine.broken.empty()) one["broken"] = engine.broken;
     if (engine.promise)
       one["promise"] = promise_json(*engine.promise), one["promise"]["all_views"] = engine.promise->all_views;
     if (engine.trial) one["tried"] = trial_json(*engine.trial);

@@ -23,10 +23,19 @@ std::string filter_text(const FilterSettings& filter) {
   return fmt::format("the filter {}", filter.kind);
 }
 
-std::string settings_text(const Tried& tried, const AdviceRequest& request) {
+// "19.5 mm", "1.2 m"
+std::string length_text(double metres) {
+  return metres < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
+}
+
+// extent_m: of a directional light's map, to say how wide it and its texels are; 0: that is not said.
+std::string settings_text(const Tried& tried, const AdviceRequest& request, double extent_m = 0) {
   const MapPlace& place = request.places[tried.place];
   std::string text = fmt::format("a map of {0} x {0} texels", tried.settings.map.resolution);
   if (!place.covers.empty()) text += fmt::format(" over {}, {:.4g} m wide", place.covers, place.extent_m);
+  if (extent_m > 0)
+    text += fmt::format("{} ({} a texel)", place.covers.empty() ? fmt::format(", {:.4g} m wide", extent_m) : "",
+                        length_text(extent_m / tried.settings.map.resolution));
   text += fmt::format(", {}", filter_text(tried.settings.filter));
   if (tried.settings.bias.reference != "own_depth")
     text += fmt::format(", bias.reference = {}", tried.settings.bias.reference);
@@ -53,6 +62,13 @@ std::string causes_text(const PointRecord& point) {
 std::string bounds_text(const CurveOptions& bounds) {
   return fmt::format("acne within {} and Peter Panning within {}", percent(bounds.acne_bound),
                      percent(bounds.peter_panning_bound));
+}
+
+// With a gloss for readers who meet the words here first.
+std::string glossed_bounds_text(const CurveOptions& bounds) {
+  return fmt::format(
+      "acne (a surface shadows itself) within {} and Peter Panning (a shadow leaves its object) within {}",
+      percent(bounds.acne_bound), percent(bounds.peter_panning_bound));
 }
 
 std::string eye_bounds_text(const AdviceRequest& request) {
@@ -219,13 +235,12 @@ std::string kinds_text(const Answer& answer) {
 // The answers as a table, one line each, under a line of heads.
 std::vector<std::string> answers_table(const Advice& advice) {
   std::vector<std::vector<std::string>> rows = {
-      {"answer", "work", "error", "edges, mean and 95%", "largest patch", "bias may vary", "settings"}};
+      {"answer", "work", "error", "edges in pixels, mean and 95%", "largest patch", "bias may vary", "settings"}};
   for (const Answer& answer : advice.answers) {
     const Tried& tried = answer.tried;
     rows.push_back(
         {kinds_text(answer), million(tried.cost), percent(tried.error),
-         tried.eye ? fmt::format("{:.2f} and {:.3g} pixels", tried.eye->edge_mean_pixels, tried.eye->edge_p95_pixels)
-                   : "-",
+         tried.eye ? fmt::format("{:.2f} and {:.3g}", tried.eye->edge_mean_pixels, tried.eye->edge_p95_pixels) : "-",
          tried.eye ? percent(tried.eye->wrong_patch) : "-", tried.bias ? may_vary(*tried.bias) : "-",
          settings_text(tried, advice.request)});
   }
@@ -238,6 +253,30 @@ std::vector<std::string> answers_table(const Advice& advice) {
     for (size_t i = 0; i + 1 < row.size(); ++i) line += fmt::format(" {:<{}} ", row[i], widths[i]);
     lines.push_back(line + " " + row.back());
   }
+  return lines;
+}
+
+// Of which pictures the numbers of the table are. Others measure others: that is why their numbers differ.
+std::string pictures_text(const Advice& advice, const Answer& answer) {
+  const Settings& settings = answer.tried.settings;
+  std::string text = fmt::format(
+      "Work is that of a picture of {} x {} pixels. Error is the largest under {} and at {} placements of the map's "
+      "grid, in "
+      "pictures {} pixels wide; recommended.toml measures full pictures, so its report has other numbers.",
+      settings.view.width_px, settings.view.height_px, counted(answer.conditions, "condition"), answer.placements,
+      std::min(advice.request.width_px, settings.view.width_px));
+  if (answer.tried.eye)
+    text +=
+        " Edges and patch are measured at the given view, in full size: a camera that comes closer shows the texels.";
+  return text;
+}
+
+// What it is asked for.
+std::vector<std::string> about_lines(const AdviceRequest& request) {
+  std::vector<std::string> lines = request.about;
+  if (!request.given.empty())
+    lines.push_back(
+        fmt::format("The answer is for what was given: {}. For the scene alone it can be another one.", request.given));
   return lines;
 }
 
@@ -263,18 +302,24 @@ std::string steps_text(const Advice& advice) {
 }  // namespace
 
 std::vector<std::string> advice_text(const Advice& advice) {
-  if (!advice.answer()) return nothing_works(advice);
+  if (!advice.answer()) {
+    std::vector<std::string> lines = about_lines(advice.request);
+    for (std::string& line : nothing_works(advice)) lines.push_back(std::move(line));
+    return lines;
+  }
   const Answer& answer = *advice.answer();
   const Tried& tried = answer.tried;
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = about_lines(advice.request);
   if (advice.shadowed == 0) lines.push_back(needed_text(advice));
-  lines.push_back(fmt::format("Set {}.", settings_text(tried, advice.request)));
+  lines.push_back(fmt::format("Set {}.", settings_text(tried, advice.request, answer.extent_m)));
   lines.push_back(fmt::format(
-      "That is the answer \"{}\". All answers keep {}{}{}:", kinds_text(answer), bounds_text(advice.request.curve),
-      eye_bounds_text(advice.request),
+      "That is the answer \"{}\". All answers keep {}{}{}{}:", kinds_text(answer),
+      glossed_bounds_text(advice.request.curve), eye_bounds_text(advice.request),
       advice.request.error ? fmt::format(", {} within {}", advice.request.accuracy, percent(*advice.request.error))
-                           : ""));
+                           : "",
+      advice.request.source_of_bounds.empty() ? "" : fmt::format(" (bounds: {})", advice.request.source_of_bounds)));
   for (std::string& line : answers_table(advice)) lines.push_back(std::move(line));
+  lines.push_back(pictures_text(advice, answer));
   if (std::string steps = steps_text(advice); !steps.empty()) lines.push_back(std::move(steps));
   if (tried.bias)
     lines.push_back(fmt::format(
@@ -320,25 +365,30 @@ std::vector<std::string> advice_text(const Advice& advice) {
   else
     lines.push_back(fmt::format("Nothing cheaper was tried: the smallest map among the choices has {} texels a side.",
                                 advice.request.resolutions.front()));
-  if (advice.least_resolution)
-    lines.push_back(constant_text(*advice.least_resolution) +
-                    fmt::format(" The bias of this answer keeps them at {} texels, under all conditions.",
-                                tried.settings.map.resolution));
-  for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
-  if (!advice.request.given.empty())
-    lines.push_back(fmt::format("The answer is for what was given: {}. For the scene alone it can be another one.",
-                                advice.request.given));
   if (advice.around)
     for (std::string& line : tornado_text(*advice.around)) lines.push_back(std::move(line));
   return lines;
 }
 
+std::vector<std::string> rejected_text(const Advice& advice) {
+  if (!advice.answer()) return {};
+  std::vector<std::string> lines;
+  if (advice.least_resolution)
+    lines.push_back(constant_text(*advice.least_resolution) +
+                    fmt::format(" The bias of this answer keeps them at {} texels, under all conditions.",
+                                advice.answer()->tried.settings.map.resolution));
+  for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
+  return lines;
+}
+
 std::vector<std::string> engine_lines(const EngineAdvice& engine) {
   std::vector<std::string> lines = engine.lines;
-  if (lines.empty())
+  if (lines.empty()) {
     lines.push_back(fmt::format("{} {}", engine.comment, engine.cannot.front()));
-  else if (!engine.promised.empty())
-    lines.push_back(fmt::format("{} {}", engine.comment, engine.promised));
+    return lines;
+  }
+  if (!engine.broken.empty()) lines.insert(lines.begin(), fmt::format("{} {}", engine.comment, engine.broken));
+  if (!engine.promised.empty()) lines.push_back(fmt::format("{} {}", engine.comment, engine.promised));
   return lines;
 }
 

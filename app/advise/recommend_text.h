@@ -8,14 +8,18 @@
 
 namespace noonmark {
 
-// Sentences, one in each element.
+// The answer as sentences, one in each element: first what it is for (AdviceRequest::about), or that nothing holds.
 std::vector<std::string> advice_text(const Advice& advice);
+
+// Why what is cheaper or simpler than the answer is none; empty without an answer. Sentences as above, for readers who ask.
+std::vector<std::string> rejected_text(const Advice& advice);
 
 // An experiment that `noonmark check` passes: the settings of one of the answers, the conditions, the placements and the bounds.
 // folder: where the file will stand; the path of a scene's file is relative to it.
 std::string advice_experiment(const Answer& answer, const Advice& advice, const std::string& folder);
 
-// What to type into one engine, and as a comment what error it gives, or why there is nothing to type.
+// What to type into one engine, and as a comment what error it gives, or why there is nothing to type. If the lines break a bound, the
+// first comment says so.
 std::vector<std::string> engine_lines(const EngineAdvice& engine);
 
 // What to type into other engines, and what each cannot express. There must be an answer.
@@ -23,5 +27,10 @@ std::string advice_engines(const std::vector<EngineAdvice>& engines);
 
 // Everything that was found, one object. engines: empty without an answer.
 std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines);
+
+// What an answer is for: the absolute path of the scene's file, or the name of the built-in scene; and the same of a text of
+// advice_json(), empty if it does not say it.
+std::string subject_of(const Settings& settings);
+std::string subject_in(const std::string& advice);
 
 }  // namespace noonmark

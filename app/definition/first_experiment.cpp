@@ -30,7 +30,10 @@ std::string light_text(const Model& model, bool room) {
   return "[light]                     # the file shows none, so this is a sun\n"
          "azimuth_deg = -50           # its side: 0 above +Z, the front of a glTF model; 90 above +X\n"
          "elevation_deg = 50          # above the horizon; 90 is overhead, +Y. A low sun makes long shadows and more "
-         "acne\n";
+         "acne\n"
+         "# Or, as in three.js, from a position towards a target, in place of the two lines above:\n"
+         "# position_m = [5, 10, 7]\n"
+         "# target_m = [0, 0, 0]\n";
 }
 
 std::string scene_text(const Model& model, const std::string& path, bool floor) {

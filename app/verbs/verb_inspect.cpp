@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <memory>
 
 #include "app/pictures/pictures.h"
@@ -26,6 +27,10 @@ int inspect_file(const std::string& model, ExperimentArguments arguments) {
   const Settings settings = points(experiment_from("", arguments)).at(0);
   const ModelReport report = inspect_model(settings);
   const std::string& out = outputs.folder;
+  if (!arguments.json) {
+    fmt::print("{}", report_text(report));
+    std::fflush(stdout);  // what follows can end the program: it takes OpenGL and the library of pictures
+  }
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_memory(bench.memory(settings, false, false), bench.memory_of_program(true), "this picture");
@@ -42,7 +47,6 @@ int inspect_file(const std::string& model, ExperimentArguments arguments) {
     fmt::print("{}", report_json(report, picture));
     return 0;
   }
-  fmt::print("{}", report_text(report));
   fmt::print(
       "\n{} shows it with its true shadow: dark grey is in shadow, blue faces away from the light, pale "
       "yellow is ambiguous.\n"

@@ -12,6 +12,7 @@
 #include "app/advise/engine_promise.h"
 #include "app/advise/engine_trial.h"
 #include "app/advise/experiment_engines.h"
+#include "app/advise/recommend_about.h"
 #include "app/advise/recommend_around.h"
 #include "app/advise/recommend_text.h"
 #include "app/definition/default_folder.h"
@@ -20,6 +21,7 @@
 #include "app/sweep/results_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
+#include "app/verbs/recommend_output.h"
 #include "app/verbs/verbs.h"
 #include "base/build_facts.h"
 #include "base/error.h"
@@ -115,6 +117,23 @@ const Experiment& only_part(const Experiment& experiment) {
                   experiment.path, experiment.parts.size(), names));
 }
 
+// Without --out the folder is named after the file or the scene alone. An answer for another scene of that name stays.
+void require_own_advice(const std::string& folder, const std::string& subject) {
+  constexpr uint64_t most_bytes = 1 << 28;
+  const std::string file = folder + "/recommended.json";
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return;
+  if (const std::string other = subject_in(read_file(file, most_bytes)); !other.empty() && other != subject)
+    throw Error(ErrorKind::usage, fmt::format("{}: holds the recommendation for another scene ({}); give --out, or "
+                                              "remove it",
+                                              folder, other));
+}
+
+// A model's file is named after itself alone, as `noonmark init` names its experiment, so that both have one folder.
+std::string folder_of_advice(const std::string& what) {
+  return default_folder(is_experiment(what) ? what : std::filesystem::path(what).filename().string(), recommend_prefix);
+}
+
 // The files of an earlier run, which another answer, or none, would make stale. Before the search, because it can fail.
 void remove_earlier_advice(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -138,7 +157,8 @@ struct RecommendOptions {
   int views = 5;                              // of a scene; 1: its own only
   bool around = false;                        // also what each setting does around the answer
   std::vector<std::string> engines;           // to try the lines in
-  std::string adapters;                       // their folder; empty: the program's own
+  std::optional<std::string> lines;  // the engine whose lines are printed; empty: `engines`, otherwise three.js
+  std::string adapters;              // their folder; empty: the program's own
   ExperimentArguments arguments;
 };
 
@@ -193,6 +213,18 @@ std::string given_text(const Experiment& experiment, const AdviceRequest& reques
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+// Where the bounds are from, for a sentence.
+std::string source_of_bounds(const Experiment& experiment, const RecommendOptions& options) {
+  const CurveOptions usual;
+  std::vector<std::string> sources;
+  if (options.acne || options.peter_panning || options.edges || options.patch) sources.emplace_back("the options");
+  if (experiment.curve.acne_bound != usual.acne_bound ||
+      experiment.curve.peter_panning_bound != usual.peter_panning_bound ||
+      std::any_of(experiment.bounds.begin(), experiment.bounds.end(), is_eye_bound))
+    sources.push_back(printable(experiment.path));
+  return sources.empty() ? "the defaults of recommend" : fmt::format("{}", fmt::join(sources, ", then "));
+}
+
 // What is searched: the conditions, the settings to try, and the bounds.
 AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& options, Workbench& bench) {
   AdviceRequest request;
@@ -220,39 +252,19 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
   request.accuracy = experiment.accuracy;
   request.error = options.error;
   request.budget = options.budget;
+  request.about = about_text(experiment, request.conditions, scene);
   request.given = given_text(experiment, request);
+  request.source_of_bounds = source_of_bounds(experiment, options);
   request.answer = options.answer.value_or(options.budget ? AnswerKind::best : AnswerKind::least);
   return request;
 }
 
-// What to type for each engine, what to know of the scenes, and the files that are written.
-void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines, Workbench& bench,
-                  const std::string& out) {
-  const AdviceRequest& request = advice.request;
-  fmt::print("\nWhat to type (what each engine cannot express is in {}/engines.txt):\n", printable(out));
-  for (const EngineAdvice& engine : engines) {
-    fmt::print("  {} ({})\n", engine.engine, engine.version);
-    for (const std::string& line : engine_lines(engine)) fmt::print("    {}\n", line);
-  }
-  if (const std::string note = notes_line(bench.scene(request.conditions.front().scene)); !note.empty())
-    fmt::print("note: {}\n", printable(note));
-  std::set<std::string> fitted;  // conditions may be lights that stand elsewhere
-  for (const Settings& condition : request.conditions)
-    fitted.insert(map_fit_note(bench.scene(condition.scene), condition));
-  for (const std::string& note : fitted)
-    if (!note.empty()) fmt::print("note: {}\n", printable(note));
-  fmt::print(
-      "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.json, {0}/engines.txt "
-      "and {0}/recommended-*.png are written\n",
-      printable(out));
-  for (const Answer& answer : advice.answers)
-    if (&answer != advice.answer())
-      fmt::print(
-          "{0}/recommended-{1}.toml and {0}/recommended-{1}-*.png are of the answer \"{1}\"; --answer {1} prints its "
-          "lines\n",
-          printable(out), answer_name(answer.kinds.front()));
-  if (advice.around)
-    fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
+// The engines whose lines are printed.
+std::vector<std::string> shown_engines(const RecommendOptions& options) {
+  std::vector<std::string> words = options.engines;
+  if (options.lines) words.push_back(*options.lines);
+  if (words.empty()) words.push_back(engine_words().front());
+  return words;
 }
 
 int recommend(const RecommendOptions& options) {
@@ -261,11 +273,12 @@ int recommend(const RecommendOptions& options) {
   if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
   const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
   const Experiment& experiment = only_part(whole);
-  const std::string out = arguments.out.empty() ? default_folder(what, recommend_prefix) : arguments.out;
+  const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_image_files();
   AdviceRequest request = request_of(experiment, options, bench);
+  if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
   std::optional<TrialPlan> plan;
   if (!options.engines.empty()) {
     plan = plan_trial(bench, request.conditions, options.engines, options.adapters);
@@ -305,12 +318,11 @@ int recommend(const RecommendOptions& options) {
     write_pictures(bench.measure(answer.tried.settings, std::nullopt), out, ".", stem);
   }
   write_file_atomically(out + "/engines.txt", advice_engines(engines));
+  write_file_atomically(out + "/recommended.txt", whole_text(advice));
   if (advice.around)
     write_file_atomically(out + "/recommended.html",
                           to_tornado_page(*advice.around, std::string(build_facts().version)));
-  if (!arguments.json) print_advice(advice, engines, bench, out);
-  if (!arguments.json && plan)
-    for (const std::string& line : trial_text(engines)) fmt::print("{}\n", printable(line));
+  if (!arguments.json) print_advice(advice, engines, shown_engines(options), bench, out);
   require_frames(engines);
   return broken_in_engine(engines) ? 1 : 0;
 }
@@ -385,6 +397,11 @@ RunVerb add_recommend(CLI::App& verb) {
       ->take_all()
       ->delimiter(',')
       ->type_name(joined(names));
+  const std::vector<std::string> words = engine_words();
+  verb.add_option("--lines", options->lines, "The engine whose lines are printed; engines.txt has those of all")
+      ->check(one_of(words))
+      ->type_name(joined(words))
+      ->default_str(fmt::format("those of --engine, otherwise {}", words.front()));
   verb.add_option("--adapters", options->adapters,
                   "Folder of the pages that --engine runs (examples/engines); without it that of this program")
       ->check(not_empty())
@@ -392,8 +409,7 @@ RunVerb add_recommend(CLI::App& verb) {
   add_json(verb, arguments, "Print everything that was found as JSON");
   add_threads(verb, arguments);
   add_out(verb, arguments, "Folder for the files",
-          folders_of({"plate", "checks/helmet.toml"},
-                     [](const std::string& what) { return default_folder(what, recommend_prefix); }));
+          folders_of({"plate", "checks/helmet.toml"}, [](const std::string& what) { return folder_of_advice(what); }));
   return [options](const std::string& command) {
     options->arguments.command = command;
     const ThreadLimit limit(options->arguments.threads);

@@ -30,13 +30,25 @@
 namespace noonmark {
 namespace {
 
+// "; point 0: map.resolution = 512; ..." of the first points.
+std::string points_text(const Experiment& experiment, size_t count) {
+  constexpr size_t most = 8;
+  std::string text;
+  for (size_t id = 0; id < std::min(count, most); ++id) {
+    const std::string part = part_of_point(experiment, static_cast<int64_t>(id)).part;
+    text += fmt::format("; point {}: {}{}", id, part.empty() ? "" : fmt::format("part '{}', ", part),
+                        swept_text(experiment, static_cast<int64_t>(id)));
+  }
+  return count > most ? text + "; ..." : text;
+}
+
 Settings the_point(const Experiment& experiment, long point) {
   const std::vector<Settings> all = points(experiment);
   if (point < 0 && all.size() > 1)
     throw Error(
         ErrorKind::usage,
-        fmt::format("{} has {} points, but render measures one; give --point 0 ... {}, or --set the swept settings",
-                    experiment.path, all.size(), all.size() - 1));
+        fmt::format("{} has {} points, but render measures one; give --point 0 ... {}, or --set the swept settings{}",
+                    experiment.path, all.size(), all.size() - 1, points_text(experiment, all.size())));
   if (point >= static_cast<long>(all.size()))
     throw Error(ErrorKind::usage, fmt::format("there is no point {}; the last one is {}", point, all.size() - 1));
   return all[static_cast<size_t>(std::max(point, 0L))];

@@ -85,6 +85,16 @@ double extreme_of(const PointRecord& point, const std::vector<std::string>& name
   return found;
 }
 
+bool is_of_view(const std::string& setting) { return setting.starts_with("view."); }
+
+// Whether the conditions name a view, and it is the first point's own.
+bool names_given_view(const Conditions& where, std::span<const PointRecord> points) {
+  Conditions view = where;
+  std::erase_if(view, [](const auto& one) { return !is_of_view(one.first); });
+  const bool one_view = std::all_of(view.begin(), view.end(), [](const auto& one) { return one.second.size() == 1; });
+  return !view.empty() && one_view && !points.empty() && matches(points.front(), view);
+}
+
 BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
   check_bound(bound, points);
   BoundResult result;
@@ -95,6 +105,7 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
   result.where = bound.where;
   result.warns = bound.level == "warn";
   result.location = bound.location;
+  result.at_given_view = names_given_view(bound.where, points);
 
   const PlacedNames placed = placed_names(bound.metric);
   Values values;
@@ -176,6 +187,29 @@ bool fits(std::string_view name, std::string_view pattern) {
   return pattern.find_first_not_of('*', in_pattern) == std::string_view::npos;
 }
 
+// given_view: the view's numbers are left out, and "at the given view" stands in their place.
+std::string words_of(const BoundResult& bound, bool given_view) {
+  const auto limit = [unit = bound_unit(bound)](double value) { return quantity_text(value, unit, limit_digits); };
+  std::string text;
+  if (bound.min && bound.max)
+    text = fmt::format("{} <= {} <= {}", limit(*bound.min), bound.metric, limit(*bound.max));
+  else if (bound.max)
+    text = fmt::format("{} <= {}", bound.metric, limit(*bound.max));
+  else
+    text = fmt::format("{} >= {}", bound.metric, limit(bound.min.value_or(not_a_number)));
+  if (given_view) text += " at the given view";
+  std::string_view word = " where ";
+  for (const auto& [name, values] : bound.where) {
+    if (given_view && is_of_view(name)) continue;
+    text += fmt::format("{}{} = {}", word, name, fmt::join(values, " | "));
+    word = " and ";
+  }
+  std::vector<std::string_view> how;
+  if (bound.join != "worst") how.push_back(bound.join);
+  if (!bound.placement.empty()) how.push_back(placement_text(bound));
+  return how.empty() ? text : fmt::format("{} ({})", text, fmt::join(how, ", "));
+}
+
 // Every point with a curve has the curve's quantities, but those of all placements only if there are several.
 bool is_measured(const PointRecord& point, const QuantityInfo& info) {
   if (!info.of_curve) return point.metrics.contains(std::string(info.name));
@@ -254,25 +288,7 @@ std::string_view verdict_of(const BoundResult& bound) {
   return bound.held ? "held" : bound.warns ? "warning" : "broken";
 }
 
-std::string bound_text(const BoundResult& bound) {
-  const auto limit = [unit = bound_unit(bound)](double value) { return quantity_text(value, unit, limit_digits); };
-  std::string text;
-  if (bound.min && bound.max)
-    text = fmt::format("{} <= {} <= {}", limit(*bound.min), bound.metric, limit(*bound.max));
-  else if (bound.max)
-    text = fmt::format("{} <= {}", bound.metric, limit(*bound.max));
-  else
-    text = fmt::format("{} >= {}", bound.metric, limit(bound.min.value_or(not_a_number)));
-  std::string_view word = " where ";
-  for (const auto& [name, values] : bound.where) {
-    text += fmt::format("{}{} = {}", word, name, fmt::join(values, " | "));
-    word = " and ";
-  }
-  std::vector<std::string_view> how;
-  if (bound.join != "worst") how.push_back(bound.join);
-  if (!bound.placement.empty()) how.push_back(placement_text(bound));
-  return how.empty() ? text : fmt::format("{} ({})", text, fmt::join(how, ", "));
-}
+std::string bound_text(const BoundResult& bound) { return words_of(bound, false); }
 
 std::string_view bound_unit(const BoundResult& bound) {
   for (const Metric& row : metrics_table())
@@ -321,7 +337,7 @@ std::string found_text(const BoundResult& bound) {
 }
 
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
-  std::string text = fmt::format("{}: {}", verdict_of(bound), printable(bound_text(bound)));
+  std::string text = fmt::format("{}: {}", verdict_of(bound), printable(words_of(bound, bound.at_given_view)));
   if (!bound.part.empty()) text += fmt::format(" in part {}", printable(bound.part));
   if (bound.points == 0)
     return text +

@@ -88,7 +88,7 @@ std::string failing_pixel_text(const BoundResult& bound, const PointRecord& poin
 
 // One line for a bound that held. For a broken bound also the point, the value found, the value allowed, the worst
 // pixel and the command that reproduces it. point: the worst point, or null. swept: the settings that name the point;
-// if empty, its id names it.
+// if empty, its id names it. Of a bound on the first point's own view the line says "at the given view" in place of its numbers.
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept = {});
 
 // Null if there is none.

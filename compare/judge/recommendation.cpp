@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "compare/judge/conditions.h"
 #include "compare/judge/curve_reading.h"
@@ -23,23 +24,54 @@ bool speaks_of(const BoundResult& bound, const PointRecord& point) {
   return !bound.warns && bound.part == point.part && matches(point, bound.where);
 }
 
+// The conditions without the swept choices.
+Conditions without_choices(Conditions where, const RunInfo& info) {
+  for (const std::string& name : choice_settings(info))
+    if (!decides_what_is_seen(name)) where.erase(name);
+  return where;
+}
+
+// A bound on other choices than the point's, which the point must keep too: no bound on that metric speaks of the point itself,
+// so nothing else says what is good enough there. Not one with a min: an experiment writes it also to see that something is wrong.
+bool is_asked_of_others(const BoundResult& bound, const PointRecord& point, const std::vector<BoundResult>& bounds,
+                        const RunInfo& info) {
+  if (bound.warns || bound.min || bound.part != point.part || matches(point, bound.where)) return false;
+  return matches(point, without_choices(bound.where, info)) &&
+         std::none_of(bounds.begin(), bounds.end(), [&](const BoundResult& other) {
+           return other.metric == bound.metric && speaks_of(other, point);
+         });
+}
+
+// What each point of a choice must keep.
+using Demands = std::vector<std::pair<const PointRecord*, std::vector<const BoundResult*>>>;
+
+Demands demands_on(const Choice& choice, const std::vector<BoundResult>& bounds, const RunInfo& info) {
+  Demands demands;
+  for (const PointRecord* point : choice.points) {
+    std::vector<const BoundResult*> must_keep;
+    for (const BoundResult& bound : bounds)
+      if (speaks_of(bound, *point) || is_asked_of_others(bound, *point, bounds, info)) must_keep.push_back(&bound);
+    demands.emplace_back(point, std::move(must_keep));
+  }
+  return demands;
+}
+
 std::optional<double> depth_at(const PointRecord& point, std::optional<double> bias) {
   return bias && point.curve ? std::optional(*bias / parameter_per_depth(point)) : std::nullopt;
 }
 
-bool meets_all(const Choice& choice, const std::vector<BoundResult>& bounds, std::optional<double> bias) {
-  return std::all_of(choice.points.begin(), choice.points.end(), [&](const PointRecord* point) {
-    return std::all_of(bounds.begin(), bounds.end(), [&](const BoundResult& bound) {
-      return !speaks_of(bound, *point) || meets(*point, bound, depth_at(*point, bias));
-    });
+bool meets_all(const Demands& demands, std::optional<double> bias) {
+  return std::all_of(demands.begin(), demands.end(), [&](const auto& of_point) {
+    const PointRecord& point = *of_point.first;
+    return std::all_of(of_point.second.begin(), of_point.second.end(),
+                       [&](const BoundResult* bound) { return meets(point, *bound, depth_at(point, bias)); });
   });
 }
 
 bool has_criterion(const Choice& choice, const Results& results) {
-  return std::any_of(choice.points.begin(), choice.points.end(), [&](const PointRecord* point) {
-    return point->curve || std::any_of(results.bounds.begin(), results.bounds.end(),
-                                       [&](const BoundResult& bound) { return speaks_of(bound, *point); });
-  });
+  const Demands demands = demands_on(choice, results.bounds, results.info);
+  return std::any_of(demands.begin(), demands.end(),
+                     [](const auto& of_point) { return of_point.first->curve || !of_point.second.empty(); });
 }
 
 // better(a, b): whether a is preferred to b. Among equals the first is kept.
@@ -134,6 +166,7 @@ std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& resul
     const double middle = std::sqrt(window->low * window->high);
     low = std::sqrt(window->low * middle), high = std::sqrt(middle * window->high);
   }
+  const Demands demands = demands_on(choice, bounds, results.info);
   struct Candidate {
     double bias, error;
   };
@@ -141,7 +174,7 @@ std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& resul
   double least = std::numeric_limits<double>::infinity();
   for (double bias : curve_biases(choice, low, high)) {
     const double error = joined_at(choice, results.info.accuracy, bias).worst;
-    if (!std::isfinite(error) || !meets_all(choice, bounds, bias)) continue;
+    if (!std::isfinite(error) || !meets_all(demands, bias)) continue;
     allowed.push_back({bias, error});
     least = std::min(least, error);
   }
@@ -155,13 +188,15 @@ std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& resul
   for (const auto& [bias, error] : allowed)
     if (error <= flat_error * least && (!best || distance(bias) > distance(*best))) best = bias;
   double value = short_decimal(*best, low, high);
-  if (value != *best && !meets_all(choice, bounds, value)) value = *best;
+  if (value != *best && !meets_all(demands, value)) value = *best;
   const PointRecord& first = choice.first();
   return BiasChoice{first.curve->parameter, setting_of(first, "bias.unit"), value, *window, narrow};
 }
 
 std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results) {
-  if (choice.points.size() != results.points.size() || !meets_all(choice, results.bounds, std::nullopt)) return {};
+  if (choice.points.size() != results.points.size() ||
+      !meets_all(demands_on(choice, results.bounds, results.info), std::nullopt))
+    return {};
   if (std::none_of(results.bounds.begin(), results.bounds.end(),
                    [&](const BoundResult& bound) { return speaks_of(bound, choice.first()); }))
     return {};
@@ -181,6 +216,14 @@ std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results)
   return BiasChoice{parameter, setting_of(first, "bias.unit"), *value, *window, narrow, true};
 }
 
+bool keeps_bounds_of_others(const Choice& choice, const Results& results) {
+  return std::any_of(choice.points.begin(), choice.points.end(), [&](const PointRecord* point) {
+    return std::any_of(results.bounds.begin(), results.bounds.end(), [&](const BoundResult& bound) {
+      return is_asked_of_others(bound, *point, results.bounds, results.info);
+    });
+  });
+}
+
 std::optional<Recommendation> good_choice(const Choice& choice, const Results& results) {
   if (!has_criterion(choice, results)) return std::nullopt;
   Recommendation candidate{Outcome::found, choice, joined_interval(choice, results.info.cost), {}, {}, {}};
@@ -190,7 +233,7 @@ std::optional<Recommendation> good_choice(const Choice& choice, const Results& r
     if (!candidate.bias) candidate.bias = choose_bias(choice, results, results.bounds);
     if (!candidate.bias) return std::nullopt;
     bias = candidate.bias->read_at();
-  } else if (!meets_all(choice, results.bounds, std::nullopt)) {
+  } else if (!meets_all(demands_on(choice, results.bounds, results.info), std::nullopt)) {
     return std::nullopt;
   }
   candidate.error = joined_at(choice, results.info.accuracy, bias);

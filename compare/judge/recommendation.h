@@ -76,11 +76,15 @@ std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results)
 std::vector<double> curve_biases(const Choice& choice, double low, double high);
 
 // The choice at its best bias, or nothing if it is not good enough or there is no criterion for it. A choice is good
-// enough if every bound that applies
-// to it holds under every condition and, if it has curves, the joined window is not empty. Bounds on values of the curve
-// are checked at the bias that would be set (set_bias, otherwise choose_bias), other bounds as rendered. A value that is not finite, also a
-// cost or an error, is never good enough.
+// enough if it keeps, under every condition, every bound that applies to it, and if it has curves and the joined window is
+// not empty. A max on a metric that the experiment asks of other choices alone (its `where` names swept settings of the map,
+// the filter or the bias) applies too, if no bound on that metric speaks of this choice: what is too wrong for one map is too wrong for
+// another. Bounds on values of the curve are checked at the bias that would be set (set_bias, otherwise choose_bias), other
+// bounds as rendered. A value that is not finite, also a cost or an error, is never good enough.
 std::optional<Recommendation> good_choice(const Choice& choice, const Results& results);
+
+// Whether the choice was judged by a bound that the experiment asks of other choices alone (good_choice).
+bool keeps_bounds_of_others(const Choice& choice, const Results& results);
 
 // All choices that are good enough, in order.
 std::vector<Recommendation> good_choices(const Results& results);

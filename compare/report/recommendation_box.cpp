@@ -16,6 +16,7 @@
 #include "compare/report/findings.h"
 #include "compare/report/sections.h"
 #include "compare/report/speed.h"
+#include "compare/report/speed_section.h"
 #include "compare/report/text.h"
 #include "compare/results/quantities.h"
 
@@ -224,11 +225,13 @@ Markup box_without_answer(const Results& results, const Recommendation& found) {
                  "Not all conditions are measured yet, so no setting is known to hold under all of them. The same "
                  "command continues the sweep.");
     case Recommendation::Outcome::none_holds:
-      return say("broken",
-                 prose("{} None has a usable bias window and meets every bound that applies to it. Sweep a higher "
-                       "resolution, a smaller extent or another part of the bias, or loosen a bound.",
-                       bold(prose("None of the swept settings is good enough{}.",
-                                  results.info.over.empty() ? "" : " under all conditions"))));
+      return say(
+          "broken",
+          prose("{} None has a usable bias window and meets every bound, also those that the experiment asks of other "
+                "settings alone. Sweep a higher "
+                "resolution, a smaller extent or another part of the bias, or loosen a bound.",
+                bold(prose("None of the swept settings is good enough{}.",
+                           results.info.over.empty() ? "" : " under all conditions"))));
     case Recommendation::Outcome::found:
       break;
   }
@@ -289,12 +292,19 @@ Markup accurate_text(const Recommendation& found, const Results& results) {
 Markup criterion_text(const Recommendation& found, const Results& results) {
   if (found.bias && found.bias->as_set)
     return "every bound holds with the bias that is set, which lies in the usable window";
-  return prose("the least {} among the settings of which {}; among equal costs the least {}",
-               italic(metric_label(results.info.cost)),
-               !found.bias              ? "every bound holds"
-               : results.bounds.empty() ? "the bias window is not empty"
-                                        : "the bias window is not empty and every bound holds at that bias",
-               italic(error_label(results.info.accuracy)));
+  return prose(
+      "the least {} among the settings of which {}{}; among equal costs the least {}{}",
+      italic(metric_label(results.info.cost)),
+      !found.bias              ? "every bound holds"
+      : results.bounds.empty() ? "the bias window is not empty"
+                               : "the bias window is not empty and every bound holds at that bias",
+      keeps_bounds_of_others(found.choice, results) ? ", also each that the experiment asks of other settings alone"
+                                                    : "",
+      italic(error_label(results.info.accuracy)),
+      found.bias ? fmt::format("; of the biases whose error is within {:.0f}\u202f% of the least, the bias is the one "
+                               "furthest from both ends of its window, so it need not be the best one",
+                               100 * (flat_error - 1))
+                 : "");
 }
 
 }  // namespace
@@ -307,9 +317,11 @@ Markup recommendation_box(const Results& results) {
       prose("{}{}{} has {}.{}", kept ? "What is set is good enough" : "The cheapest setting that is good enough",
             conditions_text(results, found.choice), kept ? ". It" : "", cost_and_error(found, results),
             found.bias ? bias_margin_text(*found.bias) : "");
-  const Markup reasons = prose("It is {}: {}.{} {} compares by other costs and errors.", point_links(found.choice),
-                               criterion_text(found, results), noise_text(found.noise, results),
-                               section_link("cost", "Speed against accuracy"));
+  const Markup reasons = prose(
+      "It is {}: {}.{}{}", point_links(found.choice), criterion_text(found, results), noise_text(found.noise, results),
+      compares_choices(results)
+          ? prose(" {} compares by other costs and errors.", section_link("cost", "Speed against accuracy"))
+          : Markup());
   // Not green while a bound is broken: a reader would take the colour for the verdict.
   const bool broken = std::any_of(results.bounds.begin(), results.bounds.end(), breaks);
   return box(broken ? "none" : "held", kept ? "What is set" : "What to set",

@@ -221,8 +221,14 @@ Markup speed_chart() {
                      "Pareto front. Choices of equal cost and nearly equal error share one mark.");
 }
 
+bool compares_choices(const Results& results) {
+  const std::vector<std::vector<Choice>> groups = comparable_choices(results);
+  return std::any_of(groups.begin(), groups.end(), [](const auto& group) { return group.size() > 1; });
+}
+
 bool has_speed_chart(const Results& results, const ShownPoints& shown) {
-  return !shown.groups.empty() && !costs_of(results).empty() && !errors_of(results).empty();
+  return compares_choices(results) && !shown.groups.empty() && !costs_of(results).empty() &&
+         !errors_of(results).empty();
 }
 
 Markup speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen) {

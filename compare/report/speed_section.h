@@ -11,7 +11,10 @@ namespace noonmark::report {
 // chooses others. on_first_screen: the chart stands there (speed_chart()) and not in the section.
 Markup speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen);
 
-// True if at least one choice has a finite cost and a finite error. Otherwise there is no chart.
+// Whether some choices can be compared with each other. One alone has no chart.
+bool compares_choices(const Results& results);
+
+// True if choices can be compared and at least one has a finite cost and a finite error. Otherwise there is no chart.
 bool has_speed_chart(const Results& results, const ShownPoints& shown);
 Markup speed_chart();
 

@@ -110,7 +110,7 @@ Markup engines_section(const Results& results) {
       "engines", "In other engines",
       paragraph(
           prose("The settings of this experiment in each engine's own fields, and what an engine cannot express.")) +
-          folded("glossary", false, "What to type", element("pre", css("engines"), results.info.engines)));
+          folded("glossary", true, "What to type", element("pre", css("engines"), results.info.engines)));
 }
 
 namespace {

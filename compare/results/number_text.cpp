@@ -35,7 +35,9 @@ std::string quantity_text(double value, std::string_view unit, int digits) {
   if (unit == "fraction") return number_text(100 * value, digits) + "%";
   if (unit == "bytes") return number_text(1e-6 * value, digits) + " MB";
   if (unit == "count") return number_text(std::abs(value) < most_plain ? std::round(value) : value, digits);
-  return unit.empty() ? number_text(value, digits) : fmt::format("{} {}", number_text(value, digits), unit);
+  const std::string number = number_text(value, digits);
+  if (number == "1" && (unit == "pixels" || unit == "texels")) unit.remove_suffix(1);
+  return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
 
 int digits_to_tell(double a, double b, int least) {

@@ -150,8 +150,11 @@ struct BoundResult {
   std::string part{};  // the experiment's part; empty if it has no parts
   bool warns = false;  // broken, it is a warning and does not break the verdict
   std::optional<double>
-      before{};            // what the run before found (compare/judge/last_run.h); empty: it did not have this bound
-  std::string location{};  // where its experiment gives it: "file:line:column"; empty: not known. The store has it not
+      before{};  // what the run before found (compare/judge/last_run.h); empty: it did not have this bound
+  // Of these two the store has none. Where its experiment gives it: "file:line:column"; empty: not known. And whether its `where` names
+  // the first point's own view.
+  std::string location{};
+  bool at_given_view = false;
 };
 
 enum class LawRelation { equal, at_most, at_least };

@@ -117,7 +117,7 @@ TEST(EngineTrialText, ABrokenBoundIsNoAnswer) {
   view.broken = {"acne 1% (bound 0.1%)"};
   const std::vector<EngineAdvice> engines = {tried(view)};
   EXPECT_TRUE(broken_in_engine(engines));
-  const std::string text = joined(trial_text(engines));
+  const std::string text = joined(trial_text(engines[0]));
   EXPECT_NE(text.find("given                  0.1000%   0.1100%   0.0000%        0.0000%  held"), text.npos) << text;
   EXPECT_NE(text.find("turned by 15 deg       0.2000%   1.2500%   1.0000%        0.0200%  BROKEN"), text.npos) << text;
   EXPECT_NE(
@@ -136,7 +136,7 @@ TEST(EngineTrialText, AFrameThatIsRefusedIsNoAnswer) {
   view.refused = "coverage: the scene is another one";
   const std::vector<EngineAdvice> engines = {tried(view)};
   EXPECT_TRUE(broken_in_engine(engines));
-  const std::string text = joined(trial_text(engines));
+  const std::string text = joined(trial_text(engines[0]));
   EXPECT_NE(text.find("the frame is not judged, because coverage: the scene is another one."), text.npos) << text;
   EXPECT_FALSE(trial_json(*engines[0].trial)["views"][1].contains("measured"));
 }

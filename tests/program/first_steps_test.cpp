@@ -80,6 +80,33 @@ TEST_F(FirstSteps, AModelWithAGroundGetsNoFloorAndOneWithALightNoSun) {
   EXPECT_FALSE(second.phase.enabled) << "nor a phase diagram";
 }
 
+// The lines of a comment are an offer: as they stand there, they must work.
+TEST_F(FirstSteps, TheSunMayBeGivenAsAPositionAndATarget) {
+  write("standing.gltf", standing().dump());
+  ASSERT_EQ(run({"init", "standing.gltf"}), 0) << output_;
+  std::string file = text("standing.toml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const size_t at = file.find(from);
+    ASSERT_NE(at, std::string::npos) << from << "\n" << file;
+    file.replace(at, from.size(), to);
+  };
+  replace("# position_m", "position_m"), replace("# target_m", "target_m");
+  write("both.toml", file);
+  EXPECT_EQ(run({"check", "both.toml", "--dry-run"}), 2);
+  EXPECT_TRUE(says("both set the light's direction")) << output_;
+  // On the command line: what the file sets must be taken back, and the message says how.
+  std::vector<std::string> words = {"check", "standing.toml", "--dry-run", "--set", "light.position_m=5,10,7"};
+  EXPECT_EQ(run(words), 2);
+  EXPECT_TRUE(says("--set light.azimuth_deg=auto")) << output_;
+  words.insert(words.end(), {"--set", "light.azimuth_deg=auto", "--set", "light.elevation_deg=auto"});
+  EXPECT_EQ(run(words), 0) << output_;
+  replace("azimuth_deg", "# azimuth_deg"), replace("elevation_deg", "# elevation_deg");
+  write("sun.toml", file);
+  const Experiment sun = load_experiment((folder_ / "sun.toml").string());
+  EXPECT_EQ(sun.base.light.position_m, glm::dvec3(5, 10, 7));
+  EXPECT_EQ(run({"run", "sun.toml", "--set", "view.width_px=64", "--set", "view.height_px=36"}), 0) << output_;
+}
+
 TEST_F(FirstSteps, AClosedRoomGetsALightInside) {
   Model room;
   add_box(room.scene, "room", {-2, 0, -2}, {2, 3, 2});

@@ -92,6 +92,7 @@ at_most = "texel_m / 4 * tan_deg(scene.theta_deg)"
   EXPECT_EQ(run({"render", "x.toml", "--point", "1"}), 0) << output_;
   EXPECT_TRUE(says("plane:")) << output_;
   EXPECT_EQ(run({"render", "x.toml"}), 2) << "the file has two points, so --point is required";
+  EXPECT_TRUE(says("; point 0: part ") && says("; point 1: part ")) << output_;
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ std::string without_promises(const std::string& engines) {
   std::string kept;
   for (std::string line; std::getline(lines, line);)
     if (line.find(" with these lines (recommended: ") == std::string::npos &&
+        line.find("these lines are not an answer: ") == std::string::npos &&
         line.find("error not known: ") == std::string::npos)
       kept += line + "\n";
   return kept;
@@ -239,6 +240,50 @@ TEST_F(Recommend, TheReportOfItsAnswerSpeaksOfItsBias) {
   EXPECT_EQ(answer.at("bias").at("parameter"), found()["answer"]["bias"]["parameter"]);
   const std::string page = text("judged/report.html");
   EXPECT_NE(page.find("What is set is good enough under all conditions: all bounds hold with "), std::string::npos);
+}
+
+TEST_F(Recommend, PrintsTheLinesOfOneEngine) {
+  width_ = 96, height_ = 54;
+  const std::vector<std::string> quick = {"--views", "1", "--acne", "5%", "--peter-panning", "5%"};
+  ASSERT_EQ(recommend("plate", quick), 0) << output_;
+  EXPECT_TRUE(says("  three.js (") && says("renderer.shadowMap.enabled")) << output_;
+  EXPECT_FALSE(says("new BABYLON.ShadowGenerator") || says("  Godot (")) << output_;
+  EXPECT_TRUE(says("out/engines.txt has the lines for Babylon.js (babylon), ") && says("--lines NAME")) << output_;
+  EXPECT_NE(text("out/engines.txt").find("new BABYLON.ShadowGenerator"), std::string::npos);
+  EXPECT_TRUE(says("bounds: the options")) << output_;
+  EXPECT_NE(text("out/recommended.txt").find("That is the answer"), std::string::npos);
+  std::vector<std::string> other = quick;
+  other.insert(other.end(), {"--lines", "babylon"});
+  ASSERT_EQ(recommend("plate", other), 0) << output_;
+  EXPECT_TRUE(says("new BABYLON.ShadowGenerator")) << output_;
+  EXPECT_FALSE(says("renderer.shadowMap.enabled")) << output_;
+  EXPECT_EQ(recommend("plate", {"--lines", "babilon"}), 2);
+  EXPECT_TRUE(says("babylon")) << output_;
+}
+
+// A model and the experiment that init writes for it have one folder. Another model of the same name does not take it.
+TEST_F(Recommend, AModelsFolderIsNamedAfterItsFile) {
+  ASSERT_EQ(run({"export", "plate", "--out", "a/model.glb"}), 0) << output_;
+  ASSERT_EQ(run({"export", "wall", "--out", "b/model.glb"}), 0) << output_;
+  std::vector<std::string> quick = {"--quiet", "--views", "1", "--edges", "100", "--patch", "100%"};
+  for (const char* set : {"view.width_px=96", "view.height_px=54", "filter.kind=none"})
+    quick.insert(quick.end(), {"--set", set});
+  const auto answer = [&](const std::string& what) {
+    std::vector<std::string> words = {"recommend", what};
+    words.insert(words.end(), quick.begin(), quick.end());
+    return run(words);
+  };
+  ASSERT_EQ(answer("a/model.glb"), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/recommend-model/recommended.toml")) << output_;
+  const std::string before = text("out/recommend-model/recommended.json");
+  EXPECT_EQ(answer("b/model.glb"), 2) << output_;
+  EXPECT_TRUE(says("out/recommend-model: holds the recommendation for another scene") && says("a/model.glb"))
+      << output_;
+  EXPECT_EQ(text("out/recommend-model/recommended.json"), before);
+  write("model.toml", "scene = \"a/model.glb\"\n");
+  EXPECT_EQ(answer("model.toml"), 0) << "it is about the same model: " << output_;
+  quick.insert(quick.end(), {"--out", "out/recommend-model"});
+  EXPECT_EQ(answer("b/model.glb"), 0) << "who names a folder means it: " << output_;
 }
 
 TEST_F(Recommend, AnswersForOnePartOfAnExperiment) {

@@ -63,6 +63,7 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
                                                                            : place.kind() == LightKind::spot
                                                                                ? "Spot"
                                                                                : "Directional"),
+      placed_comment(placed_of_light(place)),
       "light.parent = light.transformedPosition = light.transformedDirection = null;  // also out of a glTF file's "
       "node",
       fmt::format("light.position = new BABYLON.Vector3({});", numbers(place.frame.origin_m))};
@@ -84,7 +85,7 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
   lines.push_back(fmt::format("shadowGenerator.forceBackFacesOnly = {};", cull == CulledFaces::back));
   lines.push_back("for (const mesh of scene.meshes) {");
   lines.push_back("  if (mesh.getTotalVertices() === 0) continue;  // a node of a glTF file");
-  lines.push_back("  shadowGenerator.addShadowCaster(mesh, false);");
+  lines.push_back("  shadowGenerator.addShadowCaster(mesh, false);  // leave out meshes that are to cast none");
   lines.push_back("  mesh.receiveShadows = true;");
   lines.push_back("}");
   return lines;

@@ -134,6 +134,11 @@ Engine bevy();
 Engine filament();
 Engine unity_urp();
 
+// A comment that stands below the first one: what of the light the lines set ("direction"), and where the model must stand.
+std::string placed_comment(std::string_view of_light);
+// What the lines of an engine with lights of any place set.
+std::string_view placed_of_light(const AdvicePlace& place);
+
 // What to know of a map that fitted_to_view() describes. field: which sets how far it reaches.
 std::string fitted_text(const AdvicePlace& place, const std::string& field);
 

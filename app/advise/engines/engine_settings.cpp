@@ -282,6 +282,15 @@ std::string place_name(BiasTarget target) {
   throw std::logic_error("a bias without a place");
 }
 
+std::string placed_comment(std::string_view of_light) {
+  return fmt::format("// These lines set the light's {}. The model stands where its file puts it, in the file's size.",
+                     of_light);
+}
+
+std::string_view placed_of_light(const AdvicePlace& place) {
+  return place.kind() == LightKind::point ? "position" : "position and direction";
+}
+
 EngineFilter nearest_reach(const AdvicePlace& place, std::vector<EngineFilter> offered) {
   return *std::min_element(offered.begin(), offered.end(), [&](const EngineFilter& a, const EngineFilter& b) {
     if (a.same != b.same) return a.same;
@@ -303,6 +312,23 @@ std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFra
   for (const Engine& engine : engines()) all.push_back(advice_of(engine, place, parts));
   all.push_back(opengl_advice(place, parts));
   return all;
+}
+
+std::string engine_word(std::string_view engine) {
+  std::string word;
+  for (const char c : engine) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    if (!upper && !(c >= 'a' && c <= 'z')) break;  // three.js, Unity URP
+    word += static_cast<char>(upper ? c - 'A' + 'a' : c);
+  }
+  return word;
+}
+
+std::vector<std::string> engine_words() {
+  std::vector<std::string> words;
+  for (const Engine& engine : engines()) words.push_back(engine_word(engine.name));
+  words.push_back(engine_word(opengl_fields().front().engine));
+  return words;
 }
 
 std::vector<EngineField> engine_fields() {

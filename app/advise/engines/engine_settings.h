@@ -11,6 +11,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/scene.h"
@@ -54,6 +55,7 @@ struct EngineAdvice {
   std::string why_not_emulated = {};
   std::optional<EnginePromise> promise = {};  // of `emulated`; app/advise/engine_promise.h measures it
   std::string promised = {};                  // `promise` as a sentence for people; empty: not measured
+  std::string broken = {};                    // which bounds the lines break, a sentence for people; empty: none
   std::optional<EngineTrial> trial =
       {};  // in the engine itself, if it was asked for; app/advise/engine_trial.h makes it
 };
@@ -66,6 +68,10 @@ struct EngineAdvice {
 // farthest_m: the farthest that is in view from any camera, along its view; 0: of these settings' own view.
 std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene,
                                         double farthest_m = 0);
+
+// What people type for each engine of the table, in its order: "three", "babylon"; and for one of them.
+std::vector<std::string> engine_words();
+std::string engine_word(std::string_view engine);
 
 // How far from the camera along its view the farthest is that the settings' picture can show.
 double farthest_in_view_m(const Settings& settings, const Scene& scene);

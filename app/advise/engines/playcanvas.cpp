@@ -49,6 +49,7 @@ EngineFilter filter(const AdvicePlace& place) {
 std::vector<std::string> map_lines(const AdvicePlace& place) {
   return {
       "// pc: the module; light: the LightComponent of a directional light",
+      placed_comment("direction"),
       "light.enabled = light.castShadows = true;",
       fmt::format("light.entity.setRotation(new pc.Quat().setFromDirections(new pc.Vec3(0, -1, 0), new pc.Vec3({})));",
                   numbers(place.frame.forward)),

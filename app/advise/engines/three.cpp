@@ -53,7 +53,9 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
                   point                             ? "Point"
                   : place.kind() == LightKind::spot ? "Spot"
                                                     : "Directional"),
-      "renderer.shadowMap.enabled = true;", "light.castShadow = true;",
+      placed_comment(placed_of_light(place)),
+      "renderer.shadowMap.enabled = true;",
+      "light.castShadow = true;",
       point ? "scene.add(light);" : "scene.add(light, light.target);  // also out of a glTF file's node",
       fmt::format("light.position.set({});", numbers(place.frame.origin_m))};
   if (!point)
@@ -76,7 +78,7 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
   lines.push_back("light.shadow.map?.dispose(); light.shadow.map = null;  // the next frame makes a map of this size");
   lines.push_back("scene.traverse((mesh) => {");
   lines.push_back("  if (!mesh.isMesh) return;");
-  lines.push_back("  mesh.castShadow = mesh.receiveShadow = true;");
+  lines.push_back("  mesh.castShadow = mesh.receiveShadow = true;  // leave out meshes that are to cast none");
   lines.push_back(fmt::format("  for (const material of [mesh.material].flat()) material.shadowSide = THREE.{};",
                               cull == CulledFaces::none   ? "DoubleSide"
                               : cull == CulledFaces::back ? "FrontSide"

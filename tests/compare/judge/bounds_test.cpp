@@ -52,6 +52,22 @@ void expect(const BoundResult& result, bool held, double found, int64_t point) {
   EXPECT_EQ(result.reproduce, "render " + std::to_string(point));
 }
 
+// The view of the first point is the given one. Its numbers are long, and other views have other ones.
+TEST(Bounds, TheFirstPointsOwnViewNeedsNoNumbers) {
+  std::vector<PointRecord> points = points_with({0.1, 0.2});
+  points[0].settings["view.eye_m"] = "0.581331276621148,0,1";
+  points[1].settings["view.eye_m"] = "0,1,0";
+  const auto said = [&](const PointRecord& at) {
+    Bound bound = at_most(0.5);
+    bound.where = {{"view.eye_m", {at.settings.at("view.eye_m")}}, {"map.resolution", {"256", "512"}}};
+    return describe(evaluate_bounds(points, std::span(&bound, 1), command_of).at(0), &at);
+  };
+  EXPECT_EQ(said(points[0]).find("held: acne <= 50% at the given view where map.resolution = 256 | 512; found 10%"), 0u)
+      << said(points[0]);
+  EXPECT_NE(said(points[1]).find("view.eye_m = 0,1,0; found"), std::string::npos) << said(points[1]);
+  EXPECT_EQ(said(points[1]).find("given view"), std::string::npos);
+}
+
 TEST(Bounds, WorstIsTheLargestForAMaxAndTheSmallestForAMin) {
   expect(ask({0.1, 0.5, 0.3}, at_most(0.5)), true, 0.5, 1);
   expect(ask({0.1, 0.5, 0.3}, at_most(0.4)), false, 0.5, 1);

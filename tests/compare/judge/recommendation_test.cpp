@@ -176,15 +176,39 @@ TEST(Recommend, KeepsTheBiasThatWasSetIfItHolds) {
   another("choices are compared, each at its best bias");
 }
 
-TEST(Recommend, ABoundSpeaksOnlyOfThePointsItNames) {
+// An experiment asks its bounds of the map that it means to ship. A coarser one that breaks them is not good enough either.
+TEST(Recommend, ABoundOnOneChoiceIsAskedOfAllOthersOfWhichNoneSpeaks) {
   Results results;
+  results.info.swept = {"map.resolution"};
+  results.points = {point_with(0, 1, 0.25, 0.75), point_with(1, 2, 0.25, 0.75), point_with(2, 3, 0.25, 0.75)};
+  results.points[0].metrics["wrong_patch"] = 0.1;
+  results.points[1].metrics["wrong_patch"] = results.points[2].metrics["wrong_patch"] = 0.001;
+  const auto bound = [](const char* resolution, double max) {
+    return BoundResult{.metric = "wrong_patch", .max = max, .where = {{"map.resolution", {resolution}}}};
+  };
+  results.bounds = {bound("1024", 0.01)};
+  EXPECT_EQ(id_of(recommend(results)), 1);
+  EXPECT_TRUE(keeps_bounds_of_others(recommend(results).choice, results));
+  results.points[1].metrics.erase("wrong_patch");
+  EXPECT_EQ(id_of(recommend(results)), 2) << "what is not known is not good enough";
+  EXPECT_FALSE(keeps_bounds_of_others(recommend(results).choice, results));
+  results.bounds.push_back(bound("256", 0.2));
+  EXPECT_EQ(id_of(recommend(results)), 0) << "a bound of its own says what is good enough there";
+  results.bounds = {bound("1024", 0.01)};
+  results.bounds[0].warns = true;
+  EXPECT_EQ(id_of(recommend(results)), 0);
+  results.bounds[0].warns = false, results.bounds[0].min = 0.0001;
+  EXPECT_EQ(id_of(recommend(results)), 0) << "it also says that something is to be wrong";
+}
+
+// Another view or scene has other errors, so a bound on one says nothing of the others.
+TEST(Recommend, ABoundSpeaksOnlyOfTheViewsItNames) {
+  Results results;
+  results.info.swept = {"view.eye_m"};
   results.points = {point_with(0, 1, 0.25, 0.75), point_with(1, 2, 0.25, 0.75)};
-  results.bounds = {{.metric = "error",
-                     .max = 0.0,
-                     .min = {},
-                     .where = {{"map.resolution", {"128", "256"}}},
-                     .join = "worst",
-                     .reproduce = ""}};
+  results.points[0].settings["view.eye_m"] = "0,0,1";
+  results.points[1].settings["view.eye_m"] = "0,1,0";
+  results.bounds = {{.metric = "error", .max = 0.0, .where = {{"view.eye_m", {"0,0,1"}}}}};
   EXPECT_EQ(id_of(recommend(results)), 1);
   results.bounds[0].where.clear();
   EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);

@@ -29,6 +29,9 @@ TEST(NumberText, SharesAreInPercentAndCountsAreWholeNumbers) {
   EXPECT_EQ(quantity_text(17093806, "count"), "17090000");
   EXPECT_EQ(quantity_text(4194304, "bytes"), "4.194 MB");
   EXPECT_EQ(quantity_text(0.25, "m"), "0.25 m");
+  EXPECT_EQ(quantity_text(1, "pixels"), "1 pixel");
+  EXPECT_EQ(quantity_text(1.5, "pixels"), "1.5 pixels");
+  EXPECT_EQ(quantity_text(-1, "texels"), "-1 texels");
   EXPECT_EQ(quantity_text(std::nan(""), "fraction"), "not measured");
 }
 

@@ -1,0 +1,71 @@
+#include "app/verbs/recommend_output.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "app/advise/engine_trial.h"
+#include "app/advise/recommend_text.h"
+#include "base/text.h"
+#include "scenes/library.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+
+std::string whole_text(const Advice& advice) {
+  std::string text;
+  for (const auto& lines : {advice_text(advice), rejected_text(advice)})
+    for (const std::string& line : lines) text += printable(line) + "\n";
+  return text;
+}
+
+namespace {
+
+// What to type into the engines that are shown, each with what it gave in the engine itself, and where the others are.
+void print_lines(const std::vector<EngineAdvice>& engines, std::span<const std::string> shown, const std::string& out) {
+  fmt::print("\nWhat to type:\n");
+  std::vector<std::string> others;
+  for (const EngineAdvice& engine : engines) {
+    const std::string word = engine_word(engine.engine);
+    if (std::find(shown.begin(), shown.end(), word) == shown.end()) {
+      others.push_back(fmt::format("{} ({})", engine.engine, word));
+      continue;
+    }
+    fmt::print("  {} ({})\n", engine.engine, engine.version);
+    for (const std::string& line : engine_lines(engine)) fmt::print("    {}\n", line);
+    for (const std::string& line : trial_text(engine)) fmt::print("{}\n", printable(line));
+  }
+  fmt::print("{}/engines.txt has the lines for {}, and what each engine cannot express; --lines NAME prints others.\n",
+             printable(out), fmt::join(others, ", "));
+}
+
+}  // namespace
+
+void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines, std::span<const std::string> shown,
+                  Workbench& bench, const std::string& out) {
+  const AdviceRequest& request = advice.request;
+  print_lines(engines, shown, out);
+  if (const std::string note = notes_line(bench.scene(request.conditions.front().scene)); !note.empty())
+    fmt::print("note: {}\n", printable(note));
+  std::set<std::string> fitted;  // conditions may be lights that stand elsewhere
+  for (const Settings& condition : request.conditions)
+    fitted.insert(map_fit_note(bench.scene(condition.scene), condition));
+  for (const std::string& note : fitted)
+    if (!note.empty()) fmt::print("note: {}\n", printable(note));
+  fmt::print(
+      "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.txt (also why simpler "
+      "settings do not do), {0}/recommended.json, {0}/engines.txt and {0}/recommended-*.png are written\n",
+      printable(out));
+  for (const Answer& answer : advice.answers)
+    if (&answer != advice.answer())
+      fmt::print(
+          "{0}/recommended-{1}.toml and {0}/recommended-{1}-*.png are of the answer \"{1}\"; --answer {1} prints its "
+          "lines\n",
+          printable(out), answer_name(answer.kinds.front()));
+  if (advice.around)
+    fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
+}
+
+}  // namespace noonmark
