@@ -141,13 +141,16 @@ std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> c
   std::optional<LightBox> casters;
   if (first.map.wrap == Wrap::clamp_to_border) casters = box_of(fitted(scene, first, MapFit::casters), axes);
   MapPlace whole = over_scene(scene, first, light);
-  if (casters && places_differ * casters->side() < whole.extent_m)
+  if (casters && places_differ * casters->side() < whole.extent_m) {
     whole = over("all that casts shadows", *casters, light);
+    whole.of_casters = true;
+  }
   if (whole.extent_m < places.front().extent_m) places.front() = std::move(whole);
   if (casters) needed = both(needed, *casters);
   if (needed.side() > 0 && places_differ * needed.side() < places.front().extent_m) {
     places.push_back(over("what these views show", needed, light));
     places.back().moves_with = true;
+    places.back().of_casters = casters.has_value();
   }
   return places;
 }

@@ -353,6 +353,11 @@ std::vector<std::string> advice_text(const Advice& advice) {
                                 causes.empty() ? "" : ", most of it " + causes));
   }
   if (advice.shadowed > 0) lines.push_back(needed_text(advice));
+  if (advice.request.places[tried.place].of_casters)
+    lines.push_back(
+        "The map holds what casts shadows, and not the ground around it. Outside of the map everything is lit: an "
+        "object "
+        "that leaves it casts no shadow (--set map.fit=tight: a map of everything).");
   if (advice.request.places[tried.place].moves_with)
     lines.push_back(fmt::format(
         "The map lies over {}: a camera that leaves them needs another place, or the map of the whole scene "

@@ -92,7 +92,8 @@ std::string first_experiment(const Model& model, const std::string& path) {
   text += light_text(model, room) + "\n[map]\n";
   if (light == LightKind::directional)
     text +=
-        "fit = \"view\"                # covers what the picture shows and its casters; \"tight\": the whole scene\n";
+        "fit = \"casters\"             # covers all that casts shadows, without the ground; \"view\": what the picture "
+        "shows\n";
   text +=
       "format = \"24\"               # depth bits; also \"16\" and \"32f\"\n\n"
       "[bias]\n"
