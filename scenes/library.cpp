@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,16 @@
 namespace noonmark {
 namespace {
 
+// A model or an experiment in the working directory that has this name, "Lantern/Lantern.gltf". Empty if there is none.
+std::string file_of_name(const std::string& name) {
+  for (const char* folder : {"", "/"})
+    for (const char* extension : {".gltf", ".glb", ".toml"}) {
+      const std::string path = (*folder ? name + folder : std::string()) + name + extension;
+      if (std::error_code none; std::filesystem::is_regular_file(path, none)) return path;
+    }
+  return "";
+}
+
 Scene scene_as_built(const SceneSettings& settings) {
   std::vector<std::string_view> names;
   for (const BuiltinScene& builtin : builtin_scenes()) {
@@ -31,7 +42,8 @@ Scene scene_as_built(const SceneSettings& settings) {
     names.push_back(builtin.name);
   }
   if (names_file(settings.name)) return load_gltf(settings.name, {settings.time_s, settings.animation}, settings.masks);
-  const std::string near = nearest_name(settings.name, names);
+  std::string near = file_of_name(settings.name);
+  if (near.empty()) near = nearest_name(settings.name, names);
   throw Error(
       ErrorKind::usage,
       fmt::format("there is no built-in scene '{}'{}; give one that `noonmark scenes` lists, or the path of a .gltf or "

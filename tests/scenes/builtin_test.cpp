@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <glm/gtc/constants.hpp>
 #include <map>
 #include <set>
@@ -12,8 +14,10 @@
 
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
+#include "scenes/library.h"
 #include "scenes/shapes.h"
 #include "tests/support/builtin_scenes.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -238,6 +242,26 @@ TEST(Shapes, BoxFromCornersIsThatBox) {
     EXPECT_TRUE(p.y == 2 || p.y == 2.5f);
     EXPECT_TRUE(p.z == 3 || p.z == 7);
   }
+}
+
+// A name of a file that lies beside is offered.
+TEST(BuiltinScenes, AMissingOneNamesTheFileOfThatName) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(testing::TempDir());
+  std::filesystem::create_directories("Lamp");
+  const auto message = [] {
+    std::string said;
+    kind_thrown([] { make_scene({.name = "Lamp"}); }, &said);
+    return said;
+  };
+  EXPECT_EQ(message().find("did you mean 'Lamp"), std::string::npos) << message();
+  std::ofstream("Lamp/Lamp.glb") << "x";
+  EXPECT_NE(message().find("did you mean 'Lamp/Lamp.glb'?"), std::string::npos) << message();
+  std::ofstream("Lamp.toml") << "x";
+  EXPECT_NE(message().find("did you mean 'Lamp.toml'?"), std::string::npos) << message();
+  std::filesystem::remove_all("Lamp");
+  std::filesystem::remove("Lamp.toml");
+  std::filesystem::current_path(before);
 }
 
 }  // namespace

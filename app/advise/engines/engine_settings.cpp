@@ -195,7 +195,8 @@ EngineAdvice advice_of(const Engine& engine, AdvicePlace place, const std::vecto
   if (typed.suffices && !knobs.empty()) {
     advice.lines = engine.map_lines(place);
     for (const std::string& line : place.filter.lines)
-      advice.lines.push_back(fmt::format("{}  {} filter.kind = {}", line, engine.comment, place.settings.filter.kind));
+      advice.lines.push_back(fmt::format("{}  {} {}filter.kind = {}", line, engine.comment,
+                                         place.filter.same ? "" : "in place of ", place.settings.filter.kind));
     for (size_t i = 0; i < knobs.size(); ++i)
       advice.lines.push_back(fmt::format(fmt::runtime(knobs[i].line), number(knobs[i].typed(typed.metres[i], place))) +
                              typed.from[i]);
