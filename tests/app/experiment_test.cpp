@@ -256,6 +256,8 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
       if (row.name == "view.far_m" && text != "auto") text = std::to_string(i + 1);
       // A reference by a plane is only legal with a filter that the sampler does not blend.
       if (row.name == "bias.reference") text = "own_depth";
+      // The fit to the casters is only legal with a lit border.
+      if (row.name == "map.fit" && text == "casters") text = "tight";
       // The direction of a sun cannot be combined with a position of the light.
       if (row.name == "light.azimuth_deg" || row.name == "light.elevation_deg") text = "auto";
       // The floor must not exceed the cap.
