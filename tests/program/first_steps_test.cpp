@@ -69,7 +69,7 @@ TEST_F(FirstSteps, AModelWithAGroundGetsNoFloorAndOneWithALightNoSun) {
   const Experiment first = load_experiment((folder_ / "standing.toml").string());
   EXPECT_TRUE(first.base.scene.floor);
   EXPECT_TRUE(first.base.light.elevation_deg && first.base.light.azimuth_deg);
-  EXPECT_EQ(first.base.map.fit, MapFit::view);
+  EXPECT_EQ(first.base.map.fit, MapFit::casters);
   EXPECT_TRUE(first.phase.enabled);
   EXPECT_EQ(first.bounds.size(), 4u) << "acne, Peter Panning, and two for the eye";
   EXPECT_EQ(first.choose.size(), 4u);

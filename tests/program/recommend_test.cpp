@@ -211,7 +211,7 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_NE(text("out/recommended.html").find("map.resolution"), std::string::npos);
   EXPECT_EQ(found()["answer"]["bias"]["parameter"], "bias.tan");
   EXPECT_EQ(found()["answer"]["verified"]["conditions"], 2);
-  for (const char* relied : {"format = \"24\"", "cull = \"none\"", "fit = ", "kind = ", "wrap = "})
+  for (const char* relied : {"format = \"24\"", "cull = \"none\"", "extent_m = ", "kind = ", "wrap = "})
     EXPECT_NE(text("out/recommended.toml").find(relied), std::string::npos)
         << "a default that the answer relies on: " << relied;
   EXPECT_EQ(run({"check", "out/recommended.toml", "--out", "checked"}), 0) << output_;
@@ -314,7 +314,7 @@ TEST_F(Recommend, SaysThatASceneWithoutShadowsNeedsNoMap) {
 TEST_F(Recommend, NamesThePixelTheCauseAndTheWaysOut) {
   ASSERT_EQ(
       recommend("cube-room", {"--views", "1", "--acne", "1e-7", "--peter-panning", "1e-7", "--set", "map.resolution=64",
-                              "--set", "map.fit=tight", "--set", "filter.kind=none", "--set", "bias.constant=0.1"}),
+                              "--set", "map.extent_m=20", "--set", "filter.kind=none", "--set", "bias.constant=0.1"}),
       1)
       << output_;
   EXPECT_TRUE(says("Its worst pixel is x = ")) << output_;
@@ -331,7 +331,7 @@ TEST_F(Recommend, NamesThePixelTheCauseAndTheWaysOut) {
       << output_;
   EXPECT_EQ(recommend("cube-room", {"--views", "1", "--acne", fmt::format("{}%", 1.01 * acne), "--peter-panning",
                                     fmt::format("{}%", 1.01 * peter_panning), "--set", "map.resolution=64", "--set",
-                                    "map.fit=tight", "--set", "filter.kind=none", "--set", "bias.constant=0.1"}),
+                                    "map.extent_m=20", "--set", "filter.kind=none", "--set", "bias.constant=0.1"}),
             0)
       << output_;
 }
