@@ -212,7 +212,7 @@ namespace {
 std::optional<FittedMap> moved_fit(const Scene& scene, const Settings& settings, const LightFrame& axes) {
   if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, axes);
   if (settings.map.fit == MapFit::sphere) return fit_to_sphere(scene, settings.view, settings.map, axes);
-  if (settings.map.fit == MapFit::casters) return fit_to_casters(scene, axes);
+  if (settings.map.fit == MapFit::casters) return fit_to_casters(scene, settings.map, axes);
   return std::nullopt;
 }
 

@@ -137,10 +137,35 @@ FittedMap fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapS
 
 namespace {
 
-// Proves that nothing of a scene lies behind a triangle, as the light sees it.
+struct Plane {
+  glm::dvec3 to_light;  // unit normal on the light's side
+  glm::dvec3 point;     // a corner of the triangle
+  // How far the rounding of the triangle's corners moves the plane: there, and more for each metre from there, because the
+  // corners are near each other.
+  double rounding_m = 0, rounding_per_m = 0;
+  double height(glm::dvec3 p) const { return glm::dot(to_light, p - point); }
+  double rounding_at(glm::dvec3 p) const { return rounding_m + rounding_per_m * glm::distance(p, point); }
+};
+
+// The vertices that lie furthest along the 26 ways to the corners, edges and faces of a cube: one of them decides for most
+// triangles that something lies behind their plane.
+std::vector<glm::dvec3> outermost(const Scene& scene) {
+  std::vector<glm::dvec3> found;
+  for (int n = 0; n < 27; ++n) {
+    const glm::dvec3 way(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    double most = -infinity;
+    glm::dvec3 vertex(0);
+    for (const glm::vec3& p : scene.positions)
+      if (const double along = glm::dot(glm::dvec3(p), way); along > most) most = along, vertex = glm::dvec3(p);
+    if (n != 13) found.push_back(vertex);
+  }
+  return found;
+}
+
+// Asks whether something of a scene lies behind a triangle, as the light sees it.
 class Behind {
  public:
-  Behind(const Scene& scene, glm::dvec3 forward) : scene_(scene), forward_(forward) {
+  Behind(const Scene& scene, glm::dvec3 forward) : scene_(scene), forward_(forward), outermost_(outermost(scene)) {
     float largest = 0;
     for (const glm::vec3& p : scene.positions)
       largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
@@ -148,69 +173,81 @@ class Behind {
     rounding_m_ = 4 * 0x1p-24 * static_cast<double>(largest);
   }
 
-  bool nothing(const glm::uvec3& triangle) {
+  // Of a triangle without an area nothing; of one along the light's rays there may be.
+  std::optional<Plane> plane_of(const glm::uvec3& triangle) const {
     const glm::dvec3 a = scene_.positions[triangle.x];
-    const glm::dvec3 across =
-        glm::cross(glm::dvec3(scene_.positions[triangle.y]) - a, glm::dvec3(scene_.positions[triangle.z]) - a);
-    const double length = glm::length(across);
-    if (!(length > 0)) return true;  // without an area
-    const double along = glm::dot(across, forward_);
-    if (along == 0) return false;
-    const Plane plane{across * ((along < 0 ? 1 : -1) / length), a};
+    const glm::dvec3 u = glm::dvec3(scene_.positions[triangle.y]) - a, v = glm::dvec3(scene_.positions[triangle.z]) - a;
+    const glm::dvec3 across = glm::cross(u, v);
+    const double area = glm::length(across);
+    if (!(area > 0)) return std::nullopt;
+    const double height = area / std::max({glm::length(u), glm::length(v), glm::distance(u, v)});
+    return Plane{across * ((glm::dot(across, forward_) < 0 ? 1 : -1) / area), a, rounding_m_, 2 * rounding_m_ / height};
+  }
+
+  bool surely_something(const Plane& plane) const {
+    return glm::dot(plane.to_light, forward_) == 0 ||
+           std::any_of(outermost_.begin(), outermost_.end(), [&](const glm::dvec3& p) { return is_behind(plane, p); });
+  }
+
+  bool nothing(const Plane& plane, const glm::uvec3& triangle) {
     for (const Plane& known : proven_)
-      if (holds(known, triangle)) return true;
-    if (!in_front(plane)) return false;
+      if (lies_in(known, triangle)) return true;
+    for (const glm::vec3& p : scene_.positions)
+      if (questions_++ >= most_questions || is_behind(plane, glm::dvec3(p))) return false;
     proven_.push_back(plane);
     return true;
   }
 
  private:
-  struct Plane {
-    glm::dvec3 to_light;  // unit normal on the light's side
-    glm::dvec3 point;
-    double height(glm::dvec3 p) const { return glm::dot(to_light, p - point); }
-  };
-
-  bool holds(const Plane& plane, const glm::uvec3& triangle) const {
-    for (int i = 0; i < 3; ++i)
-      if (!(std::abs(plane.height(glm::dvec3(scene_.positions[triangle[i]]))) <= rounding_m_)) return false;
-    return true;
-  }
-
-  // The vertex that lay behind the plane before is asked first: it decides most triangles.
-  bool in_front(const Plane& plane) {
-    const size_t count = scene_.positions.size();
-    for (size_t i = 0; i < count; ++i) {
-      const size_t vertex = (first_ + i) % count;
-      if (questions_++ >= most_questions || plane.height(glm::dvec3(scene_.positions[vertex])) < -rounding_m_) {
-        first_ = vertex;
-        return false;
-      }
+  bool is_behind(const Plane& plane, glm::dvec3 p) const { return plane.height(p) < -plane.rounding_at(p); }
+  bool lies_in(const Plane& plane, const glm::uvec3& triangle) const {
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 p(scene_.positions[triangle[i]]);
+      if (!(std::abs(plane.height(p)) <= plane.rounding_at(p))) return false;
     }
     return true;
   }
 
-  // Some tenths of a second. A sheet that is hollow to the light asks every vertex for every triangle.
-  static constexpr size_t most_questions = 100'000'000;
+  // Less than a tenth of a second. A sheet that is hollow to the light asks every vertex for every triangle.
+  static constexpr size_t most_questions = 20'000'000;
   const Scene& scene_;
   glm::dvec3 forward_;
+  std::vector<glm::dvec3> outermost_;
   double rounding_m_ = 0;
   std::vector<Plane> proven_;
-  size_t first_ = 0, questions_ = 0;
+  size_t questions_ = 0;
 };
 
 }  // namespace
 
-std::optional<FittedMap> fit_to_casters(const Scene& scene, const LightFrame& axes) {
+std::optional<FittedMap> fit_to_casters(const Scene& scene, const MapSettings& map, const LightFrame& axes) {
   Behind behind(scene, axes.forward);
   Box casters;
+  const auto in_light = [&](const glm::uvec3& t) {
+    return box_of(corners_of(scene, t, [&](glm::dvec3 q) { return axes.to_light(q); }));
+  };
+  const auto add = [&](const Box& box) { casters.add(box.low), casters.add(box.high); };
+  std::vector<std::pair<glm::uvec3, Plane>> open;
   for (const glm::uvec3& t : scene.triangles) {
-    if (behind.nothing(t)) continue;
-    for (const glm::dvec3& p : corners_of(scene, t, [&](glm::dvec3 q) { return axes.to_light(q); })) casters.add(p);
+    const std::optional<Plane> plane = behind.plane_of(t);
+    if (!plane) continue;
+    if (behind.surely_something(*plane))
+      add(in_light(t));
+    else
+      open.emplace_back(t, *plane);
+  }
+  // What lies within the others' box need not be asked.
+  for (const auto& [t, plane] : open) {
+    const Box box = in_light(t);
+    const bool within = glm::all(glm::greaterThanEqual(glm::dvec2(box.low), glm::dvec2(casters.low))) &&
+                        glm::all(glm::lessThanEqual(glm::dvec2(box.high), glm::dvec2(casters.high)));
+    if (!within && !behind.nothing(plane, t)) add(box);
   }
   if (!(casters.low.x <= casters.high.x)) return std::nullopt;
   const glm::dvec2 size(casters.high - casters.low), middle = 0.5 * glm::dvec2(casters.low + casters.high);
-  const double reach = 0.5 * std::max(size.x, size.y);
+  // A texel more on each side: the grid's placements, shifts and snapping move the map by up to one.
+  const double texels = map.resolution;
+  const double reach = 0.5 * std::max(size.x, size.y) * texels / std::max(texels - 2, 1.0);
   const Depths depths = depths_inside(scene, axes, middle, reach * (1 + lights::map_margin));
   return FittedMap{lights::with_margin(reach, depths.least, depths.most), middle};
 }

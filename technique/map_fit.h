@@ -40,12 +40,13 @@ std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& vie
 // it.
 FittedMap fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapSettings& map, const LightFrame& axes);
 
-// map.fit = casters: the smallest square, with the margin of a tight fit, that holds every triangle that can cast a shadow;
-// near and far hold the scene inside the square. A triangle can cast none if its plane has the whole scene on the light's
+// map.fit = casters: the smallest square, with the margin of a tight fit and one texel on each side, that holds every triangle
+// that can cast a shadow, also where the map is moved by up to a texel (map.snap, placements); near and far hold the scene
+// inside the square. A triangle can cast none if its plane has the whole scene on the light's
 // side, as that of a ground below everything: then no point lies behind it. So what lies outside of the square is lit, and
 // the map must read so there (map.wrap = clamp_to_border). Points within the rounding of the scene's float positions are on
 // the plane. A triangle along the light's rays, or one of very many that would take too long to prove, counts as a caster:
 // the square is never too small. Nothing if nothing casts.
-std::optional<FittedMap> fit_to_casters(const Scene& scene, const LightFrame& axes);
+std::optional<FittedMap> fit_to_casters(const Scene& scene, const MapSettings& map, const LightFrame& axes);
 
 }  // namespace noonmark

@@ -75,7 +75,7 @@ const EngineAdapter& engine_adapter(const std::string& name) {
     if (none.name == name)
       throw Error(ErrorKind::usage,
                   fmt::format("--engine {}: {}; these can be tried: {}", name, none.why, fmt::join(names, ", ")));
-  throw Error(ErrorKind::usage, fmt::format("--engine {}: there is no such engine; these can be tried: {}", name,
+  throw Error(ErrorKind::usage, fmt::format("--engine '{}': there is no such engine; these can be tried: {}", name,
                                             fmt::join(names, ", ")));
 }
 

@@ -219,7 +219,9 @@ class Trial {
 TrialPlan plan_trial(Workbench& bench, const std::vector<Settings>& conditions, const std::vector<std::string>& names,
                      const std::string& folder) {
   TrialPlan plan;
-  for (const std::string& name : names) {
+  for (std::string name : names) {
+    name.erase(0, name.find_first_not_of(' '));  // of a list "three, babylon"
+    name.erase(name.find_last_not_of(' ') + 1);
     engine_adapter(name);  // refuses another name
     if (std::find(plan.names.begin(), plan.names.end(), name) == plan.names.end()) plan.names.push_back(name);
   }

@@ -57,6 +57,8 @@ LightBox box_of(const LightFrame& frame, const LightFrame& axes) {
 
 LightFrame fitted(const Scene& scene, Settings settings, MapFit fit) {
   settings.map.fit = fit;
+  // The place is one for all resolutions: its margin of a texel is that of the coarsest map.
+  settings.map.resolution = std::min(settings.map.resolution, 128);
   settings.map.extent_m.reset();
   settings.map.near_m.reset();
   settings.map.far_m.reset();

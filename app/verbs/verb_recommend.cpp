@@ -260,8 +260,9 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
 }
 
 // The engines whose lines are printed.
-std::vector<std::string> shown_engines(const RecommendOptions& options) {
-  std::vector<std::string> words = options.engines;
+std::vector<std::string> shown_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan) {
+  std::vector<std::string> words;
+  if (plan) words = plan->names;
   if (options.lines) words.push_back(*options.lines);
   if (words.empty()) words.push_back(engine_words().front());
   return words;
@@ -322,7 +323,7 @@ int recommend(const RecommendOptions& options) {
   if (advice.around)
     write_file_atomically(out + "/recommended.html",
                           to_tornado_page(*advice.around, std::string(build_facts().version)));
-  if (!arguments.json) print_advice(advice, engines, shown_engines(options), bench, out);
+  if (!arguments.json) print_advice(advice, engines, shown_engines(options, plan), bench, out);
   require_frames(engines);
   return broken_in_engine(engines) ? 1 : 0;
 }

@@ -51,9 +51,17 @@ TEST(CasterFitMeasured, NoReceiverHasACoverageError) {
     Settings settings = small(name, 240, 136);
     if (bench.scene(settings.scene).light.kind != LightKind::directional) continue;
     settings.map.fit = MapFit::casters;
-    const Measurement m = bench.measure(settings, std::nullopt);
-    EXPECT_EQ(metric(m, "coverage"), 0) << name;
-    most_outside = std::max(most_outside, metric(m, "outside"));
+    settings.map.resolution = 64;
+    // Also where the grid moves by up to a texel: by placements, or by snapping.
+    for (const double shift : {0.0, -1.0, 0.5, 1.0}) {
+      settings.map.shift_u_texels = settings.map.shift_v_texels = shift;
+      const Measurement m = bench.measure(settings, std::nullopt);
+      EXPECT_EQ(metric(m, "coverage"), 0) << name << ", moved by " << shift << " texels";
+      most_outside = std::max(most_outside, metric(m, "outside"));
+    }
+    settings.map.shift_u_texels = settings.map.shift_v_texels = 0;
+    settings.map.snap = true;
+    EXPECT_EQ(metric(bench.measure(settings, std::nullopt), "coverage"), 0) << name << ", snapped";
   }
   EXPECT_GT(most_outside, 0.5);
 }

@@ -213,7 +213,7 @@ TEST(CasterFit, IsTheSquareOfWhatStandsOnAGround) {
   for (const int n : {1, 40}) {
     const Scene scene = ground_with_box(n, 0);
     const LightFrame frame = make_light_frame(scene, fitted(MapFit::casters));
-    EXPECT_NEAR(frame.extent_m, 4 * margin, 4 * fit_rounding);
+    EXPECT_NEAR(frame.extent_m, 4 * margin * 1024 / 1022, 4 * fit_rounding) << "and a texel on each side";
     const glm::dvec3 middle = frame.to_light({4, 0, 0});
     EXPECT_NEAR(middle.x, 0, 100 * fit_rounding);
     EXPECT_NEAR(middle.y, 0, 100 * fit_rounding);
@@ -276,12 +276,20 @@ TEST(CasterFit, LeavesNoShadowOutside) {
   EXPECT_GT(outside, 1000);
 }
 
+// A closed shape is not asked triangle by triangle: a ground that comes after it is left out, too.
+TEST(CasterFit, LeavesOutAGroundThatComesLast) {
+  Scene scene = make_scene({.name = "sphere"});
+  const double alone = make_light_frame(scene, fitted(MapFit::casters)).extent_m;
+  add_quad(scene, "ground", {-50, -4, 50}, {100, 0, 0}, {0, 0, -100});
+  EXPECT_NEAR(make_light_frame(scene, fitted(MapFit::casters)).extent_m, alone, 1e-9);
+}
+
 TEST(CasterFit, IsNeverLargerThanTheFitOfTheWholeScene) {
   int smaller = 0;
   for (const Scene& scene : directional_scenes()) {
     const LightFrame casters = make_light_frame(scene, fitted(MapFit::casters)),
                      whole = make_light_frame(scene, fitted(MapFit::tight));
-    EXPECT_LE(casters.extent_m, whole.extent_m) << scene.name;
+    EXPECT_LE(casters.extent_m, whole.extent_m * 1024 / 1022) << scene.name;
     smaller += casters.extent_m < 0.5 * whole.extent_m;
   }
   EXPECT_GT(smaller, 2);
