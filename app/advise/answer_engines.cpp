@@ -49,9 +49,7 @@ std::string why_not_in_engines(Workbench& bench, std::span<const std::string> en
     if (std::find(engines.begin(), engines.end(), advice.engine) == engines.end()) continue;
     if (advice.lines.empty()) return fmt::format("{} has no lines for it: {}", advice.engine, advice.cannot.front());
     if (!advice.emulated) continue;
-    std::vector<Settings> there = promised_under(tried, request);
-    for (Settings& condition : there) condition = as_engine(advice, condition);
-    advice.promise = measured_promise(bench, there, request.accuracy);
+    advice.promise = measured_promise(bench, under_engine(advice, promised_under(tried, request)), request.accuracy);
     if (const std::string broken = broken_promise_text(advice, request.curve, request.error); !broken.empty())
       return fmt::format("in {} {}", advice.engine, broken);
   }

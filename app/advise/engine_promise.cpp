@@ -38,6 +38,16 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
   return promise;
 }
 
+std::vector<Settings> under_engine(const EngineAdvice& advice, std::span<const Settings> conditions) {
+  std::vector<Settings> there;
+  for (const Settings& condition : conditions) {
+    there.push_back(as_engine(advice, condition));
+    if (there.back().map.resolution > most_placed) there.back().map.placements = 1;
+    if (there.back().map.resolution > most_in_all_views) break;
+  }
+  return there;
+}
+
 EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engines,
                                std::span<const Settings> conditions, const std::string& accuracy,
                                const std::function<void(const std::string&)>& say) {
@@ -51,12 +61,7 @@ EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engi
   const EnginePromise recommended = promise_of({conditions.begin(), conditions.end()}, "the recommended settings");
   for (EngineAdvice& advice : engines) {
     if (!advice.emulated) continue;
-    std::vector<Settings> there;
-    for (const Settings& condition : conditions) {
-      there.push_back(as_engine(advice, condition));
-      if (there.back().map.resolution > most_placed) there.back().map.placements = 1;
-      if (there.back().map.resolution > most_in_all_views) break;
-    }
+    const std::vector<Settings> there = under_engine(advice, conditions);
     const bool all_views = there.size() == conditions.size();
     try {
       advice.promise = promise_of(there, "what " + advice.engine + " does with its lines");

@@ -20,10 +20,13 @@ namespace noonmark {
 // picture to measure with. accuracy: a metric. Throws Error.
 EnginePromise measured_promise(Workbench& bench, std::span<const Settings> conditions, const std::string& accuracy);
 
+// What is measured of an engine that is emulated: its settings under each condition. Its map of more than 2048 texels is measured as it
+// lies, at one placement, and one of more than 4096 under the first condition alone.
+std::vector<Settings> under_engine(const EngineAdvice& advice, std::span<const Settings> conditions);
+
 // Sets the promise of each piece of advice that has settings, each different technique measured once, and returns that of the
 // conditions themselves: of the recommended technique. Settings that cannot be measured (a map that does not fit into memory)
-// get the reason in why_not_emulated instead. An engine's map of more than 2048 texels is measured as it lies, and one of more than 4096
-// under the first condition alone. say: progress, one line.
+// get the reason in why_not_emulated instead. say: progress, one line.
 EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engines,
                                std::span<const Settings> conditions, const std::string& accuracy,
                                const std::function<void(const std::string&)>& say);

@@ -139,8 +139,8 @@ class Trial {
     return view;
   }
 
-  // The condition for the file that the engine loads. In the file of a scene that is not a plain file each triangle has
-  // vertices of its own, which casters are moved by.
+  // The condition for the file that the engine loads. A scene that is not a plain file is exported for the engine, and the export
+  // gives each triangle its own vertices. A technique that moves casters moves them by these vertices' normals.
   Settings in_file(const Settings& condition) {
     Settings there = condition;
     there.view.fit_depths = true;  // a file's near plane would cut off what the adapter's camera shows

@@ -18,9 +18,8 @@ namespace {
 std::string no_ground_text(const Settings& first, const Scene& scene) {
   if (!names_file(first.scene.name) || first.scene.floor || has_ground(scene) || camera_inside(scene)) return "";
   return "The model has no ground: this answer is for its shadows on itself, and the lines cut the shadow off on a "
-         "ground of "
-         "yours. For a floor under it: --set scene.floor=true, or noonmark init MODEL and then noonmark recommend "
-         "FILE.toml.";
+         "ground of yours. For a floor under it: --set scene.floor=true, or noonmark init MODEL and then noonmark "
+         "recommend FILE.toml.";
 }
 
 // Where the direction or the position of the light is from.
@@ -32,8 +31,7 @@ std::string source_of_light(const Experiment& experiment, const Settings& first,
   if (!names_file(first.scene.name)) return "that of the built-in scene";
   if (!scene.lights.empty()) return "that of the model's file";
   return "fitted, because the model's file has none; yours: --set light.position_m=X,Y,Z --set light.target_m=X,Y,Z, "
-         "or "
-         "light.azimuth_deg and light.elevation_deg";
+         "or light.azimuth_deg and light.elevation_deg";
 }
 
 std::string place_of_light(const LightFrame& frame) {
