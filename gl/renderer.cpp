@@ -128,18 +128,19 @@ void Renderer::Impl::draw_scene(const Program& program) {
   glUseProgram(0);
 }
 
-void Renderer::Impl::draw_screen(const Program& program, GLenum depth_test) {
+void Renderer::Impl::draw_screen(const Program& program, GLenum depth_test, bool writes_depth) {
   if (depth_test == GL_NONE) {
     glDisable(GL_DEPTH_TEST);
   } else {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(depth_test);
-    glDepthMask(GL_TRUE);
+    glDepthMask(writes_depth ? GL_TRUE : GL_FALSE);
   }
   glDisable(GL_CULL_FACE);
   glUseProgram(program.id());
   glBindVertexArray(no_vertices.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);  // clears need it
   // A driver judges the current program with the textures that are bound then, also where only a clear follows.
   glUseProgram(0);
 }

@@ -124,6 +124,9 @@ class Renderer {
   MapDepths read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels);
   Image<float> read_rows(const ShadowMap& map, int first_row, int count);
 
+  // How many texels of the map hold anything, that is a depth below 1. Counted on the device.
+  int64_t used_texels(const ShadowMap& map);
+
   // Gives the memory of deleted maps back. Drivers keep a texture that was bound until the next draw, and until what
   // was drawn with it is done.
   void release_deleted();

@@ -102,7 +102,7 @@ struct Renderer::Impl {
 
   void draw_scene(const Program& program);
   // depth_test: GL_NONE means no test.
-  void draw_screen(const Program& program, GLenum depth_test = GL_NONE);
+  void draw_screen(const Program& program, GLenum depth_test = GL_NONE, bool writes_depth = true);
 
   // Runs the pass. If time_ms is given, the pass runs twice, and time_ms receives the time of the second run.
   void run(double* time_ms, const std::function<void()>& pass);

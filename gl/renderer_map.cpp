@@ -147,6 +147,33 @@ ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std:
   return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, r.drawn, std::move(flat), map.wrap));
 }
 
+int64_t Renderer::used_texels(const ShadowMap& map) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  Program& program = r.programs.get({"shaders/screen.vert", "shaders/depth.frag"});
+  const int side = map.resolution();
+  r.draw_into({}, map.impl_->depth.id(), side, side);
+  GLuint query = 0;
+  glCreateQueries(GL_SAMPLES_PASSED, 1, &query);
+  glDepthRange(1, 1);  // a depth of 1 passes where the map is nearer
+  int64_t used = 0;
+  for (int face = 0; face < (map.impl_->cube ? 6 : 1); ++face) {
+    if (map.impl_->cube)
+      glNamedFramebufferTextureLayer(r.framebuffer.id(), GL_DEPTH_ATTACHMENT, map.impl_->depth.id(), 0, face);
+    glBeginQuery(GL_SAMPLES_PASSED, query);
+    r.draw_screen(program, GL_GREATER, false);
+    glEndQuery(GL_SAMPLES_PASSED);
+    GLuint64 passed = 0;
+    glGetQueryObjectui64v(query, GL_QUERY_RESULT, &passed);
+    used += static_cast<int64_t>(passed);
+  }
+  glDepthRange(0, 1);
+  glDeleteQueries(1, &query);
+  r.detach(0);
+  r.context->check("used_texels");
+  return used;
+}
+
 double Renderer::polygon_offset_unit(DepthFormat format) {
   Impl& r = *impl_;
   r.context->make_current();

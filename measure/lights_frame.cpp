@@ -13,8 +13,6 @@
 namespace noonmark {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 // What is shown as white is the light that this share of the pixels that are lit in truth does not exceed: a few pixels beside
 // a lamp would otherwise make the rest black.
 constexpr double below_white = 0.95;
@@ -132,7 +130,9 @@ LightsFrame measure_lights(std::span<const LightPart> parts) {
   }
   frame.shown = shown_as(parts, &LightPart::shown, white);
   frame.truth = shown_as(parts, &LightPart::truth, white);
-  const auto mean = [&](double sum) { return counted == 0 ? nan : sum / static_cast<double>(counted); };
+  const auto mean = [&](double sum) {
+    return counted == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(counted);
+  };
   double sum_of_parts = 0;
   for (const double one : errors) sum_of_parts += one;
   frame.metrics = {{"lights_error", mean(error)},
@@ -144,7 +144,7 @@ LightsFrame measure_lights(std::span<const LightPart> parts) {
   for (size_t l = 0; l < parts.size(); ++l)
     frame.of_light[l] = {{"light_error", mean(errors[l])},
                          {"light_share", sum_of_parts > 0 ? errors[l] / sum_of_parts
-                                         : counted == 0   ? nan
+                                         : counted == 0   ? std::numeric_limits<double>::quiet_NaN()
                                                           : 0},
                          {"light_weight", mean(weights[l])}};
   return frame;
@@ -158,7 +158,7 @@ double light_error(std::span<const LightPart> frame, const LightPart& light) {
     ++counted;
     error += light.lux[i] / lux_of_all(frame, i) * std::abs(static_cast<double>(light.shown[i]) - light.truth[i]);
   }
-  return counted == 0 ? nan : error / static_cast<double>(counted);
+  return counted == 0 ? std::numeric_limits<double>::quiet_NaN() : error / static_cast<double>(counted);
 }
 
 LightPart without_shadow(LightPart light) {

@@ -51,6 +51,7 @@ struct TruthStage {
 
 struct MapStage {
   std::optional<gl::ShadowMap> map;  // none after show(), if the map is too large to be kept
+  std::optional<int64_t> used;       // gl::Renderer::used_texels, once they have been counted
 };
 
 // Frees the map if it is larger than what is kept (most_kept_map_bytes).

@@ -14,6 +14,7 @@
 #include "measure/flicker_stage.h"
 #include "measure/placement_stage.h"
 #include "measure/stage_keys.h"
+#include "measure/texel_footprint.h"
 #include "measure/view_shading.h"
 #include "scenes/camera_frame.h"
 #include "scenes/scene_size.h"
@@ -85,6 +86,7 @@ PointRecord record_of(const Measurement& m, const SceneStage& loaded, const View
     const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
     record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
     record.metrics["flip"] = shaded_flip(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
+    record.metrics.merge(footprint_metrics(texel_footprint(m.receivers, camera, t.frame, truth.receivers.facing)));
   }
   add_cost(record, frame_cost(t.settings, t.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
                               static_cast<int64_t>(m.scene.triangles.size())));
@@ -107,7 +109,10 @@ Settings of_scene(const SceneSettings& scene) {
 }  // namespace
 
 ShadedMetrics shaded_metrics_for(std::string_view metric) {
-  return metric == "shaded_rmse" || metric == "flip" ? ShadedMetrics::yes : ShadedMetrics::no;
+  return metric == "shaded_rmse" || metric == "flip" || metric == "map_used" || metric == "undersampled" ||
+                 metric.starts_with("perspective_aliasing")
+             ? ShadedMetrics::yes
+             : ShadedMetrics::no;
 }
 
 struct Workbench::Impl {
@@ -371,6 +376,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   LookupStage& lookup = b.lookup.get(
       asked.keys.lookup, [&] { return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, technique); });
   MapStage& map = b.drawn(scene, technique, asked.keys.map);
+  // A search does not read it, and it costs a pass over the map.
+  if (shaded == ShadedMetrics::yes && !map.used) map.used = b.renderer.used_texels(*map.map);
   ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, technique);
 
   const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
@@ -392,6 +399,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   Measurement m{{},           technique, std::move(climbed.ladder), view.camera,        scene, view.receivers,
                 lookup.probe, {},        std::move(shown.stored),   lookup.exact_depth, {}};
   m.record = record_of(m, loaded, view, truth, lookup, climbed.soundness, shaded);
+  const auto texels = static_cast<double>(m.record.metrics.at("map_texels"));
+  m.record.metrics["map_seen"] = static_cast<double>(lookup.exact_depth.texels->count()) / texels;
+  if (shaded == ShadedMetrics::yes) m.record.metrics["map_used"] = static_cast<double>(*map.used) / texels;
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);

@@ -52,6 +52,22 @@ Depths depths_in_view(const Scene& scene, const CameraFrame& frame) {
   return depths;
 }
 
+// A camera that becomes orthographic shows as much of the world as it did in the distance of its target, and one that becomes
+// perspective has the angle that shows it there.
+void project(Camera& camera, const ViewSettings& view) {
+  const double distance = glm::length(camera.target_m - camera.eye_m);
+  if (view.fov_deg) camera.fov_y_deg = *view.fov_deg;
+  if (view.height_m) camera.height_m = *view.height_m;
+  if (view.projection != ViewProjection::automatic) {
+    const auto projection = static_cast<Projection>(static_cast<int>(view.projection) - 1);
+    if (projection == Projection::orthographic && camera.projection == Projection::perspective && !view.height_m)
+      camera.height_m = 2 * distance * std::tan(camera.fov_y_deg * std::numbers::pi / 360);
+    if (projection == Projection::perspective && camera.projection == Projection::orthographic && !view.fov_deg)
+      camera.fov_y_deg = 360 / std::numbers::pi * std::atan(camera.height_m / (2 * distance));
+    camera.projection = projection;
+  }
+}
+
 // The camera of the motion's frame.
 void move_camera(Camera& camera, const MotionSettings& motion) {
   if (motion.frame == 0) return;
@@ -97,7 +113,7 @@ Camera effective_camera(const Scene& scene, const ViewSettings& view) {
   if (view.eye_m) camera.eye_m = *view.eye_m;
   if (view.target_m) camera.target_m = *view.target_m;
   if (view.up) camera.up = *view.up;
-  if (view.fov_deg) camera.fov_y_deg = *view.fov_deg;
+  project(camera, view);
   if (view.fit_depths) camera.near_m = camera.far_m = std::nullopt;
   if (view.near_m) camera.near_m = view.near_m;
   if (view.far_m) camera.far_m = view.far_m;

@@ -58,13 +58,18 @@ struct MotionSettings {
   }
 };
 
+// The first is the projection of the scene's camera. The others are in the order of Projection.
+enum class ViewProjection { automatic, perspective, orthographic };
+
 struct ViewSettings {
   int width_px = 1280;
   int height_px = 720;
   std::optional<glm::dvec3> eye_m;     // empty: the scene's
   std::optional<glm::dvec3> target_m;  // empty: the scene's
   std::optional<glm::dvec3> up;        // of the picture, any length but 0; empty: the scene's
-  std::optional<double> fov_deg;       // whole vertical angle; empty: the scene's
+  ViewProjection projection = ViewProjection::automatic;
+  std::optional<double> fov_deg;   // perspective: whole vertical angle; empty: the scene's
+  std::optional<double> height_m;  // orthographic: of the world that the picture shows; empty: as scenes/camera_fit.h says
   std::optional<double> near_m;        // along the view; empty: the scene's, or fitted (scenes/camera_fit.h)
   std::optional<double> far_m;
   bool fit_depths = false;  // near and far fitted, also where the scene's file gives them

@@ -124,8 +124,7 @@ double LightFrame::depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const {
 }
 
 MapVolume fit_map(const Scene& scene, const Light& light) {
-  const KindOfLight& kind = kind_of_light(light.kind);
-  return kind.fit(scene, kind.axes(light));
+  return kind_of_light(light.kind).fit(scene, kind_of_light(light.kind).axes(light));
 }
 
 namespace {
@@ -257,21 +256,67 @@ std::vector<std::string> light_notes(const Scene& scene, const Settings& setting
   return notes;
 }
 
+namespace {
+
+LightFrame rolled(LightFrame frame, double roll_deg) {
+  if (roll_deg == 0) return frame;
+  const double angle = glm::radians(roll_deg), c = std::cos(angle), s = std::sin(angle);
+  const glm::dvec3 right = c * frame.right + s * frame.up;
+  frame.up = c * frame.up - s * frame.right;
+  frame.right = right;
+  return frame;
+}
+
+struct LaidMap {
+  LightFrame axes;
+  MapVolume volume;
+  glm::dvec2 middle_m{0};
+};
+
+LaidMap laid_map(const Scene& scene, const Settings& settings, const KindOfLight& kind, const LightFrame& axes) {
+  if (const std::optional<FittedMap> moved = moved_fit(scene, settings, axes))
+    return {axes, moved->volume, moved->middle_m};
+  // The scene's own map volume fits only the scene's own light.
+  if (scene.map && settings.map.fit == MapFit::scene && why_not_the_scenes(scene, settings).empty())
+    return {axes, *scene.map, {}};
+  return {axes, kind.fit(scene, axes), {}};
+}
+
+// Of all rotations the one whose map is smallest: a square repeats after 90 degrees. The extent has several minima, each narrower
+// than a step of 3 degrees only where it is shallow too.
+LaidMap smallest_map(const Scene& scene, const Settings& settings, const KindOfLight& kind, const LightFrame& axes) {
+  constexpr double coarse_deg = 3, fine_deg = 0.5;
+  double best_deg = 0;
+  LaidMap best = laid_map(scene, settings, kind, axes);
+  const auto try_at = [&](double deg) {
+    LaidMap one = laid_map(scene, settings, kind, rolled(axes, deg));
+    if (one.volume.extent_m < best.volume.extent_m) best = one, best_deg = deg;
+  };
+  for (double deg = coarse_deg; deg < 90; deg += coarse_deg) try_at(deg);
+  for (double step = -coarse_deg + fine_deg, around = best_deg; step < coarse_deg; step += fine_deg)
+    try_at(around + step);
+  return best;
+}
+
+}  // namespace
+
 LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   const Light light = effective_light(scene, settings);
   validate(settings, light.kind);
-  // The scene's own map volume fits only the scene's own light.
   const KindOfLight& kind = kind_of_light(light.kind);
-  const bool scenes_own = scene.map && settings.map.fit == MapFit::scene && why_not_the_scenes(scene, settings).empty();
-  LightFrame frame = kind.axes(light);
-  const std::optional<FittedMap> moved = moved_fit(scene, settings, frame);
-  MapVolume volume = moved ? moved->volume : scenes_own ? *scene.map : fit_map(scene, light);
+  const bool cube = kind.map_shape() == MapShape::cube;
+  const LightFrame axes = kind.axes(light);
+  LaidMap laid = settings.map.roll_deg
+                     ? laid_map(scene, settings, kind, cube ? axes : rolled(axes, *settings.map.roll_deg))
+                     : smallest_map(scene, settings, kind, axes);
+  LightFrame frame = laid.axes;
+  MapVolume volume = laid.volume;
   if (settings.map.depth_range == DepthRange::scene && kind.rays().have_one_direction()) {
     const MapVolume whole = fit_map(scene, light);
     volume.near_m = whole.near_m;
     volume.far_m = whole.far_m;
   }
-  if (moved) frame.origin_m += moved->middle_m.x * frame.right + moved->middle_m.y * frame.up;
+  frame.origin_m += laid.middle_m.x * frame.right + laid.middle_m.y * frame.up;
   frame.near_m = settings.map.near_m.value_or(volume.near_m);
   frame.far_m = settings.map.far_m.value_or(volume.far_m);
   frame.resolution = settings.map.resolution;

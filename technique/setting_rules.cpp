@@ -75,6 +75,12 @@ std::string without_time(const Settings& s, LightKind light) {
   if (const std::string why = in_builtin_scene(s, light); !why.empty()) return why;
   return s.scene.time_s ? "" : "without scene.time_s";
 }
+// A scene's own camera can be orthographic only if it is a file's.
+std::string in_perspective_view(const Settings& s, LightKind) {
+  if (s.view.projection == ViewProjection::orthographic) return "";
+  if (s.view.projection == ViewProjection::automatic && names_file(s.scene.name)) return "";
+  return "in a perspective view";
+}
 std::string where_depths_are_fitted(const Settings& s, LightKind) {
   if (!names_file(s.scene.name)) return "in a built-in scene, where near and far are always fitted";
   return s.view.near_m && s.view.far_m ? "with both view.near_m and view.far_m" : "";
@@ -200,6 +206,14 @@ std::string turn_beyond_a_circle(const Settings& s, std::optional<LightKind>) {
   if (!s.map.turn_deg || glm::length(*s.map.turn_deg) <= 360) return "";
   return fmt::format("map.turn_deg turns by {:.6g} degrees, the length of its vector; it can be at most 360",
                      glm::length(*s.map.turn_deg));
+}
+
+std::string searched_roll_without_fit(const Settings& s, std::optional<LightKind> light) {
+  if (s.map.roll_deg) return "";
+  if (light && !kind_of_light(*light).rays().have_one_direction())
+    return "map.roll_deg = auto needs a directional light: only its map has an extent that a rotation changes";
+  return s.map.extent_m ? "map.roll_deg = auto searches the smallest extent, and map.extent_m gives it; give a number"
+                        : "";
 }
 
 std::string snapped_perspective(const Settings& s, std::optional<LightKind> light) {

@@ -69,6 +69,8 @@ std::string without_sphere(const Settings&, LightKind);
 std::string without_motion(const Settings&, LightKind);
 std::string without_turning_light(const Settings&, LightKind);
 std::string without_moving_light(const Settings& s, LightKind light);
+std::string in_perspective_view(const Settings& s, LightKind light);
+std::string searched_roll_without_fit(const Settings& s, std::optional<LightKind> light);
 std::string with_name_of_light(const Settings& s, LightKind light);
 
 // The conflict as a whole message; empty if there is none. light: as for validate().

@@ -193,7 +193,22 @@ std::vector<Setting> make_table() {
       point("view.up", "", "The direction that points up in the picture, of any length; auto: the scene's.",
             MEMBER(view.up))
           .refused(no_direction_up),
-      real("view.fov_deg", "deg", 1, 170, "Whole vertical angle of view; auto: the scene's.", MEMBER(view.fov_deg)),
+      choice("view.projection", {"auto", "perspective", "orthographic"},
+             "Projection of the camera. auto: the scene's; orthographic: parallel, as the plans and side views of "
+             "textbooks; it "
+             "shows as much of the world as a perspective camera does in the distance of its target, unless "
+             "view.height_m says "
+             "how much.",
+             MEMBER(view.projection)),
+      real("view.fov_deg", "deg", 1, 170,
+           "perspective: whole vertical angle of view; auto: the scene's. With view.projection = orthographic it gives "
+           "the "
+           "height that is shown, unless view.height_m does.",
+           MEMBER(view.fov_deg)),
+      real("view.height_m", "m", 1e-6, 1e9,
+           "orthographic: how much of the world the picture shows in its height; auto: as view.projection says.",
+           MEMBER(view.height_m))
+          .idle(in_perspective_view),
       real("view.near_m", "m", 1e-6, 1e9,
            "Distance of the camera's near plane along the view; auto: from the scene's file, or fitted so that nothing "
            "in view is cut off.",
@@ -294,6 +309,14 @@ std::vector<Setting> make_table() {
       real("map.fov_deg", "deg", 1, 175, "spot: whole angle that the map covers; auto: the light's cone.",
            MEMBER(map.fov_deg))
           .idle(without_cone),
+      real("map.roll_deg", "deg", -180, 180,
+           "directional, spot: rotates the map about the light's axis, counter-clockwise as the light sees it, and "
+           "nothing "
+           "else. The edges of the scene then cross the texels at other angles, and so do slopes (A of law 1). auto "
+           "(directional): the rotation by which a fitted map is smallest, to half a degree.",
+           MEMBER(map.roll_deg))
+          .idle(on_cube_map)
+          .refused(searched_roll_without_fit),
       flag("map.snap",
            "directional: moves the map by less than a texel, so that its texel grid stays fixed in the world when the "
            "light's position or target moves without a rotation, or when the map follows the view and keeps its extent "

@@ -65,15 +65,16 @@ struct MapSettings {
   MapFit fit = MapFit::scene;     // the source of empty extent, near and far: the scene's own values, or a fit
   std::optional<double> reach_m;  // sphere: how far from the camera there are shadows; empty: the scene's diagonal
   DepthRange depth_range =
-      DepthRange::fit;             // directional: empty near and far are those of `fit`, or of the whole scene
-  std::optional<double> extent_m;  // directional: whole width; empty: from `fit`
-  double extent_scale = 1;         // multiplies the extent, from whichever source it is
-  std::optional<double> fov_deg;   // spot: whole angle of the map; empty: the light's cone
-  bool snap = false;               // directional: the grid stays fixed in the world when the map moves over it
-  double shift_u_texels = 0;       // moves the whole grid in the light's plane: along `right` ...
-  double shift_v_texels = 0;       // ... and along `up`
-  int placements = 1;              // S: measured at S x S placements of the grid (technique/placements.h)
-  std::optional<double> near_m;    // along the light's axis from its position; empty: the scene's own, or fitted
+      DepthRange::fit;                 // directional: empty near and far are those of `fit`, or of the whole scene
+  std::optional<double> extent_m;      // directional: whole width; empty: from `fit`
+  double extent_scale = 1;             // multiplies the extent, from whichever source it is
+  std::optional<double> fov_deg;       // spot: whole angle of the map; empty: the light's cone
+  std::optional<double> roll_deg = 0;  // directional, spot: of the map about the light's axis; empty: the least extent
+  bool snap = false;                   // directional: the grid stays fixed in the world when the map moves over it
+  double shift_u_texels = 0;           // moves the whole grid in the light's plane: along `right` ...
+  double shift_v_texels = 0;           // ... and along `up`
+  int placements = 1;                  // S: measured at S x S placements of the grid (technique/placements.h)
+  std::optional<double> near_m;        // along the light's axis from its position; empty: the scene's own, or fitted
   std::optional<double> far_m;
   Wrap wrap = Wrap::clamp_to_border;  // the depth of the border is 1, which is lit
   bool lit_beyond_far = true;

@@ -133,7 +133,8 @@ std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> c
   const Settings& first = conditions.front();
   const Light light = effective_light(scene, first);
   std::vector<MapPlace> places = {place_as_given()};
-  if (light.kind != LightKind::directional || first.view.motion.moves_light() ||
+  const bool rolled = first.map.roll_deg != 0;  // the places are boxes along the light's own axes
+  if (light.kind != LightKind::directional || first.view.motion.moves_light() || rolled ||
       !same_light_and_scene(scene, conditions, light))
     return places;
   places.front().extent_m = make_light_frame(scene, first).extent_m;

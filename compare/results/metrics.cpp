@@ -194,6 +194,26 @@ constexpr Metric measured_once[] = {
      "0, "
      "nobody sees a difference, to 1.",
      true},
+    {"map_used", "fraction",
+     "Share of the map's texels that hold anything: a depth below 1, as OpenGL draws it. The rest is empty space about "
+     "the scene.",
+     true},
+    {"map_seen", "fraction",
+     "Share of the map's texels that the lookup of some receiver that faces the light reads: what the picture gets of "
+     "the map.",
+     true},
+    {"undersampled", "fraction",
+     "Share of the receivers that face the light where a texel is longer in the picture than a pixel: there the stairs "
+     "of a shadow edge can be seen. It needs no edge.",
+     true},
+    {"perspective_aliasing", "",
+     "Median over the receivers that face the light of the width of a texel over the width of a pixel, both across "
+     "their rays (Lloyd et al. 2006): above 1 the map is too coarse for the camera, whatever the surface's slope.",
+     true},
+    {"perspective_aliasing_p95", "",
+     "What perspective_aliasing is at most at 95% of the receivers: large where the map spends its texels far from the "
+     "camera.",
+     true},
     {"texel_work", "count",
      "Cost of the technique, the same on every machine: the texels of the map, each written once, and the texture "
      "instructions of the lookups of all facing receivers.",
@@ -282,7 +302,8 @@ constexpr Metric of_several_lights[] = {
      true, false, false, false, true},
     {"lights_rmse", "",
      "Frame of several lights: root mean square difference over the counted pixels and the three colours of the shaded "
-     "frame and the true one (diffuse clay, linear light; white is the light that 95% of the pixels that are lit in truth do not exceed).",
+     "frame and the true one (diffuse clay, linear light; white is the light that 95% of the pixels that are lit in "
+     "truth do not exceed).",
      true, false, false, false, true},
     {"lights_flip", "",
      "Frame of several lights: mean FLIP of the shaded frame and the true one, as they are shown (8-bit sRGB, 67 "

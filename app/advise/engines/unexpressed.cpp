@@ -85,7 +85,8 @@ std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::ve
   constexpr std::string_view rows[] = {"map.snap",        "map.shift_u_texels", "map.shift_v_texels",
                                        "map.wrap",        "map.cull",           "map.lit_beyond_far",
                                        "map.depth_clamp", "map.pancake",        "map.turn_deg",
-                                       "map.fov_deg",     "light.radius_m",     "light.angular_diameter_deg"};
+                                       "map.fov_deg",     "light.radius_m",     "light.angular_diameter_deg",
+                                       "map.roll_deg"};
   const Settings defaults;
   std::vector<std::string> said;
   for (std::string_view name : rows) {
