@@ -133,12 +133,13 @@ Bias every_part(BiasSettings settings) {
   return Bias(settings);
 }
 
-// The settings that differ from their defaults, for the command that gives the same point.
+// The scene and the settings that differ from their defaults, for the command that gives the same point.
 json changed_settings(const Settings& settings) {
   json changed = json::object();
   const Settings defaults;
   for (const Setting& row : settings_table())
-    if (const std::string value = row.get(settings); value != row.get(defaults)) changed[std::string(row.name)] = value;
+    if (const std::string value = row.get(settings); value != row.get(defaults) || row.name == "scene.name")
+      changed[std::string(row.name)] = value;
   return changed;
 }
 
@@ -188,6 +189,21 @@ std::string shader(const std::string& root, const Settings& settings) {
                         [](std::string_view name) { return live_files::embedded(fmt::format("live/page/{}", name)); });
 }
 
+// The scripts and shaders, packed: start.js unpacks them.
+std::string code(const Settings& settings) {
+  std::string script = "(function() {\n";
+  for (const char* part : {"vectors", "light", "mesh", "tree", "view", "state", "measure", "picture", "live"})
+    script += file(fmt::format("{}.js", part));
+  const json all = {{"script", script + "})();\n"},
+                    {"shaders",
+                     {{"judge", shader("judge.frag", settings)},
+                      {"map", shader("map.frag", settings)},
+                      {"map_boxes", shader("map.vert", settings)},
+                      {"mesh", shader("mesh.vert", settings)},
+                      {"screen", shader("shaders/screen.vert", settings)}}}};
+  return report::base64(report::deflated(all.dump()));
+}
+
 }  // namespace
 
 std::string live_page(const Scene& scene, const Settings& settings, std::string_view version) {
@@ -198,17 +214,9 @@ std::string live_page(const Scene& scene, const Settings& settings, std::string_
     if (name == "style")
       return report::colour_rules({cause_colors.begin(), cause_colors.end()}) + std::string(file("live.css"));
     if (name == "data") return report::data_block("live-data", page_data(scene, settings, version)).html();
-    if (name == "judge") return shader("judge.frag", settings);
-    if (name == "map") return shader("map.frag", settings);
-    if (name == "mesh") return shader("mesh.vert", settings);
-    if (name == "screen") return shader("shaders/screen.vert", settings);
+    if (name == "code") return code(settings);
     if (name == "unpack") return std::string(report::page_file("report/page/data.js"));
-    if (name == "scripts") {
-      std::string all;
-      for (const char* part : {"vectors", "light", "mesh", "tree", "view", "state", "measure", "picture", "live"})
-        all += file(fmt::format("{}.js", part));
-      return all;
-    }
+    if (name == "start") return std::string(file("start.js"));
     throw std::logic_error("the live page's template asks for " + std::string(name));
   });
 }

@@ -7,7 +7,7 @@
 //
 // The page's arithmetic is the program's: its lookup is compiled from gl/shaders and technique/bias, its geometry is the
 // scene's floats, and its light frame, receivers and truth follow technique/, scenes/ and raytrace/ (each script names the
-// file that it follows). tests/app/live_page_test.cpp compares both in a browser.
+// file that it follows). tests/app/live_agreement_test.cpp compares both in a browser.
 #pragma once
 #include <string>
 #include <string_view>

@@ -14,6 +14,18 @@ Face face(int t) {
   return Face(a.xyz, b.xyz, c.xyz, vec2(a.w, b.w), c.w);
 }
 
+// Above 0 where p, q and x turn counter-clockwise. The same number with the other sign for q, p and x, so that no place on
+// an edge of two triangles is missed by both.
+float side(vec2 p, vec2 q, vec2 x) {
+  vec2 a = p - x, b = q - x;
+  return a.x * b.y - a.y * b.x;
+}
+
+bool covers(Face f, vec2 x) {
+  vec3 s = f.turn * vec3(side(f.a.xy, f.b.xy, x), side(f.b.xy, f.c.xy, x), side(f.c.xy, f.a.xy, x));
+  return f.turn != 0.0 && all(greaterThanEqual(s, vec3(0.0)));
+}
+
 float plane_depth(Face f, vec2 x) { return f.a.z + dot(f.gradient, x - f.a.xy); }
 float hit_depth(Face f, vec2 x) {
   return clamp(plane_depth(f, x), min(f.a.z, min(f.b.z, f.c.z)), max(f.a.z, max(f.b.z, f.c.z)));

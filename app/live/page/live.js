@@ -1,10 +1,6 @@
 // The page itself: controls, the state in the address, and what is said about the picture.
-// window.noonmarkLive: `ready` ends when the first picture is drawn; measure(state) gives the metrics of any state
-// (fractions by the names of compare/results/metrics.cpp), for tests and for a console.
 const data = JSON.parse(document.getElementById('live-data').textContent);
 const element = id => document.getElementById(id);
-const shaders = {};
-for (const name of ['judge', 'map', 'mesh', 'screen']) shaders[name] = element('glsl-' + name).textContent;
 
 // Sliders. to: from the slider's position, 0 ... 1, to a value; from: its inverse.
 const digits = (x, count = 3) => String(Number(x.toPrecision(count)));
@@ -178,7 +174,7 @@ function useFragment() {
 async function start() {
   colours = causeColours(data.colours.map(c => c.name));
   Object.assign(element('frame'), {width: data.width, height: data.height});
-  meter = new Meter(data, await unpackedMesh(data), shaders);
+  meter = new Meter(data, await unpackedMesh(data), noonmarkLive.shaders);
   run = meter.measure(state);
   makeControls();
   useFragment();
@@ -201,11 +197,5 @@ async function start() {
   };
   element('controls').onsubmit = event => event.preventDefault();
 }
-window.noonmarkLive = {
-  measure: changes => meter.measure(Object.assign(initialState(data), changes)).metrics,
-  ready: start().catch(error => {
-    element('says').className = 'fails';
-    element('says').textContent = 'The page cannot draw: ' + error.message + '.';
-    throw error;
-  })
-};
+noonmarkLive.measure = changes => meter.measure(Object.assign(initialState(data), changes)).metrics;
+noonmarkLive.start = start;

@@ -1,5 +1,4 @@
-// The depth of the map at a texel's centre, from the plane of its triangle. A rasteriser moves corners to a grid of its own
-// before it interpolates depths, each GPU to another one; so the depths of a large triangle would differ between machines.
+// The depth of the map at a texel's centre, from the plane of the triangle that covers it (map.vert).
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -7,10 +6,12 @@ precision highp sampler2D;
 
 uniform vec2 first_texel_m;
 uniform float light_texel_m, near_depth, depth_range;
-flat in float shown;  // 1 + the triangle
+flat in int drawn;
 
 void main() {
-  Face f = face(int(shown) - 1);
-  if (f.turn == 0.0) discard;
-  gl_FragDepth = clamp((hit_depth(f, first_texel_m + gl_FragCoord.xy * light_texel_m) - near_depth) / depth_range, 0.0, 1.0);
+  Face f = face(drawn);
+  vec2 centre = first_texel_m + gl_FragCoord.xy * light_texel_m;
+  float depth = (hit_depth(f, centre) - near_depth) / depth_range;
+  if (!covers(f, centre) || depth < 0.0 || depth > 1.0) discard;
+  gl_FragDepth = depth;
 }

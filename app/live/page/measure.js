@@ -6,7 +6,7 @@ const noPrimitive = 0xffffffff, tableWidth = 2048, formats = {
 };
 
 class Meter {
-  // shaders: {judge, map, mesh, screen} texts. Throws Error if the browser cannot do it.
+  // shaders: {judge, map, map_boxes, mesh, screen} texts. Throws Error if the browser cannot do it.
   constructor(data, mesh, shaders) {
     this.data = data;
     this.mesh = mesh;
@@ -18,7 +18,7 @@ class Meter {
     if (!gl.getExtension('EXT_color_buffer_float')) throw new Error('this WebGL cannot draw into float pictures');
     const head = '#version 300 es\nprecision highp float; precision highp sampler2D;\n';
     this.facesProgram = this.program(shaders.mesh, head + 'flat in float shown; out vec4 color; void main() { color = vec4(shown); }');
-    this.mapProgram = this.program(shaders.mesh, shaders.map);
+    this.mapProgram = this.program(shaders.map_boxes, shaders.map);
     this.readProgram = this.program(shaders.screen, head + `uniform sampler2D depths; uniform float side; out vec4 color;
 void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }`);
     this.judgeProgram = this.program(shaders.screen, shaders.judge);
@@ -187,12 +187,12 @@ void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }
     gl.clearBufferfv(gl.DEPTH, 0, [1]);
     gl.enable(gl.DEPTH_TEST);
     gl.useProgram(this.mapProgram);
-    this.set(this.mapProgram, 'clip_from_world', 'm', clipFromWorld(frame));
+    this.set(this.mapProgram, 'resolution', '1i', frame.resolution);
     this.setPlaces(this.mapProgram, frame);
     gl.bindTexture(gl.TEXTURE_2D, this.tables.faces);
     this.set(this.mapProgram, 'faces', '1i', 0);
-    gl.bindVertexArray(this.drawn);
-    gl.drawArrays(gl.TRIANGLES, 0, 3 * this.mesh.count);
+    gl.bindVertexArray(this.screen);
+    gl.drawArrays(gl.TRIANGLES, 0, 6 * this.mesh.count);
   }
 
   // Where the texels lie, and what window depth means, relative to the frame's middle.

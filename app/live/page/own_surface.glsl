@@ -13,18 +13,6 @@ uniform float ray_error_m;     // LightView::ray_error_m
 const float infinity = 1e30;
 const int most_steps = 512;    // of a walk over a sheet
 
-// Above 0 where p, q and x turn counter-clockwise. The same number with the other sign for q, p and x, so that no place on
-// an edge of two triangles is missed by both.
-float side(vec2 p, vec2 q, vec2 x) {
-  vec2 a = p - x, b = q - x;
-  return a.x * b.y - a.y * b.x;
-}
-
-bool covers(Face f, vec2 x) {
-  vec3 s = f.turn * vec3(side(f.a.xy, f.b.xy, x), side(f.b.xy, f.c.xy, x), side(f.c.xy, f.a.xy, x));
-  return f.turn != 0.0 && all(greaterThanEqual(s, vec3(0.0)));
-}
-
 // The largest difference between two computed depths of one point.
 float depth_error(Face f, Face g) { return ray_error_m * (1.0 + length(f.gradient) + length(g.gradient)); }
 

@@ -57,7 +57,8 @@ function commandOf(state, data) {
   const settings = Object.assign({}, data.settings);
   for (const name of stateNames)
     if (state[name] !== data.defaults[name] || name in data.settings) settings[name] = state[name];
-  const words = Object.entries(settings).map(([name, value]) => {
+  const entries = Object.entries(settings).sort(([a], [b]) => (b === 'scene.name') - (a === 'scene.name'));
+  const words = entries.map(([name, value]) => {
     const word = `${name}=${value}`;
     return '--set ' + (/^[\w.,:+\/=@%-]+$/.test(word) ? word : "'" + word.replace(/'/g, "'\\''") + "'");
   });
