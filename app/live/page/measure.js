@@ -136,7 +136,8 @@ void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }
         const face = seen[4 * ((height - 1 - y) * width + x)];
         primitives[y * width + x] = face ? face - 1 : noPrimitive;
       }
-    const receivers = this.receivers = receiversOf(this.mesh, this.data.camera, width, height, primitives, noPrimitive);
+    const {mesh, data: {camera}} = this, exact = exactPrimitives(mesh, camera, width, height, primitives, noPrimitive);
+    const receivers = this.receivers = receiversOf(mesh, camera, width, height, exact, noPrimitive);
     this.positionImage = this.picture(receivers.position);
     this.normalImage = this.picture(receivers.normal);
     this.answers = [0, 1, 2].map(() => this.texture('RGBA32F', width, height));

@@ -15,6 +15,47 @@ function nearestInTriangle(p, a, b, c) {
   return p;
 }
 
+// Where the ray of a pixel's centre begins, and its direction (scenes/camera_frame.cpp).
+function pixelRay(camera, x, y, width, height) {
+  const u = (2 * (x + 0.5) / width - 1) * camera.half_width, v = (1 - 2 * (y + 0.5) / height) * camera.half_height;
+  const aside = add(times(u, camera.right), times(v, camera.up));
+  return camera.perspective ? {origin: camera.eye, way: add(camera.forward, aside)} :
+                              {origin: add(camera.eye, aside), way: camera.forward};
+}
+
+// The triangles that the pixels' centres show. drawn: as a rasteriser drew them, which moves corners to a grid of its own, so
+// that at edges a neighbour's triangle may stand in a pixel. There the ray decides, in double, among those around it.
+function exactPrimitives(mesh, camera, width, height, drawn, none) {
+  const exact = Uint32Array.from(drawn), {positions, triangles} = mesh;
+  const corner = (t, k) => {
+    const v = triangles[3 * t + k];
+    return [positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]];
+  };
+  for (let y = 0, i = 0; y < height; ++y) {
+    for (let x = 0; x < width; ++x, ++i) {
+      const around = new Set();
+      for (let dy = y > 0 ? -1 : 0; dy <= (y + 1 < height ? 1 : 0); ++dy)
+        for (let dx = x > 0 ? -1 : 0; dx <= (x + 1 < width ? 1 : 0); ++dx) around.add(drawn[i + dy * width + dx]);
+      if (around.size === 1) continue;
+      const {origin, way} = pixelRay(camera, x, y, width, height);
+      let nearest = Infinity, found = none;
+      for (const t of around) {
+        if (t === none) continue;
+        const [a, b, c] = [0, 1, 2].map(k => minus(corner(t, k), origin));
+        const sides = [dot(cross(a, b), way), dot(cross(b, c), way), dot(cross(c, a), way)];
+        if (sides.some(s => s > 0) && sides.some(s => s < 0)) continue;
+        const across = cross(minus(b, a), minus(c, a)), along = dot(across, a) / dot(across, way);
+        if (along > 0 && along < nearest) {
+          nearest = along;
+          found = t;
+        }
+      }
+      if (found !== none || around.has(none)) exact[i] = found;
+    }
+  }
+  return exact;
+}
+
 // primitives: the triangle of each pixel, row 0 on top; `none` where there is none.
 function receiversOf(mesh, camera, width, height, primitives, none) {
   const position = new Float32Array(4 * width * height), normal = new Float32Array(4 * width * height);
@@ -34,10 +75,7 @@ function receiversOf(mesh, camera, width, height, primitives, none) {
         primitive[i] = none;
         continue;
       }
-      const u = (2 * (x + 0.5) / width - 1) * camera.half_width, v = (1 - 2 * (y + 0.5) / height) * camera.half_height;
-      const aside = add(times(u, camera.right), times(v, camera.up));
-      const origin = camera.perspective ? camera.eye : add(camera.eye, aside);
-      const way = camera.perspective ? add(camera.forward, aside) : camera.forward, slope = dot(s.across, way);
+      const {origin, way} = pixelRay(camera, x, y, width, height), slope = dot(s.across, way);
       let along = dot(s.across, minus(s.a, origin)) / slope;
       if (!(length(times(along, way)) < 0x4000000 * (length(minus(s.a, origin)) + Math.sqrt(s.area))))
         along = dot(minus(s.a, origin), way) / dot(way, way);
