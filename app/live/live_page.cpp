@@ -18,6 +18,7 @@
 #include "scenes/camera_frame.h"
 #include "scenes/receivers.h"
 #include "technique/bias.h"
+#include "technique/chosen_light.h"
 #include "technique/light_frame.h"
 
 namespace noonmark {
@@ -90,15 +91,19 @@ json camera_json(const Scene& scene, const Settings& settings) {
 }
 
 json light_json(const Scene& scene, const LightSettings& light) {
-  return {{"scene_position", point_json(scene.light.position_m)},
-          {"scene_target", point_json(scene.light.target_m)},
+  const Light own = chosen_light(scene, light).light;
+  return {{"scene_position", point_json(own.position_m)},
+          {"scene_target", point_json(own.target_m)},
           {"position", point_json(light.position_m)},
           {"target", point_json(light.target_m)}};
 }
 
-json map_json(const Scene& scene, const MapSettings& map) {
+// The scene's own volume is of its first light, as that is (why_not_the_scenes in technique/light_frame.cpp); the script sees
+// whether that light is moved.
+json map_json(const Scene& scene, const MapSettings& map, const LightSettings& light) {
   json own;
-  if (scene.map && map.fit == MapFit::scene)
+  const ChosenLight chosen = chosen_light(scene, light);
+  if (scene.map && map.fit == MapFit::scene && chosen.first && !chosen.made_up)
     own = {{"extent_m", scene.map->extent_m}, {"near_m", scene.map->near_m}, {"far_m", scene.map->far_m}};
   return {{"own", own},
           {"range_of_scene", map.depth_range == DepthRange::scene},
@@ -173,7 +178,7 @@ json page_data(const Scene& scene, const Settings& settings, std::string_view ve
           {"height", settings.view.height_px},
           {"camera", camera_json(scene, settings)},
           {"light", light_json(scene, settings.light)},
-          {"map", map_json(scene, settings.map)},
+          {"map", map_json(scene, settings.map, settings.light)},
           {"bias",
            {{"unit", static_cast<int>(settings.bias.unit)}, {"plane_cap", cap}, {"parts", parts_json(settings.bias)}}},
           {"colours", colours_json()},
