@@ -8,7 +8,7 @@ set(modules base scenes technique gl raytrace frames compare measure app tests)
 # The rooms of the folders that have some. A file of these folders stands in one of the rooms; app/main.cpp alone stands
 # beside them.
 set(rooms_compare results store ladder judge report)
-set(rooms_app definition pictures advise sweep verbs)
+set(rooms_app definition pictures advise sweep live verbs)
 
 # What each may include beside its own headers: a folder, or one room of a folder. docs/explanation/architecture.md says what each
 # is for.
@@ -28,6 +28,7 @@ set(may_include_app/definition base scenes technique frames compare/results comp
 set(may_include_app/pictures base scenes technique frames compare measure)
 set(may_include_app/advise base scenes technique raytrace frames compare measure app/definition app/pictures)
 set(may_include_app/sweep base scenes technique raytrace frames compare measure app/definition app/pictures app/advise)
+set(may_include_app/live base scenes technique gl compare)
 set(may_include_app/verbs base scenes technique gl raytrace frames compare measure app)
 set(may_include_app ${may_include_app/verbs})
 set(may_include_tests base scenes technique gl raytrace frames compare measure app)

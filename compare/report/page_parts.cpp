@@ -22,33 +22,16 @@ constexpr std::array vega_modules{
     "vega-selection", "vega-functions",  "vega-event-selector",  "vega-parser",     "vega-runtime",
     "vega-view",      "vega-transforms", "vega-view-transforms", "vega-encode",     "vega-interpreter"};
 
-std::string_view file(const std::string& name) {
-  const std::string_view text = report_files::embedded(name);
-  if (text.empty()) throw std::logic_error("the report's file " + name + " is not in the program");
-  return text;
-}
-
 std::string vega_script() {
-  std::string out(file("report/page/vega.js"));
+  std::string out(page_file("report/page/vega.js"));
   for (const char* module : vega_modules) {
-    std::string_view text = file(fmt::format("{}.min.js", module));
+    std::string_view text = page_file(fmt::format("{}.min.js", module));
     // Without this, the map's address would make developer tools request it.
     if (const size_t map = text.rfind("//# sourceMappingURL="); map != std::string_view::npos)
       text = text.substr(0, map);
     out += fmt::format("noonmarkVega.define(\"{}\",function(exports,module,require){{{}\n}});\n", module, text);
   }
   return out;
-}
-
-std::string colour_rules(const std::vector<CauseColor>& causes) {
-  std::string variables, classes;
-  const auto add = [&](const CauseColor& color) {
-    variables += fmt::format("--c-{}:#{:02x}{:02x}{:02x};", color.name, color.r, color.g, color.b);
-    classes += fmt::format(".c-{0}{{background:var(--c-{0})}}\n", color.name);
-  };
-  for (const CauseColor& color : causes) add(color);
-  for (const CauseColor& color : pixel_state_colors) add(color);
-  return ":root{" + variables + "}\n" + classes;
 }
 
 // A data block of at most this many bytes is written as JSON, which the page's scripts read at once. A larger one is
@@ -67,9 +50,30 @@ Markup chart_block(const nlohmann::json& data) {
                  Attribute("data-packed", "deflate base64"), base64(deflated(text)));
 }
 
-// Replaces each {{name}} of the template once. Inserted text is not searched again.
-template <class Lookup>
-std::string fill(std::string_view page, Lookup&& lookup) {
+std::logic_error unknown(std::string_view name) {
+  return std::logic_error("a page's template asks for " + std::string(name));
+}
+
+}  // namespace
+
+std::string_view page_file(const std::string& name) {
+  const std::string_view text = report_files::embedded(name);
+  if (text.empty()) throw std::logic_error("the report's file " + name + " is not in the program");
+  return text;
+}
+
+std::string colour_rules(const std::vector<CauseColor>& causes) {
+  std::string variables, classes;
+  const auto add = [&](const CauseColor& color) {
+    variables += fmt::format("--c-{}:#{:02x}{:02x}{:02x};", color.name, color.r, color.g, color.b);
+    classes += fmt::format(".c-{0}{{background:var(--c-{0})}}\n", color.name);
+  };
+  for (const CauseColor& color : causes) add(color);
+  for (const CauseColor& color : pixel_state_colors) add(color);
+  return ":root{" + variables + "}\n" + classes;
+}
+
+std::string fill_template(std::string_view page, const std::function<std::string(std::string_view)>& text_of) {
   std::string out;
   while (true) {
     const size_t open = page.find("{{");
@@ -77,30 +81,24 @@ std::string fill(std::string_view page, Lookup&& lookup) {
     if (open == std::string_view::npos) return out;
     const size_t close = page.find("}}", open);
     if (close == std::string_view::npos) throw std::logic_error("a page's template has an open {{");
-    out += lookup(page.substr(open + 2, close - open - 2));
+    out += text_of(page.substr(open + 2, close - open - 2));
     page.remove_prefix(close + 2);
   }
 }
 
-std::logic_error unknown(std::string_view name) {
-  return std::logic_error("a page's template asks for " + std::string(name));
-}
-
-}  // namespace
-
 std::string fill_page(const PageParts& parts) {
-  return fill(file("report/page/page.html"), [&](std::string_view name) -> std::string {
+  return fill_template(page_file("report/page/page.html"), [&](std::string_view name) -> std::string {
     if (name == "title") return parts.title.html();
     if (name == "subtitle") return parts.subtitle.html();
-    if (name == "style") return colour_rules(parts.causes) + std::string(file("report/page/style.css"));
+    if (name == "style") return colour_rules(parts.causes) + std::string(page_file("report/page/style.css"));
     if (name == "nav") return parts.navigation.html();
     if (name == "sections") return parts.sections.html();
     if (name == "data") return chart_block(parts.data).html();
     if (name == "vega") return vega_script();
-    if (name == "start") return std::string(file("report/page/data.js"));
+    if (name == "start") return std::string(page_file("report/page/data.js"));
     if (name == "script") {
       std::string script;
-      for (const std::string& part : parts.scripts) script += file(fmt::format("report/page/{}.js", part));
+      for (const std::string& part : parts.scripts) script += page_file(fmt::format("report/page/{}.js", part));
       return script;
     }
     if (name == "version") return Markup(parts.version).html();
@@ -109,12 +107,12 @@ std::string fill_page(const PageParts& parts) {
 }
 
 std::string plain_page(const PlainPageParts& parts) {
-  return fill(file("report/page/plain.html"), [&](std::string_view name) -> std::string {
+  return fill_template(page_file("report/page/plain.html"), [&](std::string_view name) -> std::string {
     if (name == "title") return parts.title.html();
     if (name == "pictures") return parts.pictures == Pictures::inside ? "data:" : "'self' file: data:";
     if (name == "style") {
-      std::string style(file("report/page/style.css"));
-      if (!parts.style.empty()) style += file(fmt::format("report/page/{}.css", parts.style));
+      std::string style(page_file("report/page/style.css"));
+      if (!parts.style.empty()) style += page_file(fmt::format("report/page/{}.css", parts.style));
       return style;
     }
     if (name == "body") return parts.body.html();

@@ -1,6 +1,7 @@
 // A page as one HTML file without other files: the template, the style, the charts' library and scripts, and what the
 // caller puts into them.
 #pragma once
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -32,6 +33,14 @@ struct PlainPageParts {
   std::string style{};  // name of a file in page/ with rules for this page alone; empty: none
 };
 std::string plain_page(const PlainPageParts& parts);
+
+// What another page needs to look like the report: the text of a file in page/ ("report/page/style.css"), and the rules
+// that give each cause its colour as --c-NAME and .c-NAME. Throws std::logic_error if there is no such file.
+std::string_view page_file(const std::string& name);
+std::string colour_rules(const std::vector<CauseColor>& causes);
+
+// Replaces each {{name}} of a template once by what `text_of` gives for the name. Inserted text is not searched again.
+std::string fill_template(std::string_view page, const std::function<std::string(std::string_view)>& text_of);
 
 // Data for a script, as the element that holds it. The script reads it by its id.
 Markup data_block(std::string_view id, const nlohmann::json& data);

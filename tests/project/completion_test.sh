@@ -7,7 +7,7 @@ program=$1 completion=$2 work=$3
 rm -rf "$work"
 mkdir -p "$work/sweeps" "$work/models"
 cd "$work"
-touch one.toml TWO.TOML notes.txt tree.glb shadow.exr SHADOW.PNG base.json lit.npy models/street.gltf models/readme.md sweeps/three.toml
+touch one.toml TWO.TOML notes.txt tree.glb shadow.exr SHADOW.PNG base.json lit.npy page.html models/street.gltf models/readme.md sweeps/three.toml
 printf '[[part]]\nname = "sun"\n[[part]]\nname = "spot light"\n' >sweeps/parts.toml
 ln -s "$program" noonmark
 # shellcheck source=/dev/null
@@ -68,6 +68,7 @@ sample() {
     FILE.png) echo SHADOW.PNG ;;
     FILE.json) echo base.json ;;
     FILE.npy) echo lit.npy ;;
+    FILE.html) echo page.html ;;
     METRIC=VALUE) echo frame_acne= ;;
     [a-z]*) echo "$1" ;;
     FOLDER) echo sweeps ;;

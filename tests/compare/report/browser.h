@@ -110,13 +110,16 @@ class Browser : public testing::Test {
   }
   // The start of a command that runs the browser without a window.
   std::string command(const std::string& browser) const {
-    return "HOME='" + folder_.string() + "' timeout 100 '" + browser +
-           "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --user-data-dir='" +
+    return "HOME='" + folder_.string() + "' timeout " + std::to_string(timeout_s_) + " '" + browser + "'" +
+           more_flags_ +
+           " --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --user-data-dir='" +
            (folder_ / "profile").string() + "'";
   }
 
   std::filesystem::path folder_;
   nlohmann::json saw_;
+  int timeout_s_ = 100;
+  std::string more_flags_;  // of the browser, each after a space
 };
 
 }  // namespace noonmark

@@ -1,0 +1,11 @@
+// Vectors in double, as arrays of numbers.
+'use strict';
+const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const times = (s, a) => [s * a[0], s * a[1], s * a[2]];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const length = a => Math.sqrt(dot(a, a));
+const unit = a => times(1 / length(a), a);
+const same = (a, b) => a[0] === b[0] && a[1] === b[1] && a[2] === b[2];
+const clamped = (x, low, high) => Math.min(Math.max(x, low), high);

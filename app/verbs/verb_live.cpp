@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "app/live/live_page.h"
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/option_values.h"
+#include "app/verbs/verbs.h"
+#include "base/build_facts.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "scenes/library.h"
+
+namespace noonmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LiveOptions {
+  std::string what;  // an experiment's *.toml, a built-in scene, or a model's file
+  long point = -1;   // of the experiment's sweep; -1: the sweep must have one point only
+  ExperimentArguments arguments;
+};
+
+std::string page_of(const std::string& what) { return "live-" + fs::path(what).stem().string() + ".html"; }
+
+Settings the_point(const LiveOptions& options) {
+  if (fs::path(options.what).extension() != ".toml") {
+    ExperimentArguments arguments = options.arguments;
+    arguments.sets.push_back("scene.name=" + options.what);
+    if (options.point > 0)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--point {} needs an experiment; {} is a scene", options.point, options.what));
+    return points(experiment_from("", arguments)).at(0);
+  }
+  const std::vector<Settings> all = points(experiment_from(options.what, options.arguments));
+  const auto last = static_cast<long>(all.size()) - 1;
+  if (options.point < 0 && last > 0)
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{} has {} points, but a live page begins at one; give --point 0 ... {}, or --set the swept "
+                    "settings",
+                    options.what, all.size(), last));
+  if (options.point > last)
+    throw Error(ErrorKind::usage, fmt::format("there is no point {}; the last one is {}", options.point, last));
+  return all[static_cast<size_t>(std::max(options.point, 0L))];
+}
+
+int write_page(const LiveOptions& options) {
+  const std::string file = options.arguments.out.empty() ? page_of(options.what) : options.arguments.out;
+  std::error_code none;
+  if (fs::is_directory(file, none))
+    throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the path of a file with --out", file));
+  const Settings settings = live_settings(the_point(options));
+  const Scene scene = make_scene(settings.scene);
+  require_live(scene, settings);
+  const std::string page = live_page(scene, settings, build_facts().version);
+  if (const std::string above = fs::path(file).parent_path().string(); !above.empty()) make_folder(above);
+  write_file_atomically(file, page);
+  fmt::print("{} is written: {} triangles, {:.0f} kB; open it in a browser, it needs no network\n", printable(file),
+             scene.triangles.size(), std::ceil(static_cast<double>(page.size()) / 1000));
+  if (const std::string note = notes_line(scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
+  return 0;
+}
+
+RunVerb add_live(CLI::App& verb) {
+  const auto options = std::make_shared<LiveOptions>();
+  verb.add_option("what", options->what, "A built-in scene, a model, or an experiment's TOML file")
+      ->required()
+      ->check(not_empty())
+      ->type_name("SCENE|FILE.gltf|FILE.glb|FILE.toml");
+  verb.add_option("--point", options->point, "Number of the point in the experiment's sweep, from 0")
+      ->check(whole_number(0));
+  add_sets(verb, options->arguments);
+  verb.add_option("--out", options->arguments.out, "The page that is written; one that is there is replaced")
+      ->check(not_empty())
+      ->type_name("FILE.html")
+      ->default_str(fmt::format("{} for cube-room", page_of("cube-room")));
+  return [options](const std::string&) { return write_page(*options); };
+}
+
+}  // namespace
+
+Verb verb_live() {
+  return {"live",
+          "Write one HTML page that draws a scene's map and shadows with sliders, and names why each pixel is wrong",
+          add_live};
+}
+
+}  // namespace noonmark
