@@ -18,6 +18,7 @@
 #include "compare/judge/recommendation.h"
 #include "compare/judge/tradeoff.h"
 #include "compare/ladder/flicker.h"
+#include "compare/report/section_picture.h"
 #include "compare/report/speed_reading.h"
 
 namespace noonmark {
@@ -141,6 +142,19 @@ ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std:
   make_folder(out + "/images");
   write_file_atomically(out + "/" + path, file);
   return {path, digest_of(file)};
+}
+
+std::vector<ImageRecord> keep_sections(const std::vector<ReceiverSection>& sections, int64_t id,
+                                       const std::string& out) {
+  make_folder(out + "/images");
+  std::vector<ImageRecord> kept;
+  for (const ReceiverSection& section : sections) {
+    const std::string path = report::section_path(id, section.pixel),
+                      file = report::section_svg(section, report::SectionTheme::automatic);
+    write_file_atomically(out + "/" + path, file);
+    kept.push_back({path, digest_of(file)});
+  }
+  return kept;
 }
 
 void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, const std::string& out) {

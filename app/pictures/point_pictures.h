@@ -46,6 +46,10 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
 // Writes the point's live picture as out/images/p0003-live.bin.
 ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out);
 
+// Writes sections through pixels of the point as out/images/p0003-section-312-175.svg.
+std::vector<ImageRecord> keep_sections(const std::vector<ReceiverSection>& sections, int64_t id,
+                                       const std::string& out);
+
 // Gives picture files the names of their points' new ids, in the records and on the disk. Each pair: the id before, and the
 // record with its id now and the paths before. A file that is lost stays lost (why_not_as_written finds it).
 void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, const std::string& out);
