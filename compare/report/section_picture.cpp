@@ -474,7 +474,7 @@ std::string section_svg(const ReceiverSection& section, SectionTheme theme) {
   const double stretch = scale.metres_per_pixel_across() / scale.metres_per_pixel();
   out += text_at(left, bottom + 15,
                  fmt::format("columns: texels of {}; depth drawn {} times {}", length_text(section.texel_m),
-                             number_text(std::max(stretch, 1 / stretch), 2), stretch >= 1 ? "larger" : "smaller"),
+                             number_text(std::max(stretch, 1 / stretch), 3), stretch >= 1 ? "larger" : "smaller"),
                  "f-soft small");
   out += text_at(plan_left, plan_top - 6, section.taps.size() == 1 ? "the tap, in the map" : "the taps, in the map",
                  "f-soft small");
