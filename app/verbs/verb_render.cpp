@@ -146,6 +146,7 @@ int render_point(const RenderOptions& options) {
   Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt);
   m.record.metrics.merge(times);
   write_pictures(m, out, ".", "point");
+  write_debug_pictures(m, out, ".", "point");
   write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m, gl::text_of(bench.device().times));
