@@ -137,24 +137,24 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
   return kept;
 }
 
+PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out) {
+  PointPictures kept = keep_pictures(m, id, out);
+  const std::vector<glm::ivec2> pixels = section_pixels(m.record, m.ladder, m.probe);
+  if (pixels.empty()) return kept;  // no taps are traced again for nothing
+  for (const ReceiverSection& section : bench.sections(m, pixels)) {
+    const std::string path = report::section_path(id, section.pixel),
+                      file = report::section_svg(section, report::SectionTheme::automatic);
+    write_file_atomically(out + "/" + path, file);
+    kept.images.push_back({path, digest_of(file)});
+  }
+  return kept;
+}
+
 ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out) {
   const std::string path = fmt::format("images/p{:04}-live.bin", id), file = live_file(picture);
   make_folder(out + "/images");
   write_file_atomically(out + "/" + path, file);
   return {path, digest_of(file)};
-}
-
-std::vector<ImageRecord> keep_sections(const std::vector<ReceiverSection>& sections, int64_t id,
-                                       const std::string& out) {
-  make_folder(out + "/images");
-  std::vector<ImageRecord> kept;
-  for (const ReceiverSection& section : sections) {
-    const std::string path = report::section_path(id, section.pixel),
-                      file = report::section_svg(section, report::SectionTheme::automatic);
-    write_file_atomically(out + "/" + path, file);
-    kept.push_back({path, digest_of(file)});
-  }
-  return kept;
 }
 
 void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, const std::string& out) {

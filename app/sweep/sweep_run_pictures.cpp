@@ -33,10 +33,7 @@ void remove_motion(PointPictures& point, const std::string& out) {
 // Writes all picture files of a measured point. The measurement's images are gone afterwards.
 PointPictures SweepRun::pictures_of(const Measurement& m) {
   const int64_t id = m.record.id;
-  PointPictures kept = keep_pictures(m, id, folder_.path());
-  const std::vector<glm::ivec2> pixels = section_pixels(m.record, m.ladder, m.probe);
-  for (ImageRecord& section : keep_sections(bench_.sections(m, pixels), id, folder_.path()))
-    kept.images.push_back(std::move(section));
+  PointPictures kept = keep_pictures_and_sections(bench_, m, id, folder_.path());
   if (const std::optional<LivePicture> live = bench_.live_picture(m.technique.settings))
     kept.images.push_back(keep_live_picture(*live, id, folder_.path()));
   return kept;
