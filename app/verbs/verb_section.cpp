@@ -74,6 +74,8 @@ ChosenPixel chosen_pixel(const SectionOptions& options, const PointRecord& recor
 }
 
 int draw_section(const SectionOptions& options) {
+  if (!options.pixel.empty() && !options.worst.empty())
+    throw Error(ErrorKind::usage, "--pixel and --worst both choose the pixel; give one of them");
   if (!options.pixel.empty()) (void)pixel_from(options.pixel);
   require_new_file(options);
   const Experiment experiment = experiment_from(options.experiment, options.arguments);
@@ -104,17 +106,14 @@ RunVerb add_section(CLI::App& verb) {
   ExperimentArguments& arguments = options->arguments;
   add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
   add_point(verb, options->point);
-  CLI::Option* const pixel =
-      verb.add_option(
-              "--pixel", options->pixel,
-              "The pixel: column and row from 0,0 at the top left. Without it and without --worst, the pixel with "
-              "the largest error")
-          ->check(not_empty())
-          ->type_name(value_kind::pixel);
+  verb.add_option("--pixel", options->pixel,
+                  "The pixel: column and row from 0,0 at the top left. Without it and without --worst, the pixel with "
+                  "the largest error")
+      ->check(not_empty())
+      ->type_name(value_kind::pixel);
   verb.add_option("--worst", options->worst, "The pixel with the largest part of this metric, such as acne")
       ->check(not_empty())
-      ->type_name("METRIC")
-      ->excludes(pixel);
+      ->type_name("METRIC");
   verb.add_option("--theme", options->theme,
                   "Colours for a light or a dark page; auto leaves the choice to the reader's screen, and programs "
                   "that print need one of the others")

@@ -53,6 +53,8 @@ TEST_F(SectionVerb, RefusesWhatIsNoPixel) {
   EXPECT_EQ(section({"--pixel", "40,30,2"}), 2);
   EXPECT_EQ(section({"--pixel", "96,0"}), 2);
   EXPECT_TRUE(says("pixel 96,0 lies outside the picture, whose pixels are 0,0 (top left) to 95,53")) << output_;
+  EXPECT_EQ(section({"--pixel", "40,30", "--worst", "acne"}), 2);
+  EXPECT_TRUE(says("--pixel and --worst both choose the pixel")) << output_;
   EXPECT_EQ(section({"--out", "section.png"}), 2);
   EXPECT_TRUE(says("section.png does not end in .svg")) << output_;
   EXPECT_EQ(section({"--worst", "acme"}), 2);
