@@ -20,7 +20,9 @@ namespace {
 // The frame of the light alone. A map is laid about the scene, because a frame has one; nothing reads it.
 LightFrame light_frame_of(const Scene& scene, const Light& light) {
   Settings settings;
-  settings.light = {.kind = light.kind == LightKind::directional ? LightChoice::directional
+  settings.light = {.name = LightSettings().name,
+                    .index = {},
+                    .kind = light.kind == LightKind::directional ? LightChoice::directional
                             : light.kind == LightKind::spot      ? LightChoice::spot
                                                                  : LightChoice::point,
                     .position_m = light.position_m,

@@ -8,6 +8,7 @@
 
 #include "scenes/camera_frame.h"
 #include "scenes/foliage.h"
+#include "scenes/lab.h"
 #include "scenes/library.h"
 #include "scenes/shapes.h"
 
@@ -251,6 +252,8 @@ constexpr BuiltinScene scenes[] = {
      spot_room},
     {"point-room", "point light in a closed room with five cubes: shadows on every wall, over the map's seams",
      point_room},
+    {"lab", "a furnished room with three lights: a sun through windows, a spotlight on a drone, a lamp beside a cube",
+     lab},
 };
 
 }  // namespace

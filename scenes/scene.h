@@ -57,7 +57,15 @@ enum class LightShape { sphere, disc };
 //   centre are measured, as lookAt(position, target, up) does.
 // - Spot: the light is at position_m and points at target_m.
 // - Point: the light is at position_m; target_m is not used.
-// Lights do not fall off with distance, because only their visibility is measured.
+// What a light contributes (glTF's KHR_lights_punctual) has no part in visibility. It weighs the lights of a frame that has
+// several (measure/lights_frame.h).
+struct LightPower {
+  double intensity = 1;                // directional: lux; spot and point: candela
+  glm::dvec3 color{1};                 // linear RGB, each 0 or more
+  std::optional<double> range_m = {};  // spot, point: beyond it there is no light; empty: without end
+  double inner_cone_deg = 0;  // spot: the whole angle in which it has its full intensity; it falls to 0 at cone_deg
+};
+
 struct Light {
   LightKind kind = LightKind::directional;
   glm::dvec3 position_m{0, 10, 0};
@@ -66,6 +74,7 @@ struct Light {
   double radius_m = 0;              // spot, point: of a light with a size; 0: a point
   LightShape shape = LightShape::sphere;  // disc: across a spot light's axis; of a point light, facing each receiver
   double cone_deg = 60;                   // spot: the whole angle of the cone; beyond it nothing is lit
+  LightPower power = {};
 };
 
 // The part of the world that a light's map covers. Near and far are measured from position_m along the light's axis. A
@@ -76,7 +85,7 @@ struct MapVolume {
   double far_m = 10;
 };
 
-// A camera or a light of a scene's file. Either name finds it (camera_named(), light_named() of scenes/library.h).
+// A camera or a light of a scene that has several. Either name finds it (camera_named(), light_named() of scenes/library.h).
 template <class T>
 struct Named {
   std::string node, name;  // of its node, and its own; "": it has none
@@ -101,7 +110,8 @@ struct Scene {
   double mask_error_m = 0;
   Camera camera;
   Light light;
-  // All that the scene's file has, in its order. The first that can be used are `camera` and `light`. Empty: built in.
+  // All that the scene's file has, in its order. The first of them are `camera` and `light`. Of a built-in scene: its lights
+  // if it has several, else empty.
   std::vector<Named<Camera>> cameras;
   std::vector<Named<Light>> lights;
   std::optional<MapVolume> map;  // the scene's own choice; without one the map is fitted tightly to the scene

@@ -17,9 +17,10 @@ class SceneDigest {
   void add(const Scene& scene) {
     const auto& [name, positions, vertex_normals, triangles, single_sided, parts, mask_error_m, camera, light, cameras,
                  lights, map, notes] = scene;
-    static_cast<void>(name);                                // a label; which scene it is, the settings say
-    static_cast<void>(cameras), static_cast<void>(lights);  // no point reads any but camera and light
+    static_cast<void>(name);     // a label; which scene it is, the settings say
+    static_cast<void>(cameras);  // no point reads any but camera
     add_all(positions, vertex_normals, triangles, single_sided, parts, mask_error_m, camera, light, map, notes);
+    if (lights.size() > 1) add(lights);  // else no setting can choose another than `light`
   }
   std::string hex() const { return digest_.hex(); }
 
@@ -34,8 +35,17 @@ class SceneDigest {
     add_all(projection, eye_m, target_m, up, fov_y_deg, height_m, near_m, far_m);
   }
   void add(const Light& light) {
-    const auto& [kind, position_m, target_m, angular_diameter_deg, radius_m, shape, cone_deg] = light;
-    add_all(kind, position_m, target_m, angular_diameter_deg, radius_m, shape, cone_deg);
+    const auto& [kind, position_m, target_m, angular_diameter_deg, radius_m, shape, cone_deg, power] = light;
+    add_all(kind, position_m, target_m, angular_diameter_deg, radius_m, shape, cone_deg, power);
+  }
+  void add(const LightPower& power) {
+    const auto& [intensity, color, range_m, inner_cone_deg] = power;
+    add_all(intensity, color, range_m, inner_cone_deg);
+  }
+  void add(const Named<Light>& light) {
+    const auto& [node, name, value, why_not] = light;
+    add_all(node, name, value);
+    static_cast<void>(why_not);  // for people
   }
   void add(const MapVolume& map) {
     const auto& [extent_m, near_m, far_m] = map;

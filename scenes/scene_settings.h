@@ -40,16 +40,22 @@ struct MotionSettings {
   std::optional<glm::dvec3> move_m;
   std::optional<glm::dvec3> turn_deg;
   double zoom = 1;
-  // Of the light: a rotation of position and target about the pivot (empty: the target). Without a period it is the
-  // rotation of each frame (a sun through a day). With one the light swings: frame n is turned by
-  // sin(2 pi n / period) times the vector.
+  // Of the light: a rotation of position and target about the pivot (empty: the target), and then a move of both. Without
+  // a period they are those of each frame (a sun through a day, a lamp that flies). With one the light swings: frame n is
+  // turned and moved by sin(2 pi n / period) times the vectors.
   std::optional<glm::dvec3> light_turn_deg;
   std::optional<glm::dvec3> light_pivot_m;
+  std::optional<glm::dvec3> light_move_m;
   int light_period = 0;  // frames; 0: no swing
   double time_s = 0;     // by which scene.time_s of the next frame is later
 
   // Whether the next frame can differ from this one.
-  bool any() const { return move_m || turn_deg || zoom != 1 || light_turn_deg || time_s != 0; }
+  bool any() const { return move_m || turn_deg || zoom != 1 || light_turn_deg || light_move_m || time_s != 0; }
+  // Whether the light of the next frame differs from that of this one.
+  bool moves_light() const {
+    return light_turn_deg.value_or(glm::dvec3(0)) != glm::dvec3(0) ||
+           light_move_m.value_or(glm::dvec3(0)) != glm::dvec3(0);
+  }
 };
 
 struct ViewSettings {

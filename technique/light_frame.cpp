@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "scenes/camera_frame.h"
+#include "technique/chosen_light.h"
 #include "technique/map_fit.h"
 #include "technique/setting_rules.h"
 #include "technique/sun.h"
@@ -151,27 +152,32 @@ glm::dvec3 way_to_sun(const Light& scenes, const LightSettings& settings) {
 
 // The light of the motion's frame.
 void move_light(Light& light, const MotionSettings& motion) {
-  if (!motion.light_turn_deg || motion.frame == 0) return;
+  if (!motion.moves_light() || motion.frame == 0) return;
   const double n = motion.frame;
-  const double turns = motion.light_period > 0 ? std::sin(2 * std::numbers::pi * n / motion.light_period) : n;
-  const glm::dmat3 turn = rotation_of(turns * *motion.light_turn_deg);
-  const glm::dvec3 pivot = motion.light_pivot_m.value_or(light.target_m);
-  light.position_m = pivot + turn * (light.position_m - pivot);
-  light.target_m = pivot + turn * (light.target_m - pivot);
+  const double times = motion.light_period > 0 ? std::sin(2 * std::numbers::pi * n / motion.light_period) : n;
+  if (motion.light_turn_deg) {
+    const glm::dmat3 turn = rotation_of(times * *motion.light_turn_deg);
+    const glm::dvec3 pivot = motion.light_pivot_m.value_or(light.target_m);
+    light.position_m = pivot + turn * (light.position_m - pivot);
+    light.target_m = pivot + turn * (light.target_m - pivot);
+  }
+  if (motion.light_move_m) {
+    light.position_m += times * *motion.light_move_m;
+    light.target_m += times * *motion.light_move_m;
+  }
 }
 
 // Of frame 0, without its size.
 Light placed_light(const Scene& scene, const LightSettings& s) {
-  Light light = scene.light;
-  if (s.kind != LightChoice::automatic) light.kind = static_cast<LightKind>(static_cast<int>(s.kind) - 1);
+  const Light own = chosen_light(scene, s).light;
+  Light light = own;
   if (s.position_m) light.position_m = *s.position_m;
   if (s.target_m) light.target_m = *s.target_m;
   if (!s.azimuth_deg && !s.elevation_deg) return light;
-  const glm::dvec3 way = way_to_sun(scene.light, s);
+  const glm::dvec3 way = way_to_sun(own, s);
   // The sum of the scene's own target and way is its own position but for rounding.
-  const bool scenes_own =
-      light.target_m == scene.light.target_m && way == scene.light.position_m - scene.light.target_m;
-  light.position_m = scenes_own ? scene.light.position_m : light.target_m + way;
+  const bool scenes_own = light.target_m == own.target_m && way == own.position_m - own.target_m;
+  light.position_m = scenes_own ? own.position_m : light.target_m + way;
   return light;
 }
 
@@ -180,7 +186,8 @@ Light placed_light(const Scene& scene, const LightSettings& s) {
 std::string why_not_the_scenes(const Scene& scene, const Settings& settings) {
   const LightSettings& s = settings.light;
   const Light light = placed_light(scene, s);
-  if (light.kind != scene.light.kind) return "light.kind is not the scene's";
+  if (light.kind != scene.light.kind && chosen_light(scene, s).made_up) return "light.kind is not the scene's";
+  if (!chosen_light(scene, s).first) return "they are those of the scene's first light, and this is another";
   if (light.position_m != scene.light.position_m) {
     if (s.azimuth_deg) return "light.azimuth_deg moves the light";
     if (s.elevation_deg) return "light.elevation_deg moves the light";
@@ -189,8 +196,10 @@ std::string why_not_the_scenes(const Scene& scene, const Settings& settings) {
   if (kind_of_light(light.kind).is_aimed() && light.target_m != scene.light.target_m)
     return "light.target_m turns the light";
   // All frames of a motion have the same volume.
-  return settings.view.motion.light_turn_deg.value_or(glm::dvec3(0)) != glm::dvec3(0)
-             ? "motion.light_turn_deg moves the light"
+  if (settings.view.motion.light_turn_deg.value_or(glm::dvec3(0)) != glm::dvec3(0))
+    return "motion.light_turn_deg moves the light";
+  return settings.view.motion.light_move_m.value_or(glm::dvec3(0)) != glm::dvec3(0)
+             ? "motion.light_move_m moves the light"
              : "";
 }
 
@@ -239,6 +248,13 @@ std::string map_fit_note(const Scene& scene, const Settings& settings) {
   return fmt::format("{}: {} of the map {} fitted in place of the scene's own {}, because {}; {} can keep {}",
                      scene.name, fmt::join(fitted, ", "), fitted.size() == 1 ? "is" : "are", fmt::join(values, ", "),
                      why, fmt::join(keeps, ", "), fitted.size() == 1 ? "it" : "them");
+}
+
+std::vector<std::string> light_notes(const Scene& scene, const Settings& settings) {
+  std::vector<std::string> notes;
+  for (const auto& note_of : {made_up_light_note, map_fit_note})
+    if (std::string note = note_of(scene, settings); !note.empty()) notes.push_back(std::move(note));
+  return notes;
 }
 
 LightFrame make_light_frame(const Scene& scene, const Settings& settings) {

@@ -34,12 +34,17 @@ std::vector<Setting> motion_rows() {
             MEMBER(light_pivot_m))
           .only_read_by({Stage::truth, Stage::map, Stage::lookup})
           .idle(without_turning_light),
+      point("motion.light_move_m", "m",
+            "Moves the light's position and target by this much in each frame, along the world's axes, after "
+            "motion.light_turn_deg: a lamp that flies; auto: not.",
+            MEMBER(light_move_m))
+          .only_read_by({Stage::truth, Stage::map, Stage::lookup}),
       integer("motion.light_period", "frames", 0, 1e6,
-              "The light swings with this period: frame n is turned by sin(2 pi n / period) times "
-              "motion.light_turn_deg. 0: it turns by that much in each frame.",
+              "The light swings with this period: frame n is turned and moved by sin(2 pi n / period) times "
+              "motion.light_turn_deg and motion.light_move_m. 0: by that much in each frame.",
               MEMBER(light_period))
           .only_read_by({Stage::truth, Stage::map, Stage::lookup})
-          .idle(without_turning_light),
+          .idle(without_moving_light),
       real("motion.time_s", "s", 0, 1e6,
            "How much later scene.time_s is in the next frame. For a glTF file whose animation moves the camera or the "
            "light; frames are then values of scene.time_s.",

@@ -39,9 +39,22 @@ glm::dvec3 parse_point(const Setting& row, std::string_view text);
 template <class Member>
 Setting integer(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
                 Member member) {
-  Setting row{name, unit, ValueType::integer, min, max, false, {}, std::string(help), {}, {}};
-  row.get = [member](const Settings& s) { return fmt::format("{}", member(const_cast<Settings&>(s))); };
+  constexpr bool is_optional = std::is_same_v<std::invoke_result_t<Member, Settings&>, std::optional<int>&>;
+  Setting row{name, unit, ValueType::integer, min, max, is_optional, {}, std::string(help), {}, {}};
+  row.get = [member](const Settings& s) {
+    const auto& value = member(const_cast<Settings&>(s));
+    if constexpr (is_optional)
+      return value ? fmt::format("{}", *value) : std::string("auto");
+    else
+      return fmt::format("{}", value);
+  };
   row.set = [member, row](Settings& s, std::string_view text) {
+    if constexpr (is_optional) {
+      if (text == "auto") {
+        member(s).reset();
+        return;
+      }
+    }
     const std::optional<int> value = parse_number<int>(text);
     if (!value || *value < row.min || *value > row.max) refuse(row, text);
     member(s) = *value;

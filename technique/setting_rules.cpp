@@ -150,6 +150,14 @@ std::string without_motion(const Settings& s, LightKind) { return s.view.motion.
 std::string without_turning_light(const Settings& s, LightKind) {
   return s.view.motion.light_turn_deg ? "" : "without motion.light_turn_deg";
 }
+std::string without_moving_light(const Settings& s, LightKind) {
+  return s.view.motion.light_turn_deg || s.view.motion.light_move_m
+             ? ""
+             : "without motion.light_turn_deg and motion.light_move_m";
+}
+std::string with_name_of_light(const Settings& s, LightKind) {
+  return s.light.name == LightSettings().name ? "" : "with light.name = " + s.light.name;
+}
 
 std::string no_direction_up(const Settings& s, std::optional<LightKind>) {
   return s.view.up && *s.view.up == glm::dvec3(0) ? "view.up = 0,0,0 is no direction; give another, or auto" : "";

@@ -68,6 +68,8 @@ std::string without_capped_plane(const Settings&, LightKind);
 std::string without_sphere(const Settings&, LightKind);
 std::string without_motion(const Settings&, LightKind);
 std::string without_turning_light(const Settings&, LightKind);
+std::string without_moving_light(const Settings& s, LightKind light);
+std::string with_name_of_light(const Settings& s, LightKind light);
 
 // The conflict as a whole message; empty if there is none. light: as for validate().
 std::string map_near_beyond_far(const Settings&, std::optional<LightKind>);

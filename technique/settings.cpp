@@ -129,7 +129,10 @@ Stages stages_of_group(std::string_view group) {
 // The choices are read from the table of lights. LightChoice has the same order, with `auto` before it.
 Setting light_kind_row() {
   std::vector<std::string_view> choices = {"auto"};
-  std::string help = "auto: the scene's";
+  std::string help =
+      "auto: the scene's. Without light.name and light.index, another kind than that of the scene's first light takes "
+      "the "
+      "first light of that kind; where the scene has none, its light becomes one, and a note says so";
   for (const KindOfLight* kind : kinds_of_light()) {
     choices.push_back(kind->name());
     help += fmt::format("; {}: {}", kind->name(), kind->help());
@@ -205,6 +208,14 @@ std::vector<Setting> make_table() {
            "gives them.",
            MEMBER(view.fit_depths))
           .idle(where_depths_are_fitted),
+      text("light.name",
+           "Which of the scene's lights is measured, by its name or by that of its node in a glTF file; auto: by "
+           "light.index, else by light.kind, else the first.",
+           MEMBER(light.name)),
+      integer("light.index", "", 0, 1e6,
+              "Which of the scene's lights is measured, counted from 0 in the file's order; auto: as light.name says.",
+              MEMBER(light.index))
+          .idle(with_name_of_light),
       light_kind_row(),
       point("light.position_m", "m",
             "Position of a spot or point light. A directional light shines from here towards light.target_m, and the "
@@ -372,7 +383,7 @@ std::vector<Setting> make_table() {
   };
   after("bias.plane_cap", bias_parameters(), bias_row);
   const std::vector<Setting> motion = motion_rows();
-  table.insert(std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "light.kind"; }),
+  table.insert(std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "light.name"; }),
                motion.begin(), motion.end());
   after("filter.kind", filter_parameters(), [](const FilterParameter* parameter) { return filter_row(*parameter); });
   for (Setting& row : table)

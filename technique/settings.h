@@ -38,6 +38,9 @@ enum class BiasUnit { depth, m, texel };
 enum class LightChoice { automatic, directional, spot, point };
 
 struct LightSettings {  // automatic and empty: as the scene's light
+  std::string name =
+      "auto";                // of the scene's lights (technique/chosen_light.h); auto: by index or kind, else the first
+  std::optional<int> index;  // of the scene's lights, from 0
   LightChoice kind = LightChoice::automatic;
   std::optional<glm::dvec3> position_m;
   std::optional<glm::dvec3> target_m;

@@ -133,8 +133,8 @@ std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> c
   const Settings& first = conditions.front();
   const Light light = effective_light(scene, first);
   std::vector<MapPlace> places = {place_as_given()};
-  const bool light_moves = first.view.motion.light_turn_deg.value_or(glm::dvec3(0)) != glm::dvec3(0);
-  if (light.kind != LightKind::directional || light_moves || !same_light_and_scene(scene, conditions, light))
+  if (light.kind != LightKind::directional || first.view.motion.moves_light() ||
+      !same_light_and_scene(scene, conditions, light))
     return places;
   places.front().extent_m = make_light_frame(scene, first).extent_m;
   const LightFrame axes = axes_of(light);

@@ -25,7 +25,7 @@ std::string no_ground_text(const Settings& first, const Scene& scene) {
 // Where the direction or the position of the light is from.
 std::string source_of_light(const Experiment& experiment, const Settings& first, const Scene& scene) {
   for (const std::string_view name :
-       {"light.azimuth_deg", "light.elevation_deg", "light.position_m", "light.target_m", "scene.light"})
+       {"light.azimuth_deg", "light.elevation_deg", "light.position_m", "light.target_m", "light.name", "light.index"})
     if (const auto given = experiment.locations.find(std::string(name)); given != experiment.locations.end())
       return "as " + given->second + " gives it";
   if (!names_file(first.scene.name)) return "that of the built-in scene";

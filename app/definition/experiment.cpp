@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "compare/results/metrics.h"
 #include "compare/results/number_text.h"
+#include "scenes/library.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -71,6 +72,74 @@ void choose_parts(Experiment& experiment, const std::vector<std::string>& names)
   }
   std::erase_if(experiment.parts, [&](const Experiment& part) { return !chosen(part.part); });
   experiment.chosen = names;
+}
+
+Experiment part_of_light(const Experiment& experiment, const std::string& light) {
+  Experiment part = experiment;
+  part.part = light;
+  part.base.light.name = light;
+  part.notes.clear();
+  return part;
+}
+
+void give_lights(Experiment& experiment, std::vector<Experiment> lights) {
+  // A bound on the frame has one value for all its lights, so the first one has it.
+  for (size_t l = 1; l < lights.size(); ++l)
+    std::erase_if(lights[l].bounds, [](const Bound& bound) { return bound.metric.starts_with("lights_"); });
+  experiment.parts = std::move(lights);
+  experiment.lights = true;
+  experiment.all_lights = false;
+  experiment.swept.clear();
+  experiment.bounds.clear();
+}
+
+namespace {
+
+// The name of this light, or of its node, that no other light and node has; else "".
+std::string only_name(const std::vector<Named<Light>>& lights, size_t at) {
+  for (const std::string& name : {lights[at].name, lights[at].node}) {
+    const auto has = [&](const Named<Light>& one) { return one.name == name || one.node == name; };
+    if (!name.empty() && std::count_if(lights.begin(), lights.end(), has) == 1) return name;
+  }
+  return "";
+}
+
+Experiment the_only_light(const Experiment& experiment) {
+  Experiment part = part_of_light(experiment, "the light");
+  part.base.light.name = LightSettings().name;
+  return part;
+}
+
+}  // namespace
+
+void take_all_lights(Experiment& experiment) {
+  if (!experiment.all_lights) return;
+  for (const Swept& swept : experiment.swept)
+    if (swept.name.starts_with("scene.name"))
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: lights = \"all\" needs one scene, and scene.name is swept; name the lights",
+                              experiment.path));
+  const Scene scene = make_scene(experiment.base.scene);
+  experiment.all_lights = false;
+  std::vector<Experiment> lights;
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const std::string name = only_name(scene.lights, i);
+    if (!scene.lights[i].value) {
+      experiment.notes.push_back(fmt::format("{}: lights = \"all\" leaves {} out: {}", experiment.path,
+                                             name.empty() ? fmt::format("light {}", i) : name,
+                                             scene.lights[i].why_not));
+      continue;
+    }
+    Experiment part = part_of_light(experiment, name);
+    if (name.empty()) {  // or another light has the same
+      part.part = fmt::format("light {}", i);
+      part.base.light.name = LightSettings().name;
+      part.base.light.index = static_cast<int>(i);
+    }
+    lights.push_back(std::move(part));
+  }
+  if (lights.empty()) lights.push_back(the_only_light(experiment));
+  give_lights(experiment, std::move(lights));
 }
 
 const Experiment& part_of_point(const Experiment& experiment, int64_t id) {
@@ -260,6 +329,7 @@ std::string fingerprint(const Experiment& experiment, std::span<const std::pair<
   for (const auto& [name, value] : more) text += fmt::format("{} = {}\n", name, value);
   if (experiment.parts.empty()) text += points_text(experiment);
   for (const Experiment& part : experiment.parts) text += in_part(part.part, points_text(part));
+  if (experiment.lights) text += "the parts are the lights of one frame\n";
   return text + fmt::format("times = {}\npictures = {}\n", times_measured(experiment), experiment.pictures);
 }
 

@@ -81,6 +81,10 @@ struct Experiment {
   std::string sweep_location;
   std::vector<std::string> notes;  // what is most likely a mistake of the file, one sentence each; of the parts too
   std::vector<Experiment> parts;   // if there are parts, all points belong to them, one part after the other
+  // The parts are the lights of one frame: the first points of all parts are one frame, and so on (compare/results/metrics.cpp,
+  // lights_error). Every part has as many points.
+  bool lights = false;
+  bool all_lights = false;  // lights = "all": the parts are made when the scene is known (take_all_lights)
 };
 
 // A sweep with more points than this is taken for a mistake in the file.
@@ -95,6 +99,16 @@ void apply_override(Experiment& experiment, std::string_view assignment);
 // Keeps only the parts with these names (`--part`) and numbers their points anew. Throws Error(usage) for a name that
 // no part has, and if the experiment has no parts.
 void choose_parts(Experiment& experiment, const std::vector<std::string>& names);
+
+// Of an experiment with lights = "all": makes a part of each light of the scene, with its name, or with its number where it has no
+// name of its own. Does nothing for others. Throws Error(usage) if the scene is swept, and what loading it throws.
+void take_all_lights(Experiment& experiment);
+
+// Makes the part of one light: the experiment without its parts, whose points have this light. light: light.name.
+Experiment part_of_light(const Experiment& experiment, const std::string& light);
+
+// Puts the parts of lights into the experiment, which keeps no sweep, bound and diagram of its own.
+void give_lights(Experiment& experiment, std::vector<Experiment> lights);
 
 // The part that holds point `id`, or the experiment itself if it has no parts.
 const Experiment& part_of_point(const Experiment& experiment, int64_t id);

@@ -52,6 +52,8 @@ class Reader : private SettingsReader {
         experiment_.atlas = read_atlas_entry(table(*item.node, "[atlas]"), path());
       else if (!in_part_ && item.key == "part")
         parts_ = item.node;
+      else if (!in_part_ && item.key == "lights")
+        lights_ = item.node;
       else if (item.key == "scene" && item.node->is_string())
         fix("scene.name", *item.node);
       else if (item.key == "sweep")
@@ -86,6 +88,7 @@ class Reader : private SettingsReader {
         if (inside) fail(*inside, "in a file with parts, sweep, over, bounds and laws must stand inside a [[part]]");
       experiment_.sweep_location = location_text(parts_->source());
       read_parts(*parts_);
+      if (lights_) read_parts_as_lights(*lights_);
       if (times_) read_times(*times_);
       points(experiment_);
       return std::move(experiment_);
@@ -96,7 +99,29 @@ class Reader : private SettingsReader {
     if (laws_) promises_.read_laws(*laws_);
     if (times_) read_times(*times_);
     if (!in_part_) points(experiment_);
+    if (lights_) read_lights(*lights_);
     return std::move(experiment_);
+  }
+
+  // Reads one of [[lights]]: the experiment with the settings that this light has for itself.
+  Experiment read_light(const toml::table& root) {
+    std::string name;
+    for (const Item& item : items(root)) {
+      if (item.key == "name")
+        name = string(*item.node, "lights.name");
+      else if (is_group(item.key))
+        read_settings(table(*item.node, "[" + item.key + "]"), item.key,
+                      [this](const std::string& key, const toml::node& value) {
+                        for (const Swept& swept : experiment_.swept)
+                          if (swept.name == key)
+                            fail(value, fmt::format("{} is swept, and fixed for this light; drop one of the two", key));
+                        fix(key, value);
+                      });
+      else
+        unknown(item, "key", light_keys(), "lights.");
+    }
+    if (name.empty()) fail(root, "a [[lights]] needs the name of a light");
+    return part_of_light(experiment_, name);
   }
 
  private:
@@ -104,6 +129,49 @@ class Reader : private SettingsReader {
     std::vector<std::string_view> names = groups();
     for (std::string_view key : key_names("root", in_part_)) names.push_back(key);
     return names;
+  }
+
+  std::vector<std::string_view> light_keys() const {
+    std::vector<std::string_view> names = groups();
+    for (std::string_view key : key_names("lights")) names.push_back(key);
+    return names;
+  }
+
+  // ---- lights
+
+  void read_lights(const toml::node& node) {
+    if (laws_) fail(*laws_, "in a file with lights, laws must stand inside a [[part]], with lights = \"parts\"");
+    for (const char* chooses : {"light.name", "light.index", "light.kind"})
+      if (given_.contains(chooses))
+        fail(node, fmt::format("lights and {} both choose what is measured; leave one of them out", chooses));
+    if (node.is_string()) {
+      const std::string which = node.as_string()->get();
+      if (which == "parts") fail(node, "lights = \"parts\" needs [[part]]s, one for each light");
+      if (which != "all") fail(node, fmt::format("lights = \"{}\" is not \"all\" or a list of names", which));
+      experiment_.all_lights = true;
+      return;
+    }
+    std::vector<Experiment> lights;
+    if (node.is_array_of_tables())
+      for (const toml::node& element : *node.as_array())
+        lights.push_back(Reader(experiment_).read_light(*element.as_table()));
+    else
+      for (const toml::node* element : list(node, "lights"))
+        lights.push_back(part_of_light(experiment_, string(*element, "lights")));
+    for (size_t i = 0; i < lights.size(); ++i)
+      for (size_t j = 0; j < i; ++j)
+        if (lights[i].part == lights[j].part) fail(node, fmt::format("lights names '{}' twice", lights[i].part));
+    give_lights(experiment_, std::move(lights));
+  }
+  void read_parts_as_lights(const toml::node& node) {
+    if (!node.is_string() || node.as_string()->get() != "parts")
+      fail(node, "in a file with parts, lights is \"parts\": each part is a light of one frame");
+    for (const Experiment& part : experiment_.parts)
+      if (point_count(part) != point_count(experiment_.parts.front()))
+        fail(node,
+             fmt::format("the parts '{}' and '{}' have not as many points, so they are not lights of the same frames",
+                         experiment_.parts.front().part, part.part));
+    experiment_.lights = true;
   }
 
   // ---- [[frame]]
@@ -351,6 +419,7 @@ class Reader : private SettingsReader {
   const toml::node* parts_ = nullptr;
   const toml::node* laws_ = nullptr;
   const toml::node* frames_ = nullptr;
+  const toml::node* lights_ = nullptr;
   const toml::table *sweep_ = nullptr, *over_ = nullptr;
   const toml::node* bounds_ = nullptr;
   // Whether it is a choice, line, column, index into experiment_.swept. Conditions come first, because scene, view and

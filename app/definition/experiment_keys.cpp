@@ -44,12 +44,17 @@ const std::vector<ExperimentKey>& root_keys() {
       {"law", Kind::tables, "What one number must be, given others; check judges it."},
       of_part("name", Kind::text, "The part's name; different for every part."),
       of_file("title", Kind::text, "The heading of the report."),
-      of_file("pictures", Kind::choice, "Which points get pictures.", {"first", "all", "none", "worst", "extremes", "answers"}),
+      of_file("pictures", Kind::choice, "Which points get pictures.",
+              {"first", "all", "none", "worst", "extremes", "answers"}),
       of_file("times", Kind::flag, "Whether map and lookup are timed."),
       of_file("plot", Kind::table, "Which metrics stand at the top of the report's list."),
       of_file("answer", Kind::table, "What the answer makes small, and what it counts as cost."),
       of_file("atlas", Kind::table, "The known failure that the file is about."),
       of_file("part", Kind::tables, "One of several experiments in one file."),
+      of_file("lights", Kind::lights,
+              "The lights of one frame, measured together: \"all\" of the scene, a list of names, a table [[lights]] "
+              "for each, "
+              "or the file's \"parts\"."),
   };
   return keys;
 }
@@ -113,6 +118,12 @@ const std::vector<ExperimentKey>& frame_table_keys() {
   return keys;
 }
 
+const std::vector<ExperimentKey>& light_keys() {
+  static const std::vector<ExperimentKey> keys = {
+      required({"name", Kind::text, "The light: its name, or that of its node; it is light.name."})};
+  return keys;
+}
+
 const std::vector<ExperimentKey>& bound_keys() {
   static const std::vector<ExperimentKey> keys = {
       required({"metric", Kind::pattern, "A metric, a quantity of the curve, or a pattern of names (aliasing*)."}),
@@ -160,7 +171,7 @@ struct NamedKeys {
 constexpr NamedKeys tables[] = {{"root", root_keys},   {"plot", plot_keys},   {"answer", answer_keys},
                                 {"curve", curve_keys}, {"phase", phase_keys}, {"frame", frame_table_keys},
                                 {"bound", bound_keys}, {"atlas", atlas_keys}, {"law", law_keys},
-                                {"range", range_keys}};
+                                {"range", range_keys}, {"lights", light_keys}};
 
 }  // namespace
 

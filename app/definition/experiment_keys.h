@@ -34,6 +34,7 @@ struct ExperimentKey {
     amounts,     // a list of numbers, or a range
     table,       // [name]: its keys are experiment_keys(name)
     tables,      // [[name]]
+    lights,      // "all" or "parts", a list of names, or [[lights]], which has a name and settings
   };
   std::string_view name;
   Kind kind;
@@ -46,7 +47,7 @@ struct ExperimentKey {
 };
 
 // table: "root" (the file and a part), "plot", "answer", "atlas", "curve", "phase", "frame", "bound", "law",
-// "range".
+// "range", "lights" (of a [[lights]], beside its settings).
 std::span<const ExperimentKey> experiment_keys(std::string_view table);
 
 // The names, for messages. in_part: of the table "root", those of a part.

@@ -184,6 +184,12 @@ Json form_of(const ExperimentKey& key) {
     case Kind::tables:
       form = {{"type", "array"}, {"items", reference(std::string(key.name))}, {"minItems", 1}};
       break;
+    case Kind::lights: {
+      const Json names = {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}, {"uniqueItems", true}};
+      const Json tables = {{"type", "array"}, {"items", reference("lights")}, {"minItems", 1}};
+      form = any_of({{{"enum", Json::array({"all", "parts"})}}, names, tables});
+      break;
+    }
   }
   return described(std::move(form), std::string(key.help));
 }
@@ -242,6 +248,10 @@ std::string experiment_schema() {
   definitions["atlas"]["dependencies"] = {{"thread", {"answer"}}, {"answer", {"thread"}}};
   definitions["law"].update(needs({"equals", "at_most", "at_least"}, "oneOf"));
   definitions["part"] = experiment_table(true);
+  definitions["lights"] = table_of("lights");
+  const Json settings =
+      settings_tables([](const Setting& row) { return reference("setting " + std::string(row.name)); }, false);
+  definitions["lights"]["properties"].update(settings);
 
   Json schema = {
       {"$schema", "http://json-schema.org/draft-07/schema#"},

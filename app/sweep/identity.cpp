@@ -74,7 +74,7 @@ void SceneDigests::remember(Workbench& bench, const Settings& point) {
     if (!text.empty() && std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(text);
   };
   const Scene& scene = bench.scene(point.scene);
-  note(map_fit_note(scene, point));
+  for (const std::string& text : light_notes(scene, point)) note(text);
   const std::string key = scene_key(point);
   if (digests_.contains(key)) return;
   note(notes_line(scene));

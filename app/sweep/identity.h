@@ -28,7 +28,7 @@ class SceneDigests {
   const std::string& of(const Settings& point) const;
   const std::map<std::string, std::string>& all() const { return digests_; }
   // One line for each scene with contents that are not modelled (notes_line, scenes/library.h), and for each map that is
-  // fitted in place of its scene's own (map_fit_note, technique/light_frame.h).
+  // fitted in place of its scene's own (light_notes, technique/light_frame.h).
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

@@ -38,6 +38,11 @@ bool has_asked_curve(const PointRecord& stored, const Experiment& part, const Se
 // Times that are asked for and not there are measured after all points.
 bool has_asked_times(const PointRecord& stored, bool timed) { return timed || !stored.metrics.contains("map_ms"); }
 
+// The numbers of a frame of several lights are computed at every run that asks for them, and are of no use to another.
+bool has_asked_lights(const PointRecord& stored, bool lights) {
+  return lights || !stored.metrics.contains("lights_error");
+}
+
 // Finds a stored point for each planned one. In three rounds, because parts may have points with the same settings: the
 // point that is where it was comes first, then one of the same part, then any.
 std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stored, const AskedPoints& asked) {
@@ -57,7 +62,8 @@ std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stor
       std::vector<const PointRecord*>& list = candidates->second;
       const auto one = std::find_if(list.begin(), list.end(), [&](const PointRecord* point) {
         return (round > 1 || point->part == part.part) && (round > 0 || point->id == id) &&
-               has_asked_times(*point, timed) && has_asked_curve(*point, part, settings);
+               has_asked_times(*point, timed) && has_asked_lights(*point, experiment.lights) &&
+               has_asked_curve(*point, part, settings);
       });
       if (one == list.end()) continue;
       found[i] = *one;

@@ -34,6 +34,10 @@ std::string stopped_text(const SweepOutcome& outcome) {
 
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options) {
   if (!experiment.frames.empty()) return run_frames(experiment, folder, options);
+  if (options.shard && experiment.lights)
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: the lights of one frame cannot be measured in shares; run it without --shard",
+                            experiment.path));
   if (options.shard)
     definition_text(experiment);  // an experiment that no file can say is refused before it is measured
   SweepRun run(experiment, folder, options);
@@ -42,10 +46,12 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   {
     const StopOnSignal guard;
     run.measure();
+    run.lights();
     run.time();
   }
   run.tell();
   run.picture();
+  run.picture_lights();
   run.judge();
   run.show_recommended();
   run.show_failures();

@@ -200,6 +200,7 @@ void SweepRun::measure_point(int64_t id) {
   m.record.scene_digest = survey_.scenes.of(point_at(id));
   m.record.machine = here_;
   m.record.machine.clock = utc_now();
+  keep_light(m);
   if (experiment_.pictures == "all" || (experiment_.pictures == "first" && id == 0))
     static_cast<PointPictures&>(m.record) = pictures_of(m);
   store_->add(m.record);

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "app/sweep/sweep_phase.h"
 #include "app/sweep/sweep_progress.h"
 #include "compare/store/store.h"
+#include "measure/lights_frame.h"
 #include "measure/workbench.h"
 #include "raytrace/tracer.h"
 
@@ -29,9 +31,11 @@ class SweepRun {
   void open();     // the store, with the points of earlier runs that the experiment still has
   void prepare();  // refuses what memory cannot hold, before the first point is measured
   void measure();  // points and phase diagrams that are not stored
+  void lights();   // what the lights of each frame give together
   void time();     // map and lookup of all points
   void tell();     // what a reader of the results must know
   void picture();  // pictures of points that are chosen when all are measured
+  void picture_lights();
   void judge();
   void show_recommended();  // the point of the head of the report, at the recommended bias
   void show_failures();     // the worst pixel of each broken bound and law, for summary.md
@@ -47,6 +51,9 @@ class SweepRun {
   bool draw_phase_before(int64_t id);
   void measure_point(int64_t id);
   PointPictures pictures_of(const Measurement& m);
+  bool is_in_frame(int64_t id) const;
+  void keep_light(const Measurement& m);
+  LightPart light_of(int64_t id);
   void draw_pictures_of(const PointRecord& point, const Instant& instant);
   bool has_all_pictures(const PointRecord& point);
   PictureRecord animation(int64_t id, const Instant& instant);
@@ -70,6 +77,9 @@ class SweepRun {
   std::vector<int64_t> before_;            // the ids of the points that the store has already, in ascending order
   int64_t done_ = 0;                       // of the wanted points: those that are stored
   std::optional<SweepProgress> progress_;
+  std::map<int64_t, LightPart> light_parts_;     // by point: what this run measured, for lights()
+  size_t light_pixels_ = 0;                      // of all of them
+  std::map<int64_t, LightsFrame> shown_frames_;  // by their first point: the frames that get pictures
   SweepOutcome outcome_;
 };
 

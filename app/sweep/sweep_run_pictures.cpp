@@ -63,9 +63,9 @@ void SweepRun::picture() {
   outcome_.results = store_->load();
 }
 
-// Whether the point has its pictures as they were written. Says why it has not.
+// Whether the point has its pictures as they were written, beside those of a frame of several lights. Says why it has not.
 bool SweepRun::has_all_pictures(const PointRecord& point) {
-  if (point.pictures.empty()) return false;
+  if (point.images.empty()) return false;
   const std::string why = measured_before(point.id) ? why_not_as_written(point, folder_.path()) : "";
   if (why.empty()) return true;
   progress_->shown.end_line();

@@ -99,8 +99,9 @@ std::string folders_of(std::initializer_list<const char*> subjects,
 
 Experiment experiment_from(const std::string& path, const ExperimentArguments& arguments) {
   Experiment experiment = path.empty() ? Experiment{} : load_experiment(path);
-  if (!arguments.parts.empty()) choose_parts(experiment, arguments.parts);
   for (const std::string& assignment : arguments.sets) apply_override(experiment, assignment);
+  take_all_lights(experiment);
+  if (!arguments.parts.empty()) choose_parts(experiment, arguments.parts);
   for (const std::string& note : experiment.notes) fmt::print(stderr, "warning: {}\n", printable(note));
   return experiment;
 }

@@ -15,6 +15,7 @@
 #include "scenes/interior.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
+#include "technique/light_kind.h"
 
 namespace noonmark {
 namespace {
@@ -119,6 +120,23 @@ ModelReport inspect_model(const Settings& settings) {
   return report;
 }
 
+namespace {
+
+// "'lamp' of the node 'ceiling': point, 20 cd, range 30 m".
+std::string text_of(const Named<Light>& one) {
+  std::string text = one.name.empty() ? "without a name" : fmt::format("'{}'", printable(one.name));
+  if (!one.node.empty()) text += fmt::format(" of the node '{}'", printable(one.node));
+  if (!one.value) return text + ": cannot be used: " + printable(one.why_not);
+  const Light& light = *one.value;
+  text += fmt::format(": {}, {:.4g} {}", kind_of_light(light.kind).name(), light.power.intensity,
+                      light.kind == LightKind::directional ? "lx" : "cd");
+  if (light.kind == LightKind::spot) text += fmt::format(", cone of {:.4g} degrees", light.cone_deg);
+  if (light.power.range_m) text += fmt::format(", range {:.4g} m", *light.power.range_m);
+  return text;
+}
+
+}  // namespace
+
 std::string report_text(const ModelReport& r) {
   const ModelContents& c = r.contents;
   const glm::dvec3 size = r.high_m - r.low_m;
@@ -142,6 +160,8 @@ std::string report_text(const ModelReport& r) {
        fmt::format("{}{}, {}", c.gives_light ? "of the file" : "fitted, because the file shows none",
                    kinds({{c.directional_lights, "directional"}, {c.spot_lights, "spot"}, {c.point_lights, "point"}}),
                    "measured as a " + r.light + " light"));
+  for (size_t i = 0; i < r.scene.lights.size(); ++i)
+    line(fmt::format("light {}", i).c_str(), text_of(r.scene.lights[i]));
   line("animations", fmt::format("{}, {}, {} meshes with morph targets", counted(c.animations, "animation"),
                                  counted(c.skins, "skin"), c.morphed_meshes));
   line("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m (x, y, z; +Y is up), from {:.4g}, {:.4g}, {:.4g} m", size.x,
@@ -178,6 +198,8 @@ std::string report_json(const ModelReport& r, const std::string& picture) {
   json["gives_camera"] = c.gives_camera;
   json["lights"] = {{"directional", c.directional_lights}, {"spot", c.spot_lights}, {"point", c.point_lights}};
   json["gives_light"] = c.gives_light;
+  json["light_list"] = nlohmann::ordered_json::array();
+  for (const Named<Light>& one : r.scene.lights) json["light_list"].push_back(printable(text_of(one)));
   json["measured_light"] = r.light;
   json["animations"] = c.animations;
   json["skins"] = c.skins;

@@ -49,11 +49,10 @@ void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines
   print_lines(engines, shown, out);
   if (const std::string note = notes_line(bench.scene(request.conditions.front().scene)); !note.empty())
     fmt::print("note: {}\n", printable(note));
-  std::set<std::string> fitted;  // conditions may be lights that stand elsewhere
+  std::set<std::string> of_lights;  // conditions may be lights that stand elsewhere
   for (const Settings& condition : request.conditions)
-    fitted.insert(map_fit_note(bench.scene(condition.scene), condition));
-  for (const std::string& note : fitted)
-    if (!note.empty()) fmt::print("note: {}\n", printable(note));
+    for (const std::string& note : light_notes(bench.scene(condition.scene), condition)) of_lights.insert(note);
+  for (const std::string& note : of_lights) fmt::print("note: {}\n", printable(note));
   fmt::print(
       "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.txt (also why simpler "
       "settings do not do), {0}/recommended.json, {0}/engines.txt and {0}/recommended-*.png are written\n",

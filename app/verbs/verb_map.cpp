@@ -86,7 +86,7 @@ int draw_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   diagram.command = arguments.command;
   diagram.version = build_facts().version;
   diagram.notes = notes_line(loaded);
-  if (const std::string note = map_fit_note(loaded, settings); !note.empty())
+  for (const std::string& note : light_notes(loaded, settings))
     diagram.notes += (diagram.notes.empty() ? "" : "; ") + note;
   make_output_folder(out);
   clear_abandoned_files(out);

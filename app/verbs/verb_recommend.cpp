@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/recommend_output.h"
+#include "app/verbs/recommend_texels.h"
 #include "app/verbs/verbs.h"
 #include "base/build_facts.h"
 #include "base/error.h"
@@ -153,6 +155,7 @@ struct RecommendOptions {
   std::optional<double> acne, peter_panning;  // bounds; empty: the experiment's
   std::optional<double> error, budget;        // AdviceRequest
   std::optional<double> edges, patch;         // bounds for the eye
+  std::optional<int64_t> texels;              // recommend_texels() is asked for
   std::optional<AnswerKind> answer;           // empty: best with a budget, otherwise least
   int views = 5;                              // of a scene; 1: its own only
   bool around = false;                        // also what each setting does around the answer
@@ -273,8 +276,9 @@ int recommend(const RecommendOptions& options) {
   ExperimentArguments arguments = options.arguments;
   if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
   const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
-  const Experiment& experiment = only_part(whole);
   const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
+  if (options.texels) return recommend_texels(whole, *options.texels, arguments, out);
+  const Experiment& experiment = only_part(whole);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_image_files();
@@ -345,6 +349,12 @@ void add_search_options(CLI::App& verb, RecommendOptions& options) {
       ->check(above_zero())
       ->type_name(value_kind::number)
       ->default_str(fmt::format("{} times the cost of the cheapest answer", budget_of_least));
+  verb.add_option(
+          "--texels", options.texels,
+          "Divide this many texels among the lights of the scene, so that the error of the frame that they make "
+          "is least; nothing else is searched")
+      ->check(whole_number(1, std::numeric_limits<int>::max()))
+      ->type_name(value_kind::number);
   verb.add_option("--edges", options.edges,
                   "The most that 95% of the pixels at shadow edges lie off, in pixels of the picture at the given view")
       ->check(above_zero())

@@ -76,7 +76,7 @@ void print_ladder(const Measurement& m, const char* clock) {
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
-        !metric.of_frames && !metric.of_motion)  // printed otherwise
+        !metric.of_frames && !metric.of_motion && !metric.of_lights)  // printed otherwise
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   print_placements(m);
   print_flicker(m);
@@ -151,8 +151,7 @@ int render_point(const RenderOptions& options) {
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m, gl::text_of(bench.device().times));
   if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
-  if (const std::string note = map_fit_note(m.scene, settings); !note.empty())
-    fmt::print("  note: {}\n", printable(note));
+  for (const std::string& note : light_notes(m.scene, settings)) fmt::print("  note: {}\n", printable(note));
   for (const IdleSetting& idle : idle_settings(m.technique.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
   if (!part.bounds.empty() || !part.laws.empty())

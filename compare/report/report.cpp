@@ -11,6 +11,7 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/flicker_section.h"
+#include "compare/report/lights_section.h"
 #include "compare/report/live_section.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
@@ -66,6 +67,9 @@ Markup by_point(const Results& results, const ShownPoints& shown, const ReadFile
 Markup pictures(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   return report::pictures_section(results, shown, read_file);
 }
+Markup lights(const Results& results, const ShownPoints&, const ReadFile& read_file) {
+  return report::lights_section(results, read_file);
+}
 // A report without a live picture and without a diagram opens with the strips of its motion, or with the chart of cost
 // against error.
 bool opens_with_motion(const Results& results) {
@@ -86,6 +90,7 @@ Markup speed(const Results& results, const ShownPoints& shown, const ReadFile&) 
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", nullptr, plain<report::answer_section>, false},
+    {"lights", "Lights", lights, false},
     {"engines", "Engines", plain<report::engines_section>, false},
     {"motion", "Motion", motion, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
@@ -129,6 +134,7 @@ Markup first_screen(const Results& results, const ShownPoints& shown, const Read
   const bool speed = opens_with_speed(results, shown);
   if (speed) figures = figure(speed_chart()) + figures;
   if (opens_with_motion(results)) figures = figure(flicker_strips(results));
+  if (const Markup of_lights = lights_sentence(results); !of_lights.empty()) answer += " " + of_lights;
   if (has_flicker(results)) answer += " " + flicker_sentence(results);
   const char* const beside = speed             ? "alone"
                              : live && diagram ? "side-by-side two"

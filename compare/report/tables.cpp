@@ -10,6 +10,7 @@
 
 #include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
+#include "compare/report/lights_section.h"
 #include "compare/report/opening.h"
 #include "compare/report/point_data.h"
 #include "compare/report/section_picture.h"
@@ -48,12 +49,6 @@ Markup image_of(const PictureRecord& record, const ReadFile& read_file) {
                  Attribute("src", fmt::format("data:{};base64,{}", mime_of(record.path), base64(bytes))));
 }
 
-Markup picture(const PictureRecord& record, const ReadFile& read_file) {
-  return element("figure", Attribute("data-name", record.name), image_of(record, read_file),
-                 element("figcaption", bold(record.name), " ", record.caption)) +
-         "\n";
-}
-
 Markup pictures_of(const PointRecord& point, const std::vector<std::string>& swept,
                    const std::map<int64_t, double>& biases, const ReadFile& read_file) {
   const std::string phrase = settings_phrase(point, swept);
@@ -62,7 +57,9 @@ Markup pictures_of(const PointRecord& point, const std::vector<std::string>& swe
     worst = paragraph(css("small"), prose("Worst pixel: ({}, {}) from the top left, wrong by {}{}.", point.worst.x,
                                           point.worst.y, quantity(point.worst.error, "fraction"),
                                           point.worst.cause.empty() ? "" : ", " + metric_label(point.worst.cause)));
-  for (const PictureRecord& record : pictures_for_page(point, biases)) pictures += picture(record, read_file);
+  for (const PictureRecord& record : pictures_for_page(point, biases))
+    if (!record.name.starts_with(lights_pictures)) pictures += picture_figure(record, read_file);
+  if (pictures.empty()) return "";
   return div(css("pictures"), Attribute("data-point", point.id),
              element("h3", prose("Point {}{}", point.id, phrase.empty() ? "" : ": " + phrase)), "\n", worst,
              div(css("stage"), "\n", pictures)) +
@@ -115,6 +112,12 @@ std::string listed(std::initializer_list<std::string> parts) {
 }
 
 }  // namespace
+
+Markup picture_figure(const PictureRecord& record, const ReadFile& read_file) {
+  return element("figure", Attribute("data-name", record.name), image_of(record, read_file),
+                 element("figcaption", bold(record.name), " ", record.caption)) +
+         "\n";
+}
 
 Markup pictures_section(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   const std::map<int64_t, double> biases = recommended_biases(shown.groups);

@@ -12,6 +12,8 @@ namespace noonmark::report {
 // read_file: as for render_report().
 Markup pictures_section(const Results& results, const ShownPoints& shown,
                         const std::function<std::string(const std::string&)>& read_file);
+// One picture with its caption, or why it is not shown.
+Markup picture_figure(const PictureRecord& record, const std::function<std::string(const std::string&)>& read_file);
 // What to type into other engines (RunInfo::engines); empty without.
 Markup engines_section(const Results& results);
 Markup points_section(const Results& results, const ShownPoints& shown);

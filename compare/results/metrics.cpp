@@ -271,6 +271,46 @@ constexpr Metric from_frame_to_frame[] = {
      false, false, true},
 };
 
+// Of the frame that the lights make together, the same at the points of all its lights, but for those that begin with light_.
+constexpr Metric of_several_lights[] = {
+    {"lights_error", "fraction",
+     "Frame of several lights: mean over the counted pixels of |sum of w (R5 - R1)|, where w is the light's share of "
+     "the "
+     "light that reaches the pixel without shadows.",
+     true, false, false, false, true},
+    {"lights_error_soft", "fraction", "Frame of several lights: the same against the truth R0 of lights with a size.",
+     true, false, false, false, true},
+    {"lights_rmse", "",
+     "Frame of several lights: root mean square difference over the counted pixels and the three colours of the shaded "
+     "frame and the true one (diffuse clay, linear light; white is the light that 95% of the pixels that are lit in truth do not exceed).",
+     true, false, false, false, true},
+    {"lights_flip", "",
+     "Frame of several lights: mean FLIP of the shaded frame and the true one, as they are shown (8-bit sRGB, 67 "
+     "pixels "
+     "per degree).",
+     true, false, false, false, true},
+    {"light_error", "fraction",
+     "This light's part of the frame's error: mean over the frame's counted pixels of w |R5 - R1|.", true, false, false,
+     false, true},
+    {"light_share", "fraction",
+     "light_error as a share of its sum over all lights of the frame. The sum is at least lights_error: at a pixel, "
+     "two "
+     "lights can err against each other.",
+     true, false, false, false, true},
+    {"light_weight", "fraction",
+     "This light's share of the light without shadows: mean w over the frame's counted pixels.", true, false, false,
+     false, true},
+    {"lights_counted", "count",
+     "Number of counted pixels of the frame: a light reaches them, and the truth of no light that does is ambiguous.",
+     false, false, false, false, true},
+    {"lights_ambiguous", "count",
+     "Number of pixels of the frame that a light reaches and that do not count, because the truth of a light that does "
+     "is ambiguous.",
+     false, false, false, false, true},
+    {"lights_frame", "count", "The number of the frame of several lights to which the point belongs, from 0.", false,
+     false, false, false, true},
+};
+
 constexpr Metric over_placements[] = {
     {"error_worst_shown", "fraction",
      "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.", true, true},
@@ -379,6 +419,7 @@ const MetricTable& table() {
              true, true});
     t.rows.insert(t.rows.end(), std::begin(over_placements), std::end(over_placements));
     t.rows.insert(t.rows.end(), std::begin(from_frame_to_frame), std::end(from_frame_to_frame));
+    t.rows.insert(t.rows.end(), std::begin(of_several_lights), std::end(of_several_lights));
     t.rows.insert(t.rows.end(), std::begin(of_given_frames), std::end(of_given_frames));
     return t;
   }();

@@ -15,7 +15,8 @@ struct Metric {
   bool of_placements = false;  // measured only with map.placements above 1
   bool of_motion = false;      // measured only with a [motion]
   bool of_frames = false;      // measured only of another renderer's frame (frames/judge.h)
-  bool optional() const { return of_placements || of_motion || of_frames; }
+  bool of_lights = false;      // measured only in a frame of several lights (measure/lights_frame.h)
+  bool optional() const { return of_placements || of_motion || of_frames || of_lights; }
 };
 
 std::span<const Metric> metrics_table();

@@ -65,6 +65,15 @@ Camera camera_at(const Document& document, const PlacedNode& placed, const Scene
   return camera;
 }
 
+LightPower power_of(const tinygltf::Light& from) {
+  LightPower power;
+  power.intensity = from.intensity;
+  if (from.color.size() == 3) power.color = {from.color[0], from.color[1], from.color[2]};
+  if (from.range > 0) power.range_m = from.range;
+  power.inner_cone_deg = 2 * glm::degrees(from.spot.innerConeAngle);
+  return power;
+}
+
 Light light_at(const Document& document, const PlacedNode& placed, const Scene& scene) {
   const tinygltf::Light& from = *light_of(document, placed);
   if (from.type != "directional" && from.type != "point" && from.type != "spot") {
@@ -75,9 +84,11 @@ Light light_at(const Document& document, const PlacedNode& placed, const Scene& 
   require_invertible(document, placed);
   const Sphere sphere = bounding_sphere(scene);
   const glm::dvec3 forward = forward_of(placed);
-  if (from.type == "directional") return directional_light(sphere, forward);
-
   Light light;
+  if (from.type == "directional") light = directional_light(sphere, forward);
+  light.power = power_of(from);
+  if (from.type == "directional") return light;
+
   light.position_m = origin_of(placed);
   const glm::dvec3 to_middle = sphere.centre_m - light.position_m;
   if (from.type == "point") {
@@ -103,7 +114,7 @@ Light light_at(const Document& document, const PlacedNode& placed, const Scene& 
 // All nodes that hold one, in the file's order. The first must be one that can be used: its mistake is thrown.
 template <class T, class Holds, class At, class Name>
 std::vector<Named<T>> find_all(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene,
-                               const char* what, const Holds& holds, const At& at, const Name& own_name) {
+                               const Holds& holds, const At& at, const Name& own_name) {
   std::vector<Named<T>> found;
   for (const PlacedNode& placed : nodes) {
     if (!holds(placed)) continue;
@@ -116,10 +127,6 @@ std::vector<Named<T>> find_all(const Document& document, const std::vector<Place
     }
     found.push_back(std::move(one));
   }
-  if (found.size() > 1) {
-    const uint64_t more = found.size() - 1;
-    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, what), is_or_are(more)));
-  }
   return found;
 }
 
@@ -127,17 +134,26 @@ std::vector<Named<T>> find_all(const Document& document, const std::vector<Place
 
 std::vector<Named<Camera>> find_cameras(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
   const auto camera_of = [&](const PlacedNode& placed) { return document.model.nodes[placed.node].camera; };
-  return find_all<Camera>(
-      document, nodes, scene, "camera",
-      [&](const PlacedNode& placed) { return !placed.collapsed && camera_of(placed) != -1; }, camera_at,
-      [](const PlacedNode&) { return std::string(); });  // tinygltf 2.7 does not read it
+  std::vector<Named<Camera>> found = find_all<Camera>(
+      document, nodes, scene, [&](const PlacedNode& placed) { return !placed.collapsed && camera_of(placed) != -1; },
+      camera_at, [](const PlacedNode&) { return std::string(); });  // tinygltf 2.7 does not read it
+  if (found.size() > 1) {
+    const uint64_t more = found.size() - 1;
+    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, "camera"), is_or_are(more)));
+  }
+  return found;
 }
 
 std::vector<Named<Light>> find_lights(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
-  return find_all<Light>(
-      document, nodes, scene, "light",
+  std::vector<Named<Light>> found = find_all<Light>(
+      document, nodes, scene,
       [&](const PlacedNode& placed) { return placed.shown() && light_of(document, placed) != nullptr; }, light_at,
       [&](const PlacedNode& placed) { return light_of(document, placed)->name; });
+  if (found.size() > 1)
+    scene.notes.push_back(
+        fmt::format("{} lights, of which a point has one: the first, unless light.name or light.index gives another",
+                    found.size()));
+  return found;
 }
 
 }  // namespace noonmark::gltf

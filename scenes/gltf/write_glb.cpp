@@ -98,11 +98,12 @@ void add_camera(const Camera& camera, tinygltf::Model& model) {
 void add_light(const Light& light, tinygltf::Model& model) {
   tinygltf::Light made;
   made.name = "light";
-  made.intensity = 1;
-  made.color = {1, 1, 1};
+  made.intensity = light.power.intensity;
+  made.color = {light.power.color.x, light.power.color.y, light.power.color.z};
+  made.range = light.power.range_m.value_or(0);  // tinygltf writes no range of 0
   made.type = light.kind == LightKind::directional ? "directional" : light.kind == LightKind::spot ? "spot" : "point";
   if (light.kind == LightKind::spot) {
-    made.spot.innerConeAngle = 0;
+    made.spot.innerConeAngle = glm::radians(light.power.inner_cone_deg) / 2;
     made.spot.outerConeAngle = glm::radians(light.cone_deg) / 2;
   }
   tinygltf::Node node;

@@ -102,6 +102,21 @@ TEST_F(GltfView, TheFirstLightInTheScenesOrderIsTaken) {
   EXPECT_EQ(load(d).light.kind, LightKind::directional);
 }
 
+TEST_F(GltfView, ALightsPowerIsRead) {
+  const json lamp = {{"type", "spot"},  {"name", "lamp"},
+                     {"intensity", 20}, {"color", {1, 0.5, 0.25}},
+                     {"range", 30},     {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}};
+  const Scene s = load(with_lights({lamp, {{"type", "directional"}}}, {{"translation", {5, 5, 5}}}));
+  EXPECT_EQ(s.light.power.intensity, 20);
+  EXPECT_EQ(s.light.power.color, glm::dvec3(1, 0.5, 0.25));
+  EXPECT_EQ(s.light.power.range_m, 30);
+  EXPECT_NEAR(s.light.power.inner_cone_deg, glm::degrees(0.5), 1e-9);
+  const Light plain = load(with_lights({{{"type", "point"}}}, {{"translation", {5, 5, 5}}})).light;
+  EXPECT_EQ(plain.power.intensity, 1);
+  EXPECT_EQ(plain.power.color, glm::dvec3(1));
+  EXPECT_FALSE(plain.power.range_m);
+}
+
 TEST_F(GltfView, CamerasAndLightsAreFoundByTheirNames) {
   json d = with_lights({{{"type", "point"}, {"name", "lamp"}}, {{"type", "directional"}, {"name", "sun"}}},
                        {{"translation", {5, 5, 5}}, {"name", "ceiling"}});

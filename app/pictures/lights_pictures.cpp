@@ -1,0 +1,34 @@
+#include "app/pictures/lights_pictures.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/file.h"
+
+namespace noonmark {
+
+std::vector<PictureRecord> keep_lights(const LightsFrame& frame, const std::vector<std::string>& names, int64_t id,
+                                       const std::string& out) {
+  make_folder(out + "/images");
+  std::vector<std::string> colors;
+  for (size_t l = 0; l < names.size(); ++l) colors.push_back(fmt::format("{}: {}", names[l], most_wrong_color(l).name));
+  const struct {
+    const char* name;
+    const Image<Color>& picture;
+    std::string caption;
+  } pictures[] = {
+      {"shown", frame.shown, "The frame of all lights, as the shadow maps show it."},
+      {"truth", frame.truth, "The same frame with the true shadows."},
+      {"most-wrong", frame.most_wrong,
+       fmt::format("Which light makes the largest part of the frame's error at each pixel ({}); black: none.",
+                   fmt::join(colors, ", "))}};
+  std::vector<PictureRecord> records;
+  for (const auto& [name, picture, caption] : pictures) {
+    const std::string path = fmt::format("images/p{:04}-{}{}.png", id, lights_prefix, name);
+    const std::string digest = write_png(out + "/" + path, picture);
+    records.push_back({std::string(lights_prefix) + name, path, caption, digest});
+  }
+  return records;
+}
+
+}  // namespace noonmark
