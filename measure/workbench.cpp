@@ -345,6 +345,31 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
   }
 }
 
+std::vector<ReceiverSection> Workbench::sections(const Measurement& m, std::span<const glm::ivec2> pixels) {
+  Impl& b = *impl_;
+  const Impl::Asked asked = b.begin(m.technique.settings);
+  const Impl::Looked looked = b.look(asked);
+  LookupStage& lookup = b.lookup.get(asked.keys.lookup, [&] {
+    return b.stages->prepare_lookup(b.renderer, *asked.loaded.tracer, looked.view, looked.truth, asked.technique);
+  });
+  std::vector<std::optional<ReceiverSection>> found(pixels.size());
+  const auto cut = [&](const LookupEvidence& evidence, PixelRange strip) {
+    for (size_t k = 0; k < pixels.size(); ++k) {
+      const glm::ivec2 pixel = pixels[k];
+      // section_of() says what is wrong with a pixel outside the picture.
+      const bool outside = !inside_map(pixel, {m.receivers.width(), m.receivers.height()});
+      const size_t i = outside ? 0 : m.receivers.primitive.index(pixel.x, pixel.y);
+      if (!found[k] && (outside || (strip.first <= i && i < strip.end)))
+        found[k] =
+            section_of({m.scene, m.receivers, m.technique, m.ladder, evidence, m.stored_map, m.stored_rows}, pixels[k]);
+    }
+  };
+  each_strip_of(b.renderer, lookup, looked.truth, asked.technique, cut);
+  std::vector<ReceiverSection> sections;
+  for (std::optional<ReceiverSection>& one : found) sections.push_back(std::move(one.value()));
+  return sections;
+}
+
 PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup) {
   Impl& b = *impl_;
   const Impl::Asked asked = b.begin(settings);

@@ -13,6 +13,7 @@
 
 #include "compare/ladder/flicker.h"
 #include "compare/ladder/live_picture.h"
+#include "compare/ladder/section.h"
 #include "compare/results/records.h"
 #include "measure/phase_diagram.h"
 #include "measure/stages.h"
@@ -61,6 +62,10 @@ class Workbench {
   // time: see measure/pass_times.h. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
                       ShadedMetrics shaded = ShadedMetrics::yes);
+
+  // Sections through these pixels of a measured picture (compare/ladder/section.h). m: the bench's last measurement,
+  // before anything else was asked of the bench. Throws Error as section_of().
+  std::vector<ReceiverSection> sections(const Measurement& m, std::span<const glm::ivec2> pixels);
 
   // One sample of the time of each pass that is asked for. The images of the last measurement may be gone afterwards.
   // Throws Error.

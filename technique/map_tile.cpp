@@ -44,10 +44,12 @@ double MapTile::texel_m(glm::dvec3 light) const {
   return orthographic ? 2 * half / resolution : 2 * along(light) * half / resolution;
 }
 
-glm::dvec3 MapTile::place_of(glm::ivec2 texel) const {
-  const glm::dvec2 centre = glm::dvec2(texel - corner) + 0.5;
-  if (orthographic) return {centre * (2 * half / resolution) - half + centre_m, 1};
-  const glm::dvec2 side = (2.0 * (centre + shift_texels) / static_cast<double>(resolution) - 1.0) * half;
+glm::dvec3 MapTile::place_of(glm::ivec2 texel) const { return place_at(glm::dvec2(texel) + 0.5); }
+
+glm::dvec3 MapTile::place_at(glm::dvec2 texels) const {
+  const glm::dvec2 at = texels - glm::dvec2(corner);
+  if (orthographic) return {at * (2 * half / resolution) - half + centre_m, 1};
+  const glm::dvec2 side = (2.0 * (at + shift_texels) / static_cast<double>(resolution) - 1.0) * half;
   return forward + side.x * right + side.y * up;
 }
 

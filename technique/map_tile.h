@@ -38,9 +38,10 @@ struct MapTile {
   // The depth at which the near plane cuts the ray of a place. If depths are distances, the place is a unit vector.
   double near_depth(glm::dvec3 place) const { return depth == TileDepth::distance ? near_m / along(place) : near_m; }
 
-  double texel_m(glm::dvec3 light) const;       // the width of a texel at a point in the light's frame
-  glm::dvec3 place_of(glm::ivec2 texel) const;  // the place of the centre of a texel of the map's image
-  glm::dvec2 texels(glm::dvec3 place) const;    // the position of a place in the map's image
+  double texel_m(glm::dvec3 light) const;        // the width of a texel at a point in the light's frame
+  glm::dvec3 place_of(glm::ivec2 texel) const;   // the place of the centre of a texel of the map's image
+  glm::dvec2 texels(glm::dvec3 place) const;     // the position of a place in the map's image
+  glm::dvec3 place_at(glm::dvec2 texels) const;  // its inverse; of a perspective tile the place with along() = 1
 };
 
 }  // namespace noonmark

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
+#include "app/pictures/point_files.h"
 #include "app/pictures/view_colors.h"
 #include "app/pictures/view_frustum.h"
 #include "app/pictures/view_map.h"
@@ -118,6 +121,35 @@ Image<Color> reduced(const Image<Color>& picture, int by) {
   return small;
 }
 
+// The map in the lower left corner, on a rectangle of a third of the picture's height, framed. Each pixel is the map's
+// nearest one.
+Image<Color> with_corner(Image<Color> picture, const Image<Color>& map) {
+  const int height = std::max(1, picture.height / 3),
+            width = std::clamp(height * map.width / std::max(1, map.height), 1, picture.width);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const bool edge = x == width - 1 || y == 0;
+      picture.at(x, picture.height - height + y) =
+          edge ? Color(255) : map.at(x * map.width / width, y * map.height / height);
+    }
+  return picture;
+}
+
+// The files of one list of names.
+struct PictureFiles {
+  std::string folder, relative, stem;
+  std::span<const std::string_view> names;
+  std::vector<PictureRecord> records{};
+
+  void add(const std::string& name, const std::string& caption, const Image<Color>& picture) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw std::logic_error(name + " is not in the list of names");
+    const std::string file = fmt::format("{}-{}.png", stem, name);
+    const std::string digest = write_png(folder + "/" + file, picture);
+    records.push_back({name, relative + "/" + file, caption, digest});
+  }
+};
+
 // Copies the surroundings of (x, y) to `to`, from column `left` on, and frames the pixel.
 void enlarge(const Image<Color>& from, int x, int y, Image<Color>& to, int left) {
   constexpr Color frame{255, 255, 255}, outer{0, 0, 0};
@@ -167,13 +199,9 @@ Image<Color> lit_picture(const Measurement& m) {
 
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem) {
-  std::vector<PictureRecord> records;
+  PictureFiles files{folder, relative, stem, picture_names};
   const auto add = [&](const std::string& name, const std::string& caption, const Image<Color>& picture) {
-    if (std::find(std::begin(picture_names), std::end(picture_names), name) == std::end(picture_names))
-      throw std::logic_error(name + " is not in picture_names");
-    const std::string file = fmt::format("{}-{}.png", stem, name);
-    const std::string digest = write_png(folder + "/" + file, picture);
-    records.push_back({name, relative + "/" + file, caption, digest});
+    files.add(name, caption, picture);
   };
   const Light light = effective_light(m.scene, m.technique.settings);
   const bool sized = m.technique.frame.light().disc_radius(light) > 0;
@@ -223,7 +251,30 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
                   "Its root mean square over the receivers is {}.",
                   std::isnan(rmse) ? std::string(not_measured) : fmt::format("{:.4g}", rmse)),
       apart);
-  return records;
+  return std::move(files.records);
+}
+
+std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std::string& folder,
+                                                const std::string& relative, const std::string& stem) {
+  PictureFiles files{folder, relative, stem, debug_picture_names};
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  Image<float> all_lit(m.receivers.width(), m.receivers.height());
+  for (size_t i = 0; i < all_lit.size(); ++i) all_lit[i] = m.ladder.flags[i] & flag_facing ? 1.0f : 0.0f;
+  files.add("debug-unshadowed", "The frame without shadows: as if every receiver that faces the light were lit.",
+            shown_frame(m.receivers, shaded_frame(m.receivers, m.technique.frame, camera, all_lit)));
+  const Image<Color> stored = stored_picture(m.stored_rows, m.technique.frame);
+  files.add("debug-stored", "The shadow map as it is stored: the grey is the window depth, black is 0 and white is 1.",
+            stored);
+  const Image<float> read = stored_depths(m);
+  files.add("debug-painted",
+            "The depth that each receiver's lookup reads, painted on the scene with the same grey: the map's texels as "
+            "they lie on the surfaces.",
+            paint(m, [&](size_t i) { return stored_grey(static_cast<double>(read[i])); }));
+  files.add(
+      "debug-corner", "The frame as the shadow map shows it, with the stored map in the corner.",
+      with_corner(shown_frame(m.receivers, shaded_frame(m.receivers, m.technique.frame, camera, m.ladder.shown())),
+                  stored));
+  return std::move(files.records);
 }
 
 }  // namespace noonmark

@@ -18,6 +18,12 @@ inline constexpr std::string_view picture_names[] = {
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem);
 
+// The pictures with which people find mistakes in a renderer of their own; `render` writes them, and no report has them.
+inline constexpr std::string_view debug_picture_names[] = {"debug-unshadowed", "debug-stored", "debug-painted",
+                                                           "debug-corner"};
+std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std::string& folder,
+                                                const std::string& relative, const std::string& stem);
+
 // A frame of the animation of a motion: what the shadow map shows, and beside it what changes until the next frame
 // although the truth does not. m.flicker must be there. Each is at most 480 pixels wide; a larger picture is reduced by a
 // whole factor.

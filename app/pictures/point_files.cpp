@@ -159,6 +159,8 @@ void append_parts(const std::vector<Part>& parts, size_t text_after, std::string
 
 }  // namespace
 
+Image<float> stored_depths(const Measurement& m) { return depth_read(m, stored_where_read(m)); }
+
 std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
                                       const std::string& prefix) {
   std::vector<ImageRecord> records;
@@ -179,7 +181,7 @@ std::vector<ImageRecord> write_images(const Measurement& m, const std::string& f
   add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
   for (const Ladder::RungImage& rung : m.ladder.rungs) add(rung.name, rung.lit);
   add("depth.reference", m.probe.reference);
-  add("depth.stored", depth_read(m, stored_where_read(m)));
+  add("depth.stored", stored_depths(m));
   add("depth.exact", depth_read(m, m.exact_map));
   add("cause", channel_of(m.ladder.cause, [](uint8_t c) { return c; }));
   add("flags", channel_of(m.ladder.flags, [](uint8_t f) { return f; }));

@@ -12,6 +12,10 @@ namespace noonmark {
 std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
                                       const std::string& prefix);
 
+// The depth in OpenGL's map that the middle tap of each receiver reads, whether or not it faces the light. Window depth;
+// NaN where there is no receiver.
+Image<float> stored_depths(const Measurement& m);
+
 // Returns every setting, metric and time, camera and light in full precision, the list of causes and the bits of flags.
 std::string point_json(const Measurement& m, const std::string& command);
 

@@ -18,6 +18,7 @@
 #include "compare/judge/recommendation.h"
 #include "compare/judge/tradeoff.h"
 #include "compare/ladder/flicker.h"
+#include "compare/report/section_picture.h"
 #include "compare/report/speed_reading.h"
 
 namespace noonmark {
@@ -133,6 +134,19 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
   PointPictures kept;
   kept.images = write_images(m, folder, "images", stem + "-");
   kept.pictures = write_pictures(m, folder, "images", stem);
+  return kept;
+}
+
+PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out) {
+  PointPictures kept = keep_pictures(m, id, out);
+  const std::vector<glm::ivec2> pixels = section_pixels(m.record, m.ladder, m.probe);
+  if (pixels.empty()) return kept;  // no taps are traced again for nothing
+  for (const ReceiverSection& section : bench.sections(m, pixels)) {
+    const std::string path = report::section_path(id, section.pixel),
+                      file = report::section_svg(section, report::SectionTheme::automatic);
+    write_file_atomically(out + "/" + path, file);
+    kept.images.push_back({path, digest_of(file)});
+  }
   return kept;
 }
 

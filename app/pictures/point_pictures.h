@@ -43,6 +43,10 @@ PictureRecord keep_motion(const std::vector<Image<Color>>& frames, int64_t id, c
 // Writes the point's files below out/images. The record must be in the store.
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out);
 
+// The same, and sections through its worst pixels (section_pixels()) as out/images/p0003-section-312-175.svg. m: the
+// bench's last measurement.
+PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out);
+
 // Writes the point's live picture as out/images/p0003-live.bin.
 ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out);
 

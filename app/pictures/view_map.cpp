@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "app/pictures/view_colors.h"
@@ -58,6 +59,13 @@ Image<float> shrunk(const MapRows& map, int resolution, int side) {
   return out;
 }
 
+// The whole map, small enough for a picture.
+Image<float> map_depths(const MapRows& stored, const LightFrame& frame) {
+  return frame.map_shape() == MapShape::cube
+             ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
+             : shrunk(stored, frame.resolution, std::min(frame.resolution, largest_side));
+}
+
 }  // namespace
 
 Image<float> cube_cross(const MapRows& map, int resolution, int cell, float outside) {
@@ -87,10 +95,22 @@ Image<float> cube_cross(const MapRows& map, int resolution, int cell, float outs
   return cross;
 }
 
+Color stored_grey(double window_depth) {
+  return window_depth == window_depth
+             ? Color(static_cast<uint8_t>(std::lround(255 * std::clamp(window_depth, 0.0, 1.0))))
+             : Color(0);
+}
+
+Image<Color> stored_picture(const MapRows& stored, const LightFrame& frame) {
+  const Image<float> depth = map_depths(stored, frame);
+  Image<Color> picture(depth.width, depth.height, paper);
+  for (size_t i = 0; i < depth.size(); ++i)
+    if (depth[i] != outside_cross) picture[i] = stored_grey(static_cast<double>(depth[i]));
+  return picture;
+}
+
 Image<Color> map_picture(const MapRows& stored, const LightFrame& frame) {
-  const Image<float> depth = frame.map_shape() == MapShape::cube
-                                 ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
-                                 : shrunk(stored, frame.resolution, std::min(frame.resolution, largest_side));
+  const Image<float> depth = map_depths(stored, frame);
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
   const auto metres = [&](float d) { return frame.tile(0).depth_of_window(static_cast<double>(d)); };
   for (float d : depth.pixels) {

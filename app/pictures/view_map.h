@@ -23,6 +23,12 @@ using MapRows = std::function<Image<float>(int, int)>;
 // Row 0 is the top. The area outside the cross is `outside`.
 Image<float> cube_cross(const MapRows& map, int resolution, int cell, float outside);
 
+// The map as it is stored: the grey of a texel is its window depth, from 0 (black) to 1 (white), as a page shows a value
+// without any correction. Under perspective it is nearly white.
+Image<Color> stored_picture(const MapRows& stored, const LightFrame& frame);
+// The grey of one window depth there. NaN is black.
+Color stored_grey(double window_depth);
+
 // stored: window depths as the lookup's sampler returns them, of the size LightFrame::map_size(). Cleared texels get
 // the background's colour.
 Image<Color> map_picture(const MapRows& stored, const LightFrame& frame);

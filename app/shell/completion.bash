@@ -127,6 +127,7 @@ _noonmark() {
         mapfile -t choices < <(_noonmark_metrics "$program")
         compopt -o nospace 2>/dev/null
         ;;
+      METRIC) mapfile -t choices < <(_noonmark_metrics "$program" | sed 's/=$//') ;;
       FILE.*) endings+=("${kind#FILE.}") ;;
       FOLDER) mapfile -t files < <(compgen -d -- "$word") ;;
       SCENE) mapfile -t choices < <(_noonmark_scenes "$program") ;;

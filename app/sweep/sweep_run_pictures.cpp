@@ -33,7 +33,7 @@ void remove_motion(PointPictures& point, const std::string& out) {
 // Writes all picture files of a measured point. The measurement's images are gone afterwards.
 PointPictures SweepRun::pictures_of(const Measurement& m) {
   const int64_t id = m.record.id;
-  PointPictures kept = keep_pictures(m, id, folder_.path());
+  PointPictures kept = keep_pictures_and_sections(bench_, m, id, folder_.path());
   if (const std::optional<LivePicture> live = bench_.live_picture(m.technique.settings))
     kept.images.push_back(keep_live_picture(*live, id, folder_.path()));
   return kept;

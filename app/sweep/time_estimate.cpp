@@ -200,7 +200,7 @@ std::vector<double> picture_times(Workbench& bench, const std::vector<Settings>&
   const auto write = [&](const Settings& settings) {
     const Measurement m = bench.measure(settings, std::nullopt);
     const Clock before = now();
-    keep_pictures(m, 0, folder.path());
+    keep_pictures_and_sections(bench, m, 0, folder.path());
     return now().cpu_s - before.cpu_s;
   };
   const auto texels = [](const Settings& s) { return std::pow(s.map.resolution, 2); };

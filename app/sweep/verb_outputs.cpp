@@ -26,6 +26,7 @@ VerbOutputs outputs_of(std::string_view verb, const std::string& subject, const 
   if (verb != "render") throw std::logic_error(fmt::format("the outputs of {} are not listed", verb));
   VerbOutputs render{folder("out/render"), {"point.json", "ladder.exr", "map.exr"}};
   for (const std::string_view name : picture_names) render.files.push_back(fmt::format("point-{}.png", name));
+  for (const std::string_view name : debug_picture_names) render.files.push_back(fmt::format("point-{}.png", name));
   return render;
 }
 

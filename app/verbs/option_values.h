@@ -28,6 +28,7 @@ inline constexpr const char* part = "PART";           // a part of the experimen
 inline constexpr const char* verb = "VERB";
 inline constexpr const char* share = "SHARE";  // a number from 0 to 1, or a percentage
 inline constexpr const char* number = "NUMBER";
+inline constexpr const char* pixel = "X,Y";            // of a picture, row 0 on top
 inline constexpr const char* metric = "METRIC=VALUE";  // a metric and its bound
 }  // namespace value_kind
 

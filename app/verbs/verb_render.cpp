@@ -7,6 +7,7 @@
 #include "app/sweep/results_folder.h"
 #include "app/sweep/verb_outputs.h"
 #include "app/verbs/experiment_arguments.h"
+#include "app/verbs/one_point.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "base/error.h"
@@ -29,30 +30,6 @@
 
 namespace noonmark {
 namespace {
-
-// "; point 0: map.resolution = 512; ..." of the first points.
-std::string points_text(const Experiment& experiment, size_t count) {
-  constexpr size_t most = 8;
-  std::string text;
-  for (size_t id = 0; id < std::min(count, most); ++id) {
-    const std::string part = part_of_point(experiment, static_cast<int64_t>(id)).part;
-    text += fmt::format("; point {}: {}{}", id, part.empty() ? "" : fmt::format("part '{}', ", part),
-                        swept_text(experiment, static_cast<int64_t>(id)));
-  }
-  return count > most ? text + "; ..." : text;
-}
-
-Settings the_point(const Experiment& experiment, long point) {
-  const std::vector<Settings> all = points(experiment);
-  if (point < 0 && all.size() > 1)
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("{} has {} points, but render measures one; give --point 0 ... {}, or --set the swept settings{}",
-                    experiment.path, all.size(), all.size() - 1, points_text(experiment, all.size())));
-  if (point >= static_cast<long>(all.size()))
-    throw Error(ErrorKind::usage, fmt::format("there is no point {}; the last one is {}", point, all.size() - 1));
-  return all[static_cast<size_t>(std::max(point, 0L))];
-}
 
 // "over 64 placements of the grid            mean      worst", and a line for each metric.
 void print_placements(const Measurement& m) {
@@ -153,7 +130,7 @@ int render_point(const RenderOptions& options) {
   const VerbOutputs outputs = outputs_of("render", path, arguments.out);
   retract(outputs);
   const Experiment experiment = experiment_from(path, arguments);
-  const Settings settings = the_point(experiment, point);
+  const Settings settings = the_point(experiment, point, "render");
   const std::string& out = outputs.folder;
   make_output_folder(out);
   clear_abandoned_files(out);
@@ -169,6 +146,7 @@ int render_point(const RenderOptions& options) {
   Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt);
   m.record.metrics.merge(times);
   write_pictures(m, out, ".", "point");
+  write_debug_pictures(m, out, ".", "point");
   write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m, gl::text_of(bench.device().times));
@@ -186,8 +164,7 @@ RunVerb add_render(CLI::App& verb) {
   const auto options = std::make_shared<RenderOptions>();
   ExperimentArguments& arguments = options->arguments;
   add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
-  verb.add_option("--point", options->point, "Number of the point in the experiment's sweep, from 0")
-      ->check(whole_number(0));
+  add_point(verb, options->point);
   add_sets(verb, arguments);
   add_parts(verb, arguments);
   add_threads(verb, arguments);

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <exception>
 #include <initializer_list>
+#include <optional>
 
 #include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/opening.h"
 #include "compare/report/point_data.h"
+#include "compare/report/section_picture.h"
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
 #include "compare/results/metrics.h"
@@ -64,6 +66,31 @@ Markup pictures_of(const PointRecord& point, const std::vector<std::string>& swe
          "\n";
 }
 
+// The sections through pixels of a point; page/card.js shows the one of its worst pixel.
+Markup sections_of(const PointRecord& point, const std::vector<std::string>& swept, const ReadFile& read_file) {
+  Markup figures;
+  for (const ImageRecord& image : point.images) {
+    const std::optional<glm::ivec2> pixel = section_pixel(image.path);
+    if (!pixel) continue;
+    std::string bytes;
+    try {
+      bytes = read_file(image.path);
+    } catch (const std::exception& error) {
+      figures += paragraph(css("missing"), prose("The section {} is not shown: {}.", image.path, error.what()));
+      continue;
+    }
+    figures +=
+        element("figure", Attribute("data-x", pixel->x), Attribute("data-y", pixel->y),
+                element("img", Attribute("alt", fmt::format("Section through pixel ({}, {})", pixel->x, pixel->y)),
+                        Attribute("src", "data:image/svg+xml;base64," + base64(bytes)))) +
+        "\n";
+  }
+  if (figures.empty()) return "";
+  const std::string phrase = settings_phrase(point, swept);
+  return element("h3", prose("Point {}{}", point.id, phrase.empty() ? "" : ": " + phrase)) +
+         div(css("sections"), Attribute("data-point", point.id), "\n", figures) + "\n";
+}
+
 // A metric with the same value at every point needs no column.
 bool varies(const Results& results, const std::string& name) {
   const auto text = [&](const PointRecord& point) {
@@ -94,17 +121,23 @@ Markup picture_figure(const PictureRecord& record, const ReadFile& read_file) {
 
 Markup pictures_section(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   const std::map<int64_t, double> biases = recommended_biases(shown.groups);
-  Markup sets, legend;
+  Markup sets, legend, sections;
   for (const PointRecord& point : results.points)
-    if (!point.pictures.empty()) sets += pictures_of(point, results.info.swept, biases, read_file);
+    if (!point.pictures.empty()) {
+      sets += pictures_of(point, results.info.swept, biases, read_file);
+      sections += sections_of(point, results.info.swept, read_file);
+    }
   if (sets.empty()) return "";
   for (const CauseColor& color : causes_of(results.points))
     if (color.name != "aliasing" && color.name != "coverage") legend += legend_entry(color.name, color.label);
   for (const CauseColor& color : pixel_state_colors) legend += legend_entry(color.name, color.label);
   const auto key = [](const char* name) { return element("kbd", name); };
-  return section("pictures", "Pictures",
-                 paragraph(css("js-only small"), prose("Flip with {} {} or the number keys.", key("←"), key("→"))) +
-                     div(css("legend"), "\n", legend) + "\n" + div(css("picture-picker js-only")) + "\n" + sets);
+  return section(
+      "pictures", "Pictures",
+      paragraph(css("js-only small"), prose("Flip with {} {} or the number keys.", key("←"), key("→"))) +
+          div(css("legend"), "\n", legend) + "\n" + div(css("picture-picker js-only")) + "\n" + sets +
+          (sections.empty() ? Markup()
+                            : folded("more", false, "Sections through the worst pixels of these points", sections)));
 }
 
 Markup engines_section(const Results& results) {

@@ -40,6 +40,21 @@ std::string quantity_text(double value, std::string_view unit, int digits) {
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
 
+std::string length_text(double metres, int digits) {
+  struct Unit {
+    double metres;
+    const char* name;
+  };
+  constexpr Unit units[] = {{1e3, "km"}, {1, "m"}, {1e-3, "mm"}, {1e-6, "µm"}, {1e-9, "nm"}};
+  if (std::isnan(metres)) return std::string(not_measured);
+  const double size = rounded(std::abs(metres), digits);  // 0.9996 m is 1 m, not 1000 mm
+  if (size == 0) return "0 m";
+  for (const Unit& unit : units)
+    if (size >= unit.metres || unit.metres == 1e-9)
+      return fmt::format("{} {}", number_text(metres / unit.metres, digits), unit.name);
+  return "";  // not reached: the last unit takes all
+}
+
 int digits_to_tell(double a, double b, int least) {
   if (a == b || !std::isfinite(a) || !std::isfinite(b)) return least;
   int digits = least;

@@ -20,6 +20,9 @@ std::string number_text(double value, int digits = people_digits);
 // With its unit (Metric::unit): "0.8347%", "4.194 MB", "12.3 m", "16384".
 std::string quantity_text(double value, std::string_view unit, int digits = people_digits);
 
+// A length or a distance with the unit that suits its size: "0.42 µm", "3.1 mm", "2.13 m", "1.2 km". It keeps the sign.
+std::string length_text(double metres, int digits = 3);
+
 // How many digits show that the two values differ, at least `least`: a found value that breaks a limit must not read as
 // the limit. `least` if they are equal or one of them is not finite.
 int digits_to_tell(double a, double b, int least = people_digits);

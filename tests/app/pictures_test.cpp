@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -154,6 +155,31 @@ TEST_F(Pictures, AreNamedInTheirRecords) {
   settings.light.angular_diameter_deg = 0.5;
   names.insert({"soft-truth", "shaded-soft-truth"});
   EXPECT_EQ(names_of(), names);
+}
+
+// A page that shows a value between 0 and 1 as it is shows round(255 value).
+TEST_F(Pictures, DebugViewsShowTheDepthsAsTheyAreStored) {
+  std::set<std::string> names;
+  for (const PictureRecord& record : write_debug_pictures(measurement(), folder.path().string(), ".", "point"))
+    names.insert(record.name);
+  EXPECT_EQ(names, (std::set<std::string>{"debug-unshadowed", "debug-stored", "debug-painted", "debug-corner"}));
+  const auto grey_of = [](float depth) { return Color(static_cast<uint8_t>(std::lround(255 * depth))); };
+  const Image<Color> map = read_png(folder.file("point-debug-stored.png"));
+  ASSERT_EQ(map.width, 2);
+  EXPECT_EQ(map.pixels,
+            (std::vector<Color>{grey_of(stored[2]), grey_of(stored[3]), grey_of(stored[0]), grey_of(stored[1])}))
+      << "the highest v on top";
+  const Image<Color> painted = read_png(folder.file("point-debug-painted.png"));
+  ASSERT_EQ(painted.width, 3);
+  EXPECT_EQ(painted[0], grey_of(stored.at(0, 0)));
+  EXPECT_EQ(painted[1], grey_of(stored.at(1, 1))) << "the map repeats";
+  EXPECT_EQ(painted[2], grey_of(stored.at(1, 0)));
+  EXPECT_EQ(painted[5], named_color("background"));
+  const Image<Color> unshadowed = read_png(folder.file("point-debug-unshadowed.png")),
+                     corner = read_png(folder.file("point-debug-corner.png"));
+  EXPECT_EQ(unshadowed[5], named_color("background"));
+  EXPECT_EQ(corner.at(0, 1), Color(255)) << "a rectangle of one pixel is all frame";
+  EXPECT_EQ(corner.at(2, 1), named_color("background"));
 }
 
 Color named(std::string_view name) {

@@ -7,7 +7,7 @@ program=$1 completion=$2 work=$3
 rm -rf "$work"
 mkdir -p "$work/sweeps" "$work/models"
 cd "$work"
-touch one.toml TWO.TOML notes.txt tree.glb shadow.exr SHADOW.PNG base.json lit.npy page.html models/street.gltf models/readme.md sweeps/three.toml
+touch one.toml TWO.TOML notes.txt tree.glb shadow.exr SHADOW.PNG base.json lit.npy page.html acne.svg models/street.gltf models/readme.md sweeps/three.toml
 printf '[[part]]\nname = "sun"\n[[part]]\nname = "spot light"\n' >sweeps/parts.toml
 ln -s "$program" noonmark
 # shellcheck source=/dev/null
@@ -69,14 +69,16 @@ sample() {
     FILE.json) echo base.json ;;
     FILE.npy) echo lit.npy ;;
     FILE.html) echo page.html ;;
+    FILE.svg) echo acne.svg ;;
     METRIC=VALUE) echo frame_acne= ;;
+    METRIC) echo peter_panning ;;
     [a-z]*) echo "$1" ;;
     FOLDER) echo sweeps ;;
     SCENE) echo plate ;;
     NAME=VALUE) echo map.resolution= ;;
     PART) echo sun ;;
     VERB) echo check ;;
-    INT | NUMBER | SHARE | I/N) ;;
+    INT | NUMBER | SHARE | I/N | X,Y) ;;
     *)
       echo "the completion does not know the kind $1" >&2
       return 1

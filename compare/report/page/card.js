@@ -218,6 +218,19 @@ function stage(p) {
         .forEach(function(q) {
           cuts.append(cut(q, x, y));
         });
+    var drawn = section(w);
+    if (drawn) cuts.append(drawn);
+  }
+  // The section through the pixel, if one was drawn (compare/report/section_picture.h). Those of the live picture have none: its
+  // pixels are others.
+  function section(w) {
+    var figure = !w.live && document.querySelector(
+                     '.sections[data-point="' + p.id + '"] figure[data-x="' + w.x + '"][data-y="' + w.y + '"]');
+    if (!figure) return null;
+    return make('figure', {class: 'section'}, [
+      figure.querySelector('img').cloneNode(true),
+      make('figcaption', {}, 'The plane of its light ray, cut through the surface and the map')
+    ]);
   }
   // The pixel and its neighbours, each 12 times as large.
   function cut(q, x, y) {

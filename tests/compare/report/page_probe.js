@@ -193,6 +193,7 @@
     return {
       words: card.querySelector('.card-inner > p').textContent,
       pixel: card.querySelector('.card-pictures [role=status]').textContent,
+      section: (card.querySelector('.cuts .section img') || {}).alt,
       chosen: all('.card-pictures select', card)
                   .map(function(list) {
                     return list.value;

@@ -14,6 +14,7 @@
 #include "compare/report/data.h"
 #include "compare/report/phase.h"
 #include "compare/report/report.h"
+#include "compare/report/section_picture.h"
 #include "compare/report/speed.h"
 #include "compare/report/speed_reading.h"
 #include "tests/compare/report/browser.h"
@@ -42,6 +43,7 @@ class Page : public Browser {
                               .point = 18,
                               .points = 32,
                               .reproduce = "render 18"});
+    results.points[18].images = {{report::section_path(18, {56, 78}), ""}, {report::section_path(18, {1, 2}), ""}};
     open(render_report(results, sample_picture), "page_probe.js");
   }
 };
@@ -58,6 +60,7 @@ TEST_F(Page, AClickOnABrokenPointShowsTheFailure) {
     EXPECT_EQ(seen["pixel"], "Worst pixel (56, 78) from the top left. Acne 50\u202f% there, with the bias as set.")
         << how;
     EXPECT_EQ(seen["chosen"], "acne") << how;
+    EXPECT_EQ(seen["section"], "Section through pixel (56, 78)") << how;
     EXPECT_EQ(seen["bias"], "As set") << how << ": the page is at the recommended bias";
   }
   EXPECT_EQ(saw_["card"]["asked_recommended"], "Recommended") << "the answer's own link shows its bias";

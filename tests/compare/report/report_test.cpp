@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/error.h"
 #include "compare/judge/soundness.h"
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/numbers.h"
@@ -20,6 +21,7 @@
 #include "compare/report/data.h"
 #include "compare/report/element.h"
 #include "compare/report/findings.h"
+#include "compare/report/section_picture.h"
 #include "compare/report/sections.h"
 #include "compare/report/summary.h"
 #include "compare/report/text.h"
@@ -308,6 +310,26 @@ TEST(Report, PicturesAreInlinedAndMissingOnesSaid) {
   EXPECT_NE(page.find("src=\"data:image/png;base64," + report::base64(bytes) + "\""), std::string::npos);
   EXPECT_NE(page.find("The picture images/p0026-truth.png is not shown: there is no images/p0026-truth.png."),
             std::string::npos);
+}
+
+// A section is an SVG, and it stands in the page as a picture: no script of it could run.
+TEST(Report, SectionsAreInlinedWithTheirPixelsAndLostOnesSaid) {
+  Results results = sample_results();
+  results.points[18].images = {{report::section_path(18, {56, 78}), ""},
+                               {report::section_path(18, {1, 2}), ""},
+                               {"images/p0018-ladder.exr", ""}};
+  const std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\"/>";
+  const std::string page = render_report(results, [&](const std::string& path) {
+    if (path == "images/p0018-section-1-2.svg") throw Error(ErrorKind::file, "it is lost");
+    return path == "images/p0018-section-56-78.svg" ? svg : sample_picture(path);
+  });
+  EXPECT_NE(page.find("<figure data-x=\"56\" data-y=\"78\"><img alt=\"Section through pixel (56, 78)\" "
+                      "src=\"data:image/svg+xml;base64," +
+                      report::base64(svg)),
+            std::string::npos);
+  EXPECT_NE(page.find("The section images/p0018-section-1-2.svg is not shown: it is lost."), std::string::npos);
+  EXPECT_EQ(page.find("ladder.exr"), std::string::npos);
+  EXPECT_EQ(render_report(sample_results(), sample_picture).find("Sections through"), std::string::npos);
 }
 
 TEST(Report, SmallAndEmptySweepsStillMakeAPage) {

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/one_point.h"
+#include "app/verbs/option_values.h"
+#include "app/verbs/verbs.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "base/threads.h"
+#include "compare/report/section_picture.h"
+#include "compare/report/section_words.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
+#include "measure/workbench.h"
+
+namespace noonmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SectionOptions {
+  std::string experiment;  // empty: the default settings
+  long point = -1;
+  std::string pixel, worst;  // --pixel and --worst; both empty: the pixel with the largest error
+  std::string theme = report::section_themes.front();
+  std::string out = "section.svg";
+  ExperimentArguments arguments;
+};
+
+glm::ivec2 pixel_from(const std::string& text) {
+  glm::ivec2 pixel{0};
+  const char* const end = text.data() + text.size();
+  const auto x = std::from_chars(text.data(), end, pixel.x);
+  if (x.ec == std::errc() && x.ptr != end && *x.ptr == ',')
+    if (const auto y = std::from_chars(x.ptr + 1, end, pixel.y); y.ec == std::errc() && y.ptr == end) return pixel;
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("--pixel {} is no pixel; give its column and its row as --pixel 312,175, from 0,0 at the top left",
+                  text));
+}
+
+void require_new_file(const SectionOptions& options) {
+  const std::string& file = options.out;
+  std::error_code none;
+  if (!ends_with_any_case(file, ".svg"))
+    throw Error(ErrorKind::usage, fmt::format("{} does not end in .svg, which is the format that is written", file));
+  if (fs::is_directory(file, none))
+    throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the path of a file with --out", file));
+  if (!options.arguments.overwrite && fs::exists(fs::symlink_status(file, none)))
+    throw Error(ErrorKind::usage, fmt::format("{} is there already; choose another --out, or pass --overwrite", file));
+}
+
+struct ChosenPixel {
+  glm::ivec2 at{0};
+  std::string why;  // "the pixel with the largest acne, 100%"; empty: it was given
+};
+
+ChosenPixel chosen_pixel(const SectionOptions& options, const PointRecord& record) {
+  if (!options.pixel.empty()) return {pixel_from(options.pixel), ""};
+  const std::string metric = options.worst.empty() ? "error" : options.worst;
+  const auto worst = worst_pixel_of(record, metric);
+  if (!worst || worst->x < 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("no pixel of this picture has any {}; give another --worst, or a --pixel", metric));
+  return {{worst->x, worst->y},
+          fmt::format("the pixel with the largest {}, {}", metric,
+                      quantity_text(worst->size, find_quantity(metric, {&record, 1}).unit))};
+}
+
+int draw_section(const SectionOptions& options) {
+  if (!options.pixel.empty() && !options.worst.empty())
+    throw Error(ErrorKind::usage, "--pixel and --worst both choose the pixel; give one of them");
+  if (!options.pixel.empty()) (void)pixel_from(options.pixel);
+  require_new_file(options);
+  const Experiment experiment = experiment_from(options.experiment, options.arguments);
+  const Settings settings = the_point(experiment, options.point, "section");
+  if (!options.worst.empty()) (void)find_quantity(options.worst);
+  require_room_to_start(false);
+  Workbench bench(gl::DebugMode::log);
+  const MemoryEstimate memory =
+      at_point(experiment, std::max(options.point, 0L), [&] { return bench.memory(settings, false, false); });
+  require_memory(memory, bench.memory_of_program(false), "this point");
+  const Measurement m = bench.measure(settings, std::nullopt, ShadedMetrics::no);
+  const ChosenPixel pixel = chosen_pixel(options, m.record);
+  const ReceiverSection section = bench.sections(m, std::array{pixel.at}).front();
+  const auto theme = static_cast<report::SectionTheme>(
+      std::find(report::section_themes.begin(), report::section_themes.end(), options.theme) -
+      report::section_themes.begin());
+  if (const std::string above = fs::path(options.out).parent_path().string(); !above.empty()) make_folder(above);
+  write_file_atomically(options.out, report::section_svg(section, theme));
+  fmt::print("{}, pixel {},{}{}: {}\n\n", printable(m.scene.name), pixel.at.x, pixel.at.y,
+             pixel.why.empty() ? "" : " (" + pixel.why + ")", report::section_title(section));
+  for (const std::string& paragraph : report::section_words(section)) fmt::print("  {}\n", paragraph);
+  fmt::print("\n{} is written\n", printable(options.out));
+  return 0;
+}
+
+RunVerb add_section(CLI::App& verb) {
+  const auto options = std::make_shared<SectionOptions>();
+  ExperimentArguments& arguments = options->arguments;
+  add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
+  add_point(verb, options->point);
+  verb.add_option("--pixel", options->pixel,
+                  "The pixel: column and row from 0,0 at the top left. Without it and without --worst, the pixel with "
+                  "the largest error")
+      ->check(not_empty())
+      ->type_name(value_kind::pixel);
+  verb.add_option("--worst", options->worst, "The pixel with the largest part of this metric, such as acne")
+      ->check(not_empty())
+      ->type_name("METRIC");
+  verb.add_option("--theme", options->theme,
+                  "Colours for a light or a dark page; auto leaves the choice to the reader's screen, and programs "
+                  "that print need one of the others")
+      ->check(one_of(report::section_themes))
+      ->type_name(joined(report::section_themes))
+      ->capture_default_str();
+  add_sets(verb, arguments);
+  add_parts(verb, arguments);
+  add_threads(verb, arguments);
+  verb.add_option("--out", options->out, "The file that is written")
+      ->check(not_empty())
+      ->type_name("FILE.svg")
+      ->capture_default_str();
+  verb.add_flag("--overwrite", arguments.overwrite, "Replace the file if it is there already");
+  return [options](const std::string& command) {
+    options->arguments.command = command;
+    const ThreadLimit limit(options->arguments.threads);
+    return draw_section(*options);
+  };
+}
+
+}  // namespace
+
+Verb verb_section() {
+  return {"section", "Draw why one pixel is right or wrong: the plane of its light ray, cut through surface and map",
+          add_section};
+}
+
+}  // namespace noonmark
