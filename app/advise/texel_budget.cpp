@@ -282,14 +282,16 @@ TexelBudget divide_texels(Workbench& bench, const std::vector<std::pair<std::str
 
 std::vector<std::string> budget_text(const TexelBudget& budget) {
   const Settings& first = budget.best.lights.front().settings;
+  size_t width = 5;  // of "light"
+  for (const LightShare& light : budget.best.lights) width = std::max(width, light.name.size());
   std::vector<std::string> lines = {
       fmt::format("{}: {} texels for {}, in a picture of {} x {} pixels", first.scene.name, with_spaces(budget.texels),
                   counted(budget.best.lights.size(), "light"), first.view.width_px, first.view.height_px),
       "",
-      fmt::format("  {:<20} {:>8} {:>12} {:>14} {:>14}", "light", "map", "of the light", "part of error",
+      fmt::format("  {:<{}} {:>8} {:>12} {:>14} {:>14}", "light", width, "map", "of the light", "part of error",
                   "without a map")};
   for (const LightShare& light : budget.best.lights)
-    lines.push_back(fmt::format("  {:<20} {:>8} {:>12} {:>14} {:>14}", light.name,
+    lines.push_back(fmt::format("  {:<{}} {:>8} {:>12} {:>14} {:>14}", light.name, width,
                                 light.resolution == 0 ? "none" : fmt::format("{}", light.resolution),
                                 share_of(light.weight), share_of(light.error), share_of(light.without)));
   std::vector<std::string> equal;

@@ -15,6 +15,7 @@
 #include "app/pictures/view_map.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/quantities.h"
+#include "measure/texel_footprint.h"
 #include "measure/view_shading.h"
 
 namespace noonmark {
@@ -254,6 +255,19 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   return std::move(files.records);
 }
 
+namespace {
+
+// From blue, an eighth of a pixel and less, over light grey, one pixel, to red, eight pixels and more. Each factor of two is
+// a third of the way. NaN, where nothing faces the light, has the colour of that.
+Color texel_color(float pixels) {
+  if (std::isnan(pixels)) return named_color("attached");
+  const glm::vec3 small(40, 90, 200), one(225, 225, 220), large(200, 40, 30);
+  const float way = std::clamp(std::log2(std::max(pixels, 0x1p-20f)) / 3, -1.0f, 1.0f);
+  return Color((way < 0 ? glm::mix(one, small, -way) : glm::mix(one, large, way)) + 0.5f);
+}
+
+}  // namespace
+
 std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std::string& folder,
                                                 const std::string& relative, const std::string& stem) {
   PictureFiles files{folder, relative, stem, debug_picture_names};
@@ -274,6 +288,14 @@ std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std:
       "debug-corner", "The frame as the shadow map shows it, with the stored map in the corner.",
       with_corner(shown_frame(m.receivers, shaded_frame(m.receivers, m.technique.frame, camera, m.ladder.shown())),
                   stored));
+  Image<uint8_t> facing(m.receivers.width(), m.receivers.height());
+  for (size_t i = 0; i < facing.size(); ++i) facing[i] = (m.ladder.flags[i] & flag_facing) != 0;
+  const TexelFootprint footprint = texel_footprint(m.receivers, camera, m.technique.frame, facing);
+  files.add(
+      "debug-texels",
+      "How long a texel of the shadow map is in the picture, in pixels: blue is an eighth and less, light grey is "
+      "one, red is eight and more, where the stairs of shadow edges show.",
+      paint(m, [&](size_t i) { return texel_color(footprint.pixels[i]); }));
   return std::move(files.records);
 }
 

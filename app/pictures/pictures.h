@@ -20,7 +20,7 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
 
 // The pictures with which people find mistakes in a renderer of their own; `render` writes them, and no report has them.
 inline constexpr std::string_view debug_picture_names[] = {"debug-unshadowed", "debug-stored", "debug-painted",
-                                                           "debug-corner"};
+                                                           "debug-corner", "debug-texels"};
 std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std::string& folder,
                                                 const std::string& relative, const std::string& stem);
 

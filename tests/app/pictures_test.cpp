@@ -162,7 +162,8 @@ TEST_F(Pictures, DebugViewsShowTheDepthsAsTheyAreStored) {
   std::set<std::string> names;
   for (const PictureRecord& record : write_debug_pictures(measurement(), folder.path().string(), ".", "point"))
     names.insert(record.name);
-  EXPECT_EQ(names, (std::set<std::string>{"debug-unshadowed", "debug-stored", "debug-painted", "debug-corner"}));
+  EXPECT_EQ(names, (std::set<std::string>{"debug-unshadowed", "debug-stored", "debug-painted", "debug-corner",
+                                          "debug-texels"}));
   const auto grey_of = [](float depth) { return Color(static_cast<uint8_t>(std::lround(255 * depth))); };
   const Image<Color> map = read_png(folder.file("point-debug-stored.png"));
   ASSERT_EQ(map.width, 2);
