@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "base/address_space.h"
@@ -70,7 +71,7 @@ void add_time(PointRecord& record, const std::string& stage, const StageTime& ti
 
 // The point's numbers and times, without its curve.
 PointRecord record_of(const Measurement& m, const SceneStage& loaded, const ViewStage& view, const TruthStage& truth,
-                      const LookupStage& lookup, const std::map<std::string, double>& soundness, ShadedMetrics shaded) {
+                      const LookupStage& lookup, const std::map<std::string, double>& soundness, MetricSet metrics) {
   const Technique& t = m.technique;
   const Image<float> occluders = loaded.tracer->occluder_distance(m.receivers, t.frame, peter_panning_mask(m.ladder));
   PointRecord record;
@@ -82,7 +83,7 @@ PointRecord record_of(const Measurement& m, const SceneStage& loaded, const View
       measure_laws({m.ladder, m.scene, m.receivers, m.camera, t.frame, t.settings.map.format, m.probe}));
   record.metrics.insert(soundness.begin(), soundness.end());
   record.metrics.insert(view.metrics.begin(), view.metrics.end());
-  if (shaded == ShadedMetrics::yes) {
+  if (metrics == MetricSet::all) {
     const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
     record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
     record.metrics["flip"] = shaded_flip(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
@@ -108,11 +109,11 @@ Settings of_scene(const SceneSettings& scene) {
 
 }  // namespace
 
-ShadedMetrics shaded_metrics_for(std::string_view metric) {
-  return metric == "shaded_rmse" || metric == "flip" || metric == "map_used" || metric == "undersampled" ||
-                 metric.starts_with("perspective_aliasing")
-             ? ShadedMetrics::yes
-             : ShadedMetrics::no;
+MetricSet metric_set_for(std::string_view metric) {
+  constexpr std::string_view not_searched[] = {
+      "shaded_rmse", "flip", "map_used", "undersampled", "perspective_aliasing", "perspective_aliasing_p95"};
+  const bool searched = std::find(std::begin(not_searched), std::end(not_searched), metric) == std::end(not_searched);
+  return searched ? MetricSet::searched : MetricSet::all;
 }
 
 struct Workbench::Impl {
@@ -387,7 +388,7 @@ PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
-                               ShadedMetrics shaded) {
+                               MetricSet metrics) {
   Impl& b = *impl_;
   const Impl::Asked asked = b.begin(settings);
   const SceneStage& loaded = asked.loaded;
@@ -402,7 +403,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       asked.keys.lookup, [&] { return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, technique); });
   MapStage& map = b.drawn(scene, technique, asked.keys.map);
   // A search does not read it, and it costs a pass over the map.
-  if (shaded == ShadedMetrics::yes && !map.used) map.used = b.renderer.used_texels(*map.map);
+  if (metrics == MetricSet::all && !map.used) map.used = b.renderer.used_texels(*map.map);
   ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, technique);
 
   const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
@@ -423,10 +424,10 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   if (placements) placements->finish();
   Measurement m{{},           technique, std::move(climbed.ladder), view.camera,        scene, view.receivers,
                 lookup.probe, {},        std::move(shown.stored),   lookup.exact_depth, {}};
-  m.record = record_of(m, loaded, view, truth, lookup, climbed.soundness, shaded);
+  m.record = record_of(m, loaded, view, truth, lookup, climbed.soundness, metrics);
   const auto texels = static_cast<double>(m.record.metrics.at("map_texels"));
   m.record.metrics["map_seen"] = static_cast<double>(lookup.exact_depth.texels->count()) / texels;
-  if (shaded == ShadedMetrics::yes) m.record.metrics["map_used"] = static_cast<double>(*map.used) / texels;
+  if (metrics == MetricSet::all) m.record.metrics["map_used"] = static_cast<double>(*map.used) / texels;
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);

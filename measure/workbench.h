@@ -47,9 +47,10 @@ struct PassTimes {
 // pictures: true if the run writes picture files.
 void require_room_to_start(bool pictures);
 
-// Whether a record has the metrics of the shaded frame too: shaded_rmse and flip. A search that needs neither saves the time.
-enum class ShadedMetrics { yes, no };
-ShadedMetrics shaded_metrics_for(std::string_view metric);  // what is needed to know this one
+// Which metrics a record has. searched: without those that cost a pass over the picture or the map and that a search seldom reads:
+// shaded_rmse, flip, map_used, undersampled and perspective_aliasing.
+enum class MetricSet { all, searched };
+MetricSet metric_set_for(std::string_view metric);  // what is needed to know this one
 
 class Workbench {
  public:
@@ -61,7 +62,7 @@ class Workbench {
   // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). The record has no metric that is a
   // time: see measure/pass_times.h. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
-                      ShadedMetrics shaded = ShadedMetrics::yes);
+                      MetricSet metrics = MetricSet::all);
 
   // Sections through these pixels of a measured picture (compare/ladder/section.h). m: the bench's last measurement,
   // before anything else was asked of the bench. Throws Error as section_of().

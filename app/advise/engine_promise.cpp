@@ -29,7 +29,7 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
   EnginePromise promise;
   for (const Settings& settings : conditions) {
     require_memory(bench.memory(settings, false, false), bench.memory_of_program(false), "the engine's map");
-    const PointRecord point = bench.measure(settings, std::nullopt, shaded_metrics_for(accuracy)).record;
+    const PointRecord point = bench.measure(settings, std::nullopt, metric_set_for(accuracy)).record;
     if (nothing_judged(point)) continue;
     raise(promise.error, worst_placed(point, accuracy));
     raise(promise.acne, worst_placed(point, "acne"));

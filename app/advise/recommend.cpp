@@ -186,7 +186,7 @@ class Search {
                                                           tried.settings.filter, tried.settings.map.resolution),
                                      request_.width_px);
       there.map.placements = searched_placements;
-      PointRecord record = bench_.measure(there, searched_, shaded_metrics_for(request_.accuracy)).record;
+      PointRecord record = bench_.measure(there, searched_, metric_set_for(request_.accuracy)).record;
       if (nothing_judged(record)) {
         say_("a view in which nothing can be judged is left out");
         continue;

@@ -60,14 +60,14 @@ Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, 
   const Limits limits{bounds, accuracy, most};
   constexpr int all = fresh_placements * fresh_placements;
   const bool flat = is_flat(bench, settings);
-  const ShadedMetrics shaded = shaded_metrics_for(accuracy);
+  const MetricSet metrics = metric_set_for(accuracy);
   verified.placements = all;
   if (flat) {
     Settings lattice = settings;
     lattice.map.placements = fresh_placements;
     lattice.map.shift_u_texels += 0.5 / fresh_placements;
     lattice.map.shift_v_texels += 0.5 / fresh_placements;
-    judge(bench.measure(lattice, std::nullopt, shaded).record, limits, verified);
+    judge(bench.measure(lattice, std::nullopt, metrics).record, limits, verified);
   }
   std::mt19937_64 random(64);
   const int of = flat ? rendered : all;
@@ -76,7 +76,7 @@ Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, 
     const int n = verified.rendered;
     const int i =
         flat ? (3 * n % fresh_placements) * fresh_placements + (5 * n + n / fresh_placements) % fresh_placements : n;
-    judge(bench.measure(fresh(bench, settings, i, random), std::nullopt, shaded).record, limits, verified);
+    judge(bench.measure(fresh(bench, settings, i, random), std::nullopt, metrics).record, limits, verified);
   }
   return verified;
 }

@@ -86,7 +86,7 @@ int draw_section(const SectionOptions& options) {
   const MemoryEstimate memory =
       at_point(experiment, std::max(options.point, 0L), [&] { return bench.memory(settings, false, false); });
   require_memory(memory, bench.memory_of_program(false), "this point");
-  const Measurement m = bench.measure(settings, std::nullopt, ShadedMetrics::no);
+  const Measurement m = bench.measure(settings, std::nullopt, MetricSet::searched);
   const ChosenPixel pixel = chosen_pixel(options, m.record);
   const ReceiverSection section = bench.sections(m, std::array{pixel.at}).front();
   const auto theme = static_cast<report::SectionTheme>(

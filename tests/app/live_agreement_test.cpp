@@ -121,7 +121,7 @@ TEST_P(LivePage, AgreesWithTheProgram) {
   for (size_t i = 0; i < states.size(); ++i) {
     Settings set = settings;
     for (const auto& [name, value] : states[i]) find_setting(name).set(set, value);
-    const auto program = bench.measure(set, std::nullopt, ShadedMetrics::no).record.metrics;
+    const auto program = bench.measure(set, std::nullopt, MetricSet::searched).record.metrics;
     const json& shown = saw_["metrics"][i];
     EXPECT_NEAR(shown["facing"], program.at("facing"), tolerance * program.at("facing")) << json(states[i]);
     for (const char* metric : compared) {
