@@ -117,11 +117,21 @@ class Divider {
     }
     return all;
   }
+  // An edge that happens to lie well on the grid of one resolution would draw the search there. So each error is half its own
+  // and a quarter of each neighbour's, as logarithms; the ends and what is 0 stay.
+  static std::vector<Candidate> smoothed(const std::vector<Candidate>& measured) {
+    std::vector<Candidate> all = measured;
+    for (size_t i = 2; i + 1 < measured.size(); ++i) {
+      const double before = measured[i - 1].error, own = measured[i].error, after = measured[i + 1].error;
+      if (before > 0 && own > 0 && after > 0) all[i].error = std::sqrt(own * std::sqrt(before * after));
+    }
+    return all;
+  }
   // The same with resolutions between those that are measured. There the error is that of the power of the texels that meets both
   // neighbours: far from saturation an error is proportional to the width of a texel (law 5).
   std::vector<Candidate> with_steps_between(size_t light) const {
     constexpr int steps = 8;  // of an octave of texels
-    const std::vector<Candidate>& measured = candidates_[light];
+    const std::vector<Candidate> measured = smoothed(candidates_[light]);
     std::vector<Candidate> all = {measured[0], measured[1]};
     for (size_t i = 2; i < measured.size(); ++i) {
       const Candidate &a = measured[i - 1], &b = measured[i];

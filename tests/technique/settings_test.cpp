@@ -87,11 +87,11 @@ TEST(SettingsTable, HasARowForEveryMember) {
   // A structured binding compiles only if it has as many names as the struct has members.
   const Settings s;
   [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12] = s.scene;
-  [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, motion] = s.view;
-  [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8] = motion;
-  [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9] = s.light;
+  [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, motion] = s.view;
+  [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8, e9] = motion;
+  [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
-                                d20, d21] = s.map;
+                                d20, d21, d22] = s.map;
   [[maybe_unused]] const auto& [g1] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
   // Unit, reference and plane_cap, and every parameter of a part.
@@ -99,10 +99,10 @@ TEST(SettingsTable, HasARowForEveryMember) {
   // The kind, and every parameter that a filter reads.
   const int filter = 1 + static_cast<int>(filter_parameters().size());
   EXPECT_EQ(rows, (std::map<std::string, int>{{"scene", 12},
-                                              {"view", 9},
-                                              {"motion", 8},
-                                              {"light", 9},
-                                              {"map", 21},
+                                              {"view", 11},
+                                              {"motion", 9},
+                                              {"light", 11},
+                                              {"map", 22},
                                               {"bias", bias},
                                               {"filter", filter},
                                               {"truth", 1},
