@@ -138,7 +138,7 @@ LightsFrame measure_lights(std::span<const LightPart> parts) {
   frame.metrics = {{"lights_error", mean(error)},
                    {"lights_error_soft", mean(error_soft)},
                    {"lights_rmse", std::sqrt(mean(squares))},
-                   {"lights_flip", flip(frame.truth, frame.shown).mean},
+                   {"lights_flip", counted == 0 ? std::numeric_limits<double>::quiet_NaN() : flip(frame.truth, frame.shown).mean},
                    {"lights_counted", static_cast<double>(counted)},
                    {"lights_ambiguous", static_cast<double>(ambiguous)}};
   for (size_t l = 0; l < parts.size(); ++l)

@@ -64,6 +64,15 @@ ChosenLight chosen_light(const Scene& scene, const LightSettings& settings) {
   return chosen;
 }
 
+std::string first_of_several_note(const Scene& scene, const Settings& settings) {
+  const LightSettings& s = settings.light;
+  if (scene.lights.size() < 2 || s.name != LightSettings().name || s.index || s.kind != LightChoice::automatic) return "";
+  return fmt::format(
+      "{}: has {} lights, and this is the first; light.name or light.index gives another, and lights = \"all\" in an "
+      "experiment measures all",
+      scene.name, scene.lights.size());
+}
+
 std::string made_up_light_note(const Scene& scene, const Settings& settings) {
   const ChosenLight chosen = chosen_light(scene, settings.light);
   if (!chosen.made_up) return "";

@@ -21,6 +21,10 @@ struct ChosenLight {
 // made up. Throws SettingConflict for a name or an index that the scene does not have, or whose light cannot be used.
 ChosenLight chosen_light(const Scene& scene, const LightSettings& settings);
 
+// "model: has 3 lights, and this is the first; light.name or light.index gives another, and lights = \"all\" in an experiment measures all",
+// where nothing chooses among several. Else empty.
+std::string first_of_several_note(const Scene& scene, const Settings& settings);
+
 // What a user must know of a light that is made up: "cube-room has no point light: light.kind makes one at -2, 4, -1 m, where its
 // directional light stands; light.position_m moves it". Empty if none is.
 std::string made_up_light_note(const Scene& scene, const Settings& settings);

@@ -251,7 +251,7 @@ std::string map_fit_note(const Scene& scene, const Settings& settings) {
 
 std::vector<std::string> light_notes(const Scene& scene, const Settings& settings) {
   std::vector<std::string> notes;
-  for (const auto& note_of : {made_up_light_note, map_fit_note})
+  for (const auto& note_of : {first_of_several_note, made_up_light_note, map_fit_note})
     if (std::string note = note_of(scene, settings); !note.empty()) notes.push_back(std::move(note));
   return notes;
 }

@@ -157,7 +157,7 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings);
 // settings give all of it, and if map.fit asks for a fit.
 std::string map_fit_note(const Scene& scene, const Settings& settings);
 
-// What a user must know of the light and its map volume, one sentence each: made_up_light_note (technique/chosen_light.h) and
+// What a user must know of the light and its map volume, one sentence each: first_of_several_note and made_up_light_note (technique/chosen_light.h), and
 // map_fit_note.
 std::vector<std::string> light_notes(const Scene& scene, const Settings& settings);
 

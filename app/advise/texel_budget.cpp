@@ -67,7 +67,10 @@ class Divider {
     // What is between the measured resolutions is only estimated, so the equal split can be better.
     if (sum_of(equal) < sum_of(found)) found = equal;
     give_rest(found);
-    return {budget_, division(found), division(equal)};
+    TexelBudget made{budget_, division(found), division(equal)};
+    // The search sees other placements than the judge. What is not better there is no answer.
+    if (!(made.best.error < made.equal.error)) made.best = made.equal;
+    return made;
   }
 
  private:
@@ -312,11 +315,11 @@ std::vector<std::string> budget_text(const TexelBudget& budget) {
       fmt::format("The frame's error is {} (lights_error, the mean of {} placements of the grids that the search did "
                   "not see), with {} texels.",
                   share_of(budget.best.error), judged_placements.size(), with_spaces(budget.best.texels)));
-  lines.push_back(
-      fmt::format("An equal split ({}) has {}{}.", fmt::join(equal, ", "), share_of(budget.equal.error),
-                  budget.best.error < budget.equal.error
-                      ? fmt::format(": {} more than this", share_of(budget.equal.error / budget.best.error - 1))
-                      : std::string(", no more than this: the lights need equally much")));
+  lines.push_back(budget.best.error < budget.equal.error
+                      ? fmt::format("An equal split ({}) has {}: {} more than this.", fmt::join(equal, ", "),
+                                    share_of(budget.equal.error), share_of(budget.equal.error / budget.best.error - 1))
+                      : std::string("It is an equal split: no other division that was tried has less error."));
+  lines.push_back("noonmark run measures one placement of each grid, so its lights_error differs.");
   for (const LightShare& light : budget.best.lights)
     if (light.resolution == 0)
       lines.push_back(fmt::format("{} needs no map: without its shadow the frame is wrong by {}.", light.name,
@@ -336,13 +339,17 @@ std::string budget_experiment(const TexelBudget& budget, const std::string& fold
   const Settings& first = budget.best.lights.front().settings;
   std::string scene = first.scene.name;
   if (std::error_code none; names_file(scene)) scene = std::filesystem::proximate(scene, folder, none);
-  std::string text =
-      fmt::format("# Written by noonmark recommend --texels {}. noonmark run measures the frame.\n\nscene = {}\n",
-                  budget.texels, toml_string(scene));
+  std::string text = fmt::format(
+      "# Written by noonmark recommend --texels {}. noonmark run measures the frame, at one placement of each grid.\n\n"
+      "lights = \"parts\"\nscene = {}\n",
+      budget.texels, toml_string(scene));
   const Settings defaults;
-  const auto differs = [&](const LightShare& light, const Setting& row) {
-    return row.get(light.settings) != row.get(defaults);
+  const auto lines = [&](const Settings& settings, bool of_frame) {
+    for (const Setting& row : settings_table())
+      if (row.name != "scene.name" && is_of_frame(row.name) == of_frame && row.get(settings) != row.get(defaults))
+        text += fmt::format("{} = {}\n", row.name, toml_value(row, row.get(settings)));
   };
+  lines(first, true);
   for (const LightShare& light : budget.best.lights) {
     if (light.resolution == 0) {
       text +=
@@ -350,10 +357,8 @@ std::string budget_experiment(const TexelBudget& budget, const std::string& fold
                       printable(light.name), share_of(light.without));
       continue;
     }
-    text += fmt::format("\n[[lights]]\nname = {}\n", toml_string(light.name));
-    for (const Setting& row : settings_table())
-      if (row.name != "scene.name" && differs(light, row))
-        text += fmt::format("{} = {}\n", row.name, toml_value(row, row.get(light.settings)));
+    text += fmt::format("\n[[part]]\nname = {}\n", toml_string(light.name));
+    lines(light.settings, false);
   }
   return text;
 }

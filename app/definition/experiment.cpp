@@ -70,8 +70,18 @@ void choose_parts(Experiment& experiment, const std::vector<std::string>& names)
                                               near.empty() ? fmt::format("; it has '{}'", fmt::join(known, "', '"))
                                                            : fmt::format("; did you mean '{}'?", near)));
   }
+  const size_t all = experiment.parts.size();
   std::erase_if(experiment.parts, [&](const Experiment& part) { return !chosen(part.part); });
   experiment.chosen = names;
+  if (!experiment.lights || experiment.parts.size() == all) return;
+  // Without all its lights there is no frame.
+  experiment.lights = false;
+  size_t dropped = 0;
+  for (Experiment& part : experiment.parts)
+    dropped += std::erase_if(part.bounds, [](const Bound& bound) { return is_of_lights(bound.metric); });
+  experiment.notes.push_back(fmt::format(
+      "{}: --part leaves lights of the frame out, so what they give together is not measured{}", experiment.path,
+      dropped == 0 ? "" : fmt::format(", and {} on it not judged", counted(dropped, "bound"))));
 }
 
 Experiment part_of_light(const Experiment& experiment, const std::string& light) {
@@ -80,6 +90,34 @@ Experiment part_of_light(const Experiment& experiment, const std::string& light)
   part.base.light.name = light;
   part.notes.clear();
   return part;
+}
+
+bool is_of_frame(std::string_view setting) {
+  return setting.starts_with("scene.") || setting.starts_with("view.") || setting.starts_with("motion.");
+}
+
+void require_one_frame(const Experiment& experiment) {
+  const std::vector<Settings> all = points(experiment);
+  const size_t frames = all.size() / std::max<size_t>(1, experiment.parts.size());
+  // The first of the wanted settings in which two points differ; empty: none.
+  const auto differing = [&](size_t a, size_t b, const auto& wanted) -> std::string_view {
+    for (const Setting& row : settings_table())
+      if (wanted(row.name) && row.get(all[a]) != row.get(all[b])) return row.name;
+    return "";
+  };
+  const auto of_light = [](std::string_view name) { return name.starts_with("light."); };
+  for (size_t f = 0; f < frames; ++f)
+    for (size_t l = 1; l < experiment.parts.size(); ++l)
+      for (size_t other = 0; other < l; ++other) {
+        const size_t a = other * frames + f, b = l * frames + f;
+        const std::string names =
+            fmt::format("the lights '{}' and '{}'", experiment.parts[other].part, experiment.parts[l].part);
+        if (const std::string_view name = differing(a, b, is_of_frame); !name.empty())
+          throw Error(ErrorKind::usage,
+                      fmt::format("{} of one frame differ in {}; it is one for all of them", names, name));
+        if (differing(a, b, of_light).empty())
+          throw Error(ErrorKind::usage, fmt::format("{} of one frame are the same light", names));
+      }
 }
 
 void give_lights(Experiment& experiment, std::vector<Experiment> lights) {
@@ -99,7 +137,8 @@ namespace {
 std::string only_name(const std::vector<Named<Light>>& lights, size_t at) {
   for (const std::string& name : {lights[at].name, lights[at].node}) {
     const auto has = [&](const Named<Light>& one) { return one.name == name || one.node == name; };
-    if (!name.empty() && std::count_if(lights.begin(), lights.end(), has) == 1) return name;
+    if (name != LightSettings().name && !name.empty() && std::count_if(lights.begin(), lights.end(), has) == 1)
+      return name;
   }
   return "";
 }

@@ -107,6 +107,13 @@ void take_all_lights(Experiment& experiment);
 // Makes the part of one light: the experiment without its parts, whose points have this light. light: light.name.
 Experiment part_of_light(const Experiment& experiment, const std::string& light);
 
+// Whether a setting is one for all lights of a frame: of the scene, the view and the motion.
+bool is_of_frame(std::string_view setting);
+
+// Of an experiment whose parts are the lights of frames: throws Error(usage) if the lights of a frame differ in what is one for all of
+// them, or if two of them are the same light.
+void require_one_frame(const Experiment& experiment);
+
 // Puts the parts of lights into the experiment, which keeps no sweep, bound and diagram of its own.
 void give_lights(Experiment& experiment, std::vector<Experiment> lights);
 

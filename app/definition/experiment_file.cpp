@@ -110,18 +110,22 @@ class Reader : private SettingsReader {
       if (item.key == "name")
         name = string(*item.node, "lights.name");
       else if (is_group(item.key))
-        read_settings(table(*item.node, "[" + item.key + "]"), item.key,
-                      [this](const std::string& key, const toml::node& value) {
-                        for (const Swept& swept : experiment_.swept)
-                          if (swept.name == key)
-                            fail(value, fmt::format("{} is swept, and fixed for this light; drop one of the two", key));
-                        fix(key, value);
-                      });
+        read_settings(
+            table(*item.node, "[" + item.key + "]"), item.key, [this](const std::string& key, const toml::node& value) {
+              if (is_of_frame(key))
+                fail(value, fmt::format("{} is one for all lights of a frame; give it outside of [[lights]]", key));
+              if (key == "light.name" || key == "light.index")
+                fail(value, fmt::format("{} is the name of the [[lights]]; leave it out", key));
+              for (const Swept& swept : experiment_.swept)
+                if (swept.name == key)
+                  fail(value, fmt::format("{} is swept, and fixed for this light; drop one of the two", key));
+              fix(key, value);
+            });
       else
         unknown(item, "key", light_keys(), "lights.");
     }
     if (name.empty()) fail(root, "a [[lights]] needs the name of a light");
-    return part_of_light(experiment_, name);
+    return named_light(name, root);
   }
 
  private:
@@ -138,6 +142,17 @@ class Reader : private SettingsReader {
   }
 
   // ---- lights
+
+  Experiment named_light(const std::string& name, const toml::node& node) const {
+    if (name == LightSettings().name)
+      fail(node,
+           fmt::format("a light with the name '{0}' cannot be named, because light.name = {0} stands for none; take "
+                       "lights = \"all\", or light.index in a [[part]] with lights = \"parts\"",
+                       name));
+    Experiment part = part_of_light(experiment_, name);
+    part.locations["light.name"] = location_text(node.source());
+    return part;
+  }
 
   void read_lights(const toml::node& node) {
     if (laws_) fail(*laws_, "in a file with lights, laws must stand inside a [[part]], with lights = \"parts\"");
@@ -157,7 +172,7 @@ class Reader : private SettingsReader {
         lights.push_back(Reader(experiment_).read_light(*element.as_table()));
     else
       for (const toml::node* element : list(node, "lights"))
-        lights.push_back(part_of_light(experiment_, string(*element, "lights")));
+        lights.push_back(named_light(string(*element, "lights"), *element));
     for (size_t i = 0; i < lights.size(); ++i)
       for (size_t j = 0; j < i; ++j)
         if (lights[i].part == lights[j].part) fail(node, fmt::format("lights names '{}' twice", lights[i].part));
@@ -172,6 +187,7 @@ class Reader : private SettingsReader {
              fmt::format("the parts '{}' and '{}' have not as many points, so they are not lights of the same frames",
                          experiment_.parts.front().part, part.part));
     experiment_.lights = true;
+    at(node.source(), [&] { require_one_frame(experiment_); });
   }
 
   // ---- [[frame]]

@@ -182,6 +182,7 @@ json page_data(const Scene& scene, const Settings& settings, std::string_view ve
           {"bias",
            {{"unit", static_cast<int>(settings.bias.unit)}, {"plane_cap", cap}, {"parts", parts_json(settings.bias)}}},
           {"colours", colours_json()},
+          {"notes", light_notes(scene, settings)},
           {"position_count", scene.positions.size()},
           {"triangle_count", scene.triangles.size()},
           {"positions", packed(positions)},

@@ -27,6 +27,9 @@ void judge_parts(const Experiment& experiment, Results& results) {
   const auto judge_part = [&](const Experiment& part, std::span<const PointRecord> points) {
     for (BoundResult& bound : evaluate_bounds(points, part.bounds, reproduce)) {
       bound.part = part.part;
+      // `render` measures one light, and no frame.
+      if (is_of_lights(bound.metric) && !bound.reproduce.empty())
+        bound.reproduce = "noonmark run " + shell_quoted(experiment.path);
       if (!experiment.frames.empty() && !bound.reproduce.empty() && bound.max)
         bound.reproduce += fmt::format(" --max {}={}", bound.metric, *bound.max);
       results.bounds.push_back(std::move(bound));

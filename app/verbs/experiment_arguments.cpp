@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/definition/default_folder.h"
 #include "app/definition/experiment_file.h"
 #include "app/verbs/option_values.h"
@@ -100,6 +102,14 @@ std::string folders_of(std::initializer_list<const char*> subjects,
 Experiment experiment_from(const std::string& path, const ExperimentArguments& arguments) {
   Experiment experiment = path.empty() ? Experiment{} : load_experiment(path);
   for (const std::string& assignment : arguments.sets) apply_override(experiment, assignment);
+  if (experiment.lights || experiment.all_lights)
+    for (const char* chooses : {"light.name", "light.index", "light.kind"})
+      if (std::find(experiment.overridden.begin(), experiment.overridden.end(), chooses) != experiment.overridden.end())
+        throw Error(
+            ErrorKind::usage,
+            fmt::format("--set {}: {} measures the lights of one frame together, so none is chosen; --part NAME "
+                        "measures one of them",
+                        chooses, path));
   take_all_lights(experiment);
   if (!arguments.parts.empty()) choose_parts(experiment, arguments.parts);
   for (const std::string& note : experiment.notes) fmt::print(stderr, "warning: {}\n", printable(note));

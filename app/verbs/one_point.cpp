@@ -18,8 +18,9 @@ std::string points_text(const Experiment& experiment, size_t count) {
   std::string text;
   for (size_t id = 0; id < std::min(count, most); ++id) {
     const std::string part = part_of_point(experiment, static_cast<int64_t>(id)).part;
-    text += fmt::format("; point {}: {}{}", id, part.empty() ? "" : fmt::format("part '{}', ", part),
-                        swept_text(experiment, static_cast<int64_t>(id)));
+    const std::string swept = swept_text(experiment, static_cast<int64_t>(id));
+    text += fmt::format("; point {}: {}{}{}", id, part.empty() ? "" : fmt::format("part '{}'", part),
+                        part.empty() || swept.empty() ? "" : ", ", swept);
   }
   return count > most ? text + "; ..." : text;
 }

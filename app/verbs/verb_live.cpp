@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "scenes/library.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 namespace {
@@ -63,6 +64,7 @@ int write_page(const LiveOptions& options) {
   fmt::print("{} is written: {} triangles, {:.0f} kB; open it in a browser, it needs no network\n", printable(file),
              scene.triangles.size(), std::ceil(static_cast<double>(page.size()) / 1000));
   if (const std::string note = notes_line(scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
+  for (const std::string& note : light_notes(scene, settings)) fmt::print("  note: {}\n", printable(note));
   return 0;
 }
 

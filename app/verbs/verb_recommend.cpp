@@ -277,6 +277,13 @@ int recommend(const RecommendOptions& options) {
   if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
   const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
   const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
+  if (options.texels &&
+      (options.acne || options.peter_panning || options.error || options.budget || options.edges || options.patch ||
+       options.answer || options.lines || options.around || !options.engines.empty()))
+    throw Error(
+        ErrorKind::usage,
+        "--texels divides texels and searches nothing else; leave out the bounds, --budget, --answer, --around, "
+        "--lines and --engine");
   if (options.texels) return recommend_texels(whole, *options.texels, arguments, out);
   const Experiment& experiment = only_part(whole);
   require_room_to_start(true);

@@ -1,5 +1,6 @@
 #include "compare/results/metrics.h"
 
+#include <algorithm>
 #include <deque>
 #include <string>
 #include <vector>
@@ -450,6 +451,11 @@ const MetricTable& table() {
 }  // namespace
 
 std::span<const Metric> metrics_table() { return table().rows; }
+
+bool is_of_lights(std::string_view name) {
+  return std::any_of(metrics_table().begin(), metrics_table().end(),
+                     [&](const Metric& metric) { return metric.name == name && metric.of_lights; });
+}
 
 const Metric& find_metric(std::string_view name) {
   std::vector<std::string_view> names;

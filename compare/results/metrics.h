@@ -20,6 +20,8 @@ struct Metric {
 };
 
 std::span<const Metric> metrics_table();
+// Whether it is a metric of a frame of several lights.
+bool is_of_lights(std::string_view name);
 // Throws Error(usage) that suggests the nearest name.
 const Metric& find_metric(std::string_view name);
 

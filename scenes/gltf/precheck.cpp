@@ -38,7 +38,17 @@ std::string check_camera(const std::string& file, const json& camera, const std:
   return "";
 }
 
+// What the schema of KHR_lights_punctual allows.
 void check_light(const std::string& file, const json& light, const std::string& place) {
+  const auto least = [&](const json& value, const std::string& name, bool above) {
+    const double number = value.get<double>();
+    if (above ? number > 0 : number >= 0) return;
+    refuse(file, place + "." + name, fmt::format("{} is not {} 0", number, above ? "above" : "at least"), precheck_remedy);
+  };
+  if (const auto intensity = light.find("intensity"); intensity != light.end()) least(*intensity, "intensity", false);
+  if (const auto range = light.find("range"); range != light.end()) least(*range, "range", true);
+  if (const auto color = light.find("color"); color != light.end())
+    for (const json& one : *color) least(one, "color", false);
   if (light["type"] == "spot" && !light.contains("spot")) refuse(file, place + ".spot", "is missing", precheck_remedy);
 }
 

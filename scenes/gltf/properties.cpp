@@ -100,7 +100,8 @@ constexpr Field camera[] = {{"type", Kind::text, required},
                             {"orthographic", Kind::object, false, 0, orthographic}};
 constexpr Field spot[] = {{"innerConeAngle", Kind::number}, {"outerConeAngle", Kind::number}};
 constexpr Field light[] = {
-    {"name", Kind::text}, {"type", Kind::text, required}, {"spot", Kind::object, false, 0, spot}};
+    {"name", Kind::text},        {"type", Kind::text, required}, {"spot", Kind::object, false, 0, spot},
+    {"intensity", Kind::number}, {"range", Kind::number},        {"color", Kind::numbers, false, 3}};
 constexpr Field root_lights[] = {{"lights", Kind::objects, required, 0, light}};
 constexpr Field root_extensions[] = {{"KHR_lights_punctual", Kind::object, false, 0, root_lights}};
 // Read only for the animation that poses the scene. So a file with broken animations can still be loaded at rest.

@@ -145,15 +145,10 @@ std::vector<Named<Camera>> find_cameras(const Document& document, const std::vec
 }
 
 std::vector<Named<Light>> find_lights(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
-  std::vector<Named<Light>> found = find_all<Light>(
+  return find_all<Light>(
       document, nodes, scene,
       [&](const PlacedNode& placed) { return placed.shown() && light_of(document, placed) != nullptr; }, light_at,
       [&](const PlacedNode& placed) { return light_of(document, placed)->name; });
-  if (found.size() > 1)
-    scene.notes.push_back(
-        fmt::format("{} lights, of which a point has one: the first, unless light.name or light.index gives another",
-                    found.size()));
-  return found;
 }
 
 }  // namespace noonmark::gltf

@@ -13,9 +13,8 @@ namespace noonmark::gltf {
 // kind has no value.
 std::vector<Named<Camera>> find_cameras(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);
 
-// The lights of the visible nodes, of any kind. If there are several, a note says that the first is used, because one light
-// at a time is measured. innerConeAngle, range, colour and intensity are not read, because only the
-// visibility of a light is measured. A directional light gets a position outside the scene. A spot light's target is
+// The lights of the visible nodes, of any kind. Intensity, colour, range and the inner cone weigh
+// the lights of one frame (LightPower). A directional light gets a position outside the scene. A spot light's target is
 // the point on its axis nearest to the scene's middle, or 1 m ahead. Throws Error(file) if the first light is a spot whose
 // cone is wider or narrower than a shadow map can cover; a later light of this kind has no value.
 std::vector<Named<Light>> find_lights(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);

@@ -74,6 +74,20 @@ TEST(Lights, AreAllOrListedOrTables) {
   EXPECT_EQ(all[1].filter.kind, "box");
 }
 
+TEST(Lights, APartOfAFrameIsNoFrame) {
+  Experiment e = parse(
+      "scene = \"lab\"\nlights = \"all\"\n[[bound]]\nmetric = \"lights_error\"\nmax = 1\n[[bound]]\nmetric = "
+      "\"light_size\"\n"
+      "max = 1\n");
+  choose_parts(e, {"sun", "spot", "lamp"});
+  EXPECT_TRUE(e.lights);
+  choose_parts(e, {"sun"});
+  EXPECT_FALSE(e.lights);
+  ASSERT_EQ(e.parts.at(0).bounds.size(), 1u);
+  EXPECT_EQ(e.parts[0].bounds[0].metric, "light_size") << "of the light alone";
+  EXPECT_NE(e.notes.back().find("and 1 bound on it not judged"), std::string::npos) << e.notes.back();
+}
+
 TEST(Lights, ABoundOnTheFrameIsJudgedOnce) {
   const Experiment e = parse(
       "scene = \"lab\"\nlights = \"all\"\n[[bound]]\nmetric = \"lights_error\"\nmax = 1\n[[bound]]\nmetric = "
@@ -117,6 +131,17 @@ TEST(Lights, WhatCannotBeIsRefused) {
               "[[part]]\nname = \"b\"\n"),
       "have not as many points");
   EXPECT_EQ(part_names(parse("lights = \"all\"\nscene = \"cube-room\"\n")), std::vector<std::string>{"the light"});
+  // One frame has one scene, one view and each light once.
+  has(refusal("scene = \"lab\"\n[[lights]]\nname = \"sun\"\nview.width_px = 100\n"),
+      "view.width_px is one for all lights");
+  has(refusal("scene = \"lab\"\n[[lights]]\nname = \"sun\"\nlight.name = \"lamp\"\n"), "leave it out");
+  has(refusal("scene = \"lab\"\nlights = [\"auto\"]\n"), "cannot be named");
+  const std::string parts =
+      "lights = \"parts\"\n[[part]]\nname = \"a\"\nscene = \"lab\"\nlight.name = \"sun\"\n[[part]]\nname = \"b\"\n";
+  has(refusal(parts + "scene = \"wall\"\n"), "the lights 'a' and 'b' of one frame differ in scene.name");
+  has(refusal(parts + "scene = \"lab\"\nlight.name = \"lamp\"\nview.fov_deg = 20\n"), "differ in view.fov_deg");
+  has(refusal(parts + "scene = \"lab\"\nlight.name = \"sun\"\n"), "are the same light");
+  EXPECT_TRUE(parse(parts + "scene = \"lab\"\nlight.name = \"lamp\"\n").lights);
 }
 
 // Two lights on a picture of 2 x 2: every number by hand.
@@ -155,13 +180,9 @@ TEST(LightsFrame, WeighsEachLightByItsShareOfThePixelsLight) {
 }
 
 struct LightsRun : testing::Test {
-  std::string folder = testing::TempDir() + "noonmark-lights";
+  test::TemporaryFolder temporary;
+  std::string folder = temporary.path().string();
   std::string path = folder + "/x.toml";
-  LightsRun() {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-  }
-  ~LightsRun() override { std::filesystem::remove_all(folder); }
   SweepOutcome run(const std::string& toml) {
     Experiment experiment = parse_experiment(toml + "[view]\nwidth_px = 160\nheight_px = 90\n", path);
     take_all_lights(experiment);

@@ -80,6 +80,19 @@ TEST(ChosenLight, WhatTheSceneLacksIsSaid) {
   EXPECT_EQ(idle_settings(LightKind::directional, both).front().name, "light.index");
 }
 
+TEST(ChosenLight, TheFirstOfSeveralIsNotedWhereNothingChooses) {
+  const Scene lab = make_scene({.name = "lab"}), room = make_scene({.name = "cube-room"});
+  EXPECT_EQ(
+      first_of_several_note(lab, {}),
+      "lab: has 3 lights, and this is the first; light.name or light.index gives another, and lights = \"all\" in an "
+      "experiment measures all");
+  EXPECT_EQ(first_of_several_note(room, {}), "");
+  for (const Settings& chosen :
+       {with([](LightSettings& s) { s.name = "sun"; }), with([](LightSettings& s) { s.index = 0; }),
+        with([](LightSettings& s) { s.kind = LightChoice::directional; })})
+    EXPECT_EQ(first_of_several_note(lab, chosen), "");
+}
+
 TEST(ChosenLight, AMadeUpLightIsNoted) {
   const Scene lab = make_scene({.name = "lab"}), room = make_scene({.name = "cube-room"});
   EXPECT_EQ(made_up_light_note(room, {}), "");

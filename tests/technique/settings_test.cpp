@@ -52,7 +52,7 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers without a unit.
   const std::set<std::string_view> pure = {
       "scene.animation",    "map.placements", "map.extent_scale", "truth.standard_error", "bias.polygon_factor",
-      "bias.polygon_units", "view.up",        "motion.frame",     "motion.zoom"};
+      "bias.polygon_units", "view.up",        "motion.frame",     "motion.zoom",          "light.index"};
   const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "frames", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {

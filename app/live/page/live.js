@@ -71,7 +71,8 @@ function fillLegend(m) {
     return row;
   }));
   element('numbers').textContent = `${m.facing} of ${data.width} × ${data.height} pixels face the light, ${percent(m.lit)} of them are lit. ` +
-      `A texel is ${digits(run.frame.texel)} m wide; near and far are ${digits(run.frame.near, 4)} m and ${digits(run.frame.far, 4)} m.`;
+      `A texel is ${digits(run.frame.texel)} m wide; near and far are ${digits(run.frame.near, 4)} m and ${digits(run.frame.far, 4)} m.` +
+      data.notes.map(n => ` ${n}.`).join('');
 }
 
 function fillControls() {
@@ -166,8 +167,10 @@ function useFragment() {
     state = stateFrom(location.hash, data);
     show();
   } catch (error) {
+    state = initialState(data);
+    show();
     element('says').className = 'fails';
-    element('says').textContent = error.message;
+    element('says').textContent = `${error.message}; the page shows the state as it began`;
   }
 }
 

@@ -62,7 +62,9 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"error", (0.5 + 1 + 1 + 1) / base},
       {"error_soft", (0 + 1 + 1 + 1) / base},
       {"wrong", 4 / base},
-      {"wrong_patch", 3.0 / static_cast<double>(p.ladder.flags.size())},  // (1, 1), (2, 1), (3, 1); at (0, 1) the picture shows one half, which is lit
+      {"wrong_patch",
+       3.0 / static_cast<double>(
+                 p.ladder.flags.size())},  // (1, 1), (2, 1), (3, 1); at (0, 1) the picture shows one half, which is lit
       {"pcf_error", (0.5 + 1 + 1 + 1) / base},
       {"pcf_error_soft", (0 + 1 + 1 + 1) / base},
       {"light_size", 0.5 / base},
@@ -227,7 +229,8 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   std::set<std::string> measured = times;
   for (const char* name :
        {"shaded_rmse", "flip", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes",
-        "map_texels", "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations"})
+        "map_texels", "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations", "map_used", "map_seen",
+        "undersampled", "perspective_aliasing", "perspective_aliasing_p95"})
     measured.insert(name);  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);

@@ -26,9 +26,18 @@ TEST(ReportUnits, ShowResidualsPlainly) {
 }
 
 TEST(ReportUnits, FollowTheMetricsTable) {
-  const std::set<std::string_view> plain = {
-      "residual",    "tap_residual", "rounding_excess", "map_error_quanta", "map_bits",
-      "shaded_rmse", "flip",         "scene_behind"};
+  const std::set<std::string_view> plain = {"residual",
+                                            "tap_residual",
+                                            "rounding_excess",
+                                            "map_error_quanta",
+                                            "map_bits",
+                                            "shaded_rmse",
+                                            "flip",
+                                            "scene_behind",
+                                            "lights_rmse",
+                                            "lights_flip",
+                                            "perspective_aliasing",
+                                            "perspective_aliasing_p95"};
   for (const Metric& metric : metrics_table()) {
     EXPECT_EQ(metric.unit.empty(), plain.contains(metric.name)) << metric.name;
     const std::string shown = report::quantity(0.25, metric.unit);

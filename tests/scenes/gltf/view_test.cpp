@@ -115,6 +115,21 @@ TEST_F(GltfView, ALightsPowerIsRead) {
   EXPECT_EQ(plain.power.intensity, 1);
   EXPECT_EQ(plain.power.color, glm::dvec3(1));
   EXPECT_FALSE(plain.power.range_m);
+  const auto fault = [&](const json& light) -> std::string {
+    try {
+      load(with_lights(json::array({light}), {{"translation", {5, 5, 5}}}));
+      return "none";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(fault({{"type", "point"}, {"intensity", -3}}), "lights[0].intensity: -3 is not at least 0");
+  has(fault({{"type", "point"}, {"range", 0}}), "lights[0].range: 0 is not above 0");
+  has(fault({{"type", "point"}, {"color", {1, -1, 0}}}), "lights[0].color: -1 is not at least 0");
+  EXPECT_EQ(fault({{"type", "point"}, {"intensity", 0}}), "none");
 }
 
 TEST_F(GltfView, CamerasAndLightsAreFoundByTheirNames) {
