@@ -31,6 +31,13 @@ void add_sets(CLI::App& verb, ExperimentArguments& arguments) {
       ->type_name(value_kind::setting);
 }
 
+void take_scene(ExperimentArguments& arguments, const std::string& scene) {
+  for (const std::string& set : arguments.sets)
+    if (set.starts_with("scene.name=") || set.starts_with("scene="))
+      throw Error(ErrorKind::usage, fmt::format("--set {}: the scene is {} already; give one of the two", set, scene));
+  arguments.sets.push_back("scene.name=" + scene);
+}
+
 void add_parts(CLI::App& verb, ExperimentArguments& arguments) {
   verb.add_option("--part", arguments.parts,
                   "Measure only the part of the experiment with this name; points are counted from 0. May be repeated")

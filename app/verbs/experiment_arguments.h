@@ -36,6 +36,8 @@ struct ExperimentArguments {
 CLI::Option* add_experiment(CLI::App& verb, std::string& path, const char* what);  // not required
 void add_model(CLI::App& verb, std::string& path);
 void add_sets(CLI::App& verb, ExperimentArguments& arguments);
+// Of a verb whose argument is a scene: the scene as a setting after the others. Throws Error(usage) if --set names a scene too.
+void take_scene(ExperimentArguments& arguments, const std::string& scene);
 void add_parts(CLI::App& verb, ExperimentArguments& arguments);
 void add_threads(CLI::App& verb, ExperimentArguments& arguments);
 void add_json(CLI::App& verb, ExperimentArguments& arguments, const char* what);  // and --quiet

@@ -36,7 +36,7 @@ int write_scene(const ExportOptions& options) {
   if (!options.arguments.overwrite && fs::exists(fs::symlink_status(file, none)))
     throw Error(ErrorKind::usage, fmt::format("{} is there already; choose another --out, or pass --overwrite", file));
   ExperimentArguments arguments = options.arguments;
-  arguments.sets.push_back("scene.name=" + options.scene);
+  take_scene(arguments, options.scene);
   const Settings settings = points(experiment_from("", arguments)).at(0);
   const Scene scene = make_scene(settings.scene);
   if (scene.triangles.empty()) throw Error(ErrorKind::file, options.scene + " has no triangle to write");

@@ -23,7 +23,7 @@ int inspect_file(const std::string& model, ExperimentArguments arguments) {
   retract(outputs);
   // A picture that is quick to make. A finer map changes nothing in it, because its shadow is the truth.
   arguments.sets.insert(arguments.sets.begin(), {"view.width_px=960", "view.height_px=540"});
-  arguments.sets.push_back("scene.name=" + model);
+  take_scene(arguments, model);
   const Settings settings = points(experiment_from("", arguments)).at(0);
   const ModelReport report = inspect_model(settings);
   const std::string& out = outputs.folder;

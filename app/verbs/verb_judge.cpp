@@ -127,7 +127,7 @@ Subject subject_of(const JudgeOptions& options) {
     if (options.without_map)
       throw Error(ErrorKind::usage, "--without-map is for a frame.json that names a map; leave it out");
     ExperimentArguments arguments = options.arguments;
-    arguments.sets.push_back("scene.name=" + options.subject);
+    take_scene(arguments, options.subject);
     const Settings settings = points(experiment_from("", arguments)).at(0);
     Scene scene = make_scene(settings.scene);
     GivenFrame frame =

@@ -31,7 +31,7 @@ std::string page_of(const std::string& what) { return "live-" + fs::path(what).s
 Settings the_point(const LiveOptions& options) {
   if (fs::path(options.what).extension() != ".toml") {
     ExperimentArguments arguments = options.arguments;
-    arguments.sets.push_back("scene.name=" + options.what);
+    take_scene(arguments, options.what);
     if (options.point > 0)
       throw Error(ErrorKind::usage,
                   fmt::format("--point {} needs an experiment; {} is a scene", options.point, options.what));

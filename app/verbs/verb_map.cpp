@@ -65,7 +65,7 @@ int draw_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
                                               options.coarsest, options.finest));
   // A smaller picture than a point's: the diagram has hundreds of points' worth of texel sizes and placements.
   arguments.sets.insert(arguments.sets.begin(), {"view.width_px=640", "view.height_px=360"});
-  arguments.sets.push_back("scene.name=" + scene);
+  take_scene(arguments, scene);
   const Settings given = points(experiment_from("", arguments)).at(0);
   const std::string& out = outputs.folder;
   Workbench bench(gl::DebugMode::log);

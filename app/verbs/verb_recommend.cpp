@@ -274,7 +274,7 @@ std::vector<std::string> shown_engines(const RecommendOptions& options, const st
 int recommend(const RecommendOptions& options) {
   const std::string& what = options.what;
   ExperimentArguments arguments = options.arguments;
-  if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
+  if (!is_experiment(what)) take_scene(arguments, what);
   const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
   const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
   if (options.texels &&

@@ -95,6 +95,18 @@ TEST_F(CommandLine, AWrongChoiceNamesTheNearest) {
   }
 }
 
+TEST_F(CommandLine, ASecondSceneIsRefused) {
+  for (const std::vector<std::string>& verb : {std::vector<std::string>{"live", "plane"},
+                                               {"export", "plane", "--out", "plane.glb"},
+                                               {"map", "plane"},
+                                               {"recommend", "plane"}}) {
+    std::vector<std::string> words = verb;
+    words.insert(words.end(), {"--set", "scene.name=facade"});
+    EXPECT_EQ(run(words), 2) << verb[0];
+    EXPECT_NE(output_.find("--set scene.name=facade: the scene is plane already"), std::string::npos) << output_;
+  }
+}
+
 TEST_F(CommandLine, HelpAndVersionAreVerbsToo) {
   for (const std::string& verb : verbs()) {
     SCOPED_TRACE(verb);
