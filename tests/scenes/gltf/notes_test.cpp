@@ -100,7 +100,7 @@ TEST_F(GltfNotes, WhatIsLeftOutIsSaid) {
         "3 primitives of lines left out", "1 material masked by a texture", "1 material with alphaMode BLEND",
         "1 material that transmits light", "1 camera after the first is not used"})
     EXPECT_TRUE(noted(s, text)) << text;
-  EXPECT_EQ(s.notes.size(), 9u);
+  EXPECT_EQ(s.notes.size(), 8u);
 }
 
 TEST_F(GltfNotes, UnknownTypesMatterOnlyWhereTheyAreUsed) {
