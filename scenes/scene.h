@@ -57,8 +57,8 @@ enum class LightShape { sphere, disc };
 //   centre are measured, as lookAt(position, target, up) does.
 // - Spot: the light is at position_m and points at target_m.
 // - Point: the light is at position_m; target_m is not used.
-// What a light contributes (glTF's KHR_lights_punctual) has no part in visibility. It weighs the lights of a frame that has
-// several (measure/lights_frame.h).
+// How strong a light is, as glTF's extension KHR_lights_punctual defines it. A shadow does not depend on it. In a frame with
+// several lights, it gives each light its weight (measure/lights_frame.h).
 struct LightPower {
   double intensity = 1;                // directional: lux; spot and point: candela
   glm::dvec3 color{1};                 // linear RGB, each 0 or more

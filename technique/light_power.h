@@ -14,7 +14,7 @@ namespace noonmark {
 // frame: made of it. 0 or more; 0 where the surface faces away, beyond the range and outside the cone. Infinite at the light.
 double illuminance_lux(const Light& light, const LightFrame& frame, glm::dvec3 p, glm::dvec3 normal);
 
-// Of linear RGB with the primaries of sRGB (IEC 61966-2-1), white is 1.
+// The luminance of a linear colour. The primaries are those of sRGB (IEC 61966-2-1). White has the luminance 1.
 double luminance(glm::dvec3 rgb);
 
 }  // namespace noonmark

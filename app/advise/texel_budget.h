@@ -1,12 +1,13 @@
 // How to divide a budget of texels among the lights of a frame (measure/lights_frame.h), so that the frame's error is least.
 //
-// 1. Each light is measured with maps of several resolutions, each an octave of texels apart, at the bias of least error. Its
-//    part of the frame's error is the mean of w |R5 - R1| over four placements of the grid; without a map nothing is in its shadow.
-// 2. The parts add up to a bound of the frame's error. Between the measured resolutions they are interpolated, and then the best
-//    division of the budget is found exactly: of all that cost no more texels, only the one with the least error is kept, light by
-//    light (a knapsack by its Pareto front; Nemhauser and Ullmann 1969). It is measured, and so is an equal split.
-// 3. What is left over is given, one light at a time, to the light that gains most from it.
-// 4. The frame itself is measured, and with it an equal split of the same budget, at four other placements.
+// 1. Each light is measured with maps of several resolutions. Each map has twice the texels of the one before, and the bias with the
+//    least error. The light's part of the frame's error is the mean of w |R5 - R1| over four placements of the grid. Without a map,
+//    nothing is in the light's shadow.
+// 2. The frame's error is at most the sum of the parts. Between the measured resolutions a part is interpolated. The best division
+//    is then found exactly: among divisions with at most as many texels, only the one with the least error is kept, light by light
+//    (a knapsack by its Pareto front; Nemhauser and Ullmann 1969). That division is measured, and so is an equal split.
+// 3. Texels that are left over go to one light at a time: to the light that gains most from them.
+// 4. Both divisions are judged: the error of the frame is measured at four placements that the search did not use.
 //
 //   const TexelBudget found = divide_texels(bench, lights, 1 << 22, say);
 #pragma once

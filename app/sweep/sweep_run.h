@@ -51,7 +51,6 @@ class SweepRun {
   bool draw_phase_before(int64_t id);
   void measure_point(int64_t id);
   PointPictures pictures_of(const Measurement& m);
-  bool is_in_frame(int64_t id) const;
   void keep_light(const Measurement& m);
   LightPart light_of(int64_t id);
   void draw_pictures_of(const PointRecord& point, const Instant& instant);

@@ -8,14 +8,10 @@
 #include "app/sweep/sweep_run.h"
 
 namespace noonmark {
-bool SweepRun::is_in_frame(int64_t id) const {
-  return experiment_.lights && !part_of_point(experiment_, id).part.empty();
-}
-
 // A part takes 30 bytes a pixel; what is not kept is measured again.
 void SweepRun::keep_light(const Measurement& m) {
   constexpr size_t most_pixels = size_t{1} << 24;
-  if (!is_in_frame(m.record.id) || light_pixels_ + m.ladder.flags.size() > most_pixels) return;
+  if (!experiment_.lights || light_pixels_ + m.ladder.flags.size() > most_pixels) return;
   light_pixels_ += m.ladder.flags.size();
   light_parts_.emplace(m.record.id, light_part(m));
 }

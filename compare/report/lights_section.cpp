@@ -23,7 +23,7 @@ using Frame = std::vector<const PointRecord*>;
 
 double error_of_frame(const Frame& frame) { return metric_of(*frame.front(), "lights_error"); }
 
-// The worst first; an error that is not finite is the worst.
+// The frame with the largest error comes first, and before it any frame whose error is not a number.
 std::vector<Frame> frames_of(const Results& results) {
   std::map<double, Frame> by_number;
   for (const PointRecord& point : results.points)

@@ -11,8 +11,8 @@ namespace noonmark::report {
 // Of the names of the pictures that this section shows, and the section of pictures does not.
 inline constexpr std::string_view lights_pictures = "lights-";
 
-// A row for each light and a line for each frame, worst frame first; empty if the points are no lights of frames. read_file: as for
-// render_report().
+// A table for each frame, with a row for each light. The frame with the largest error comes first. Empty if the experiment has no
+// frame of several lights. read_file: as for render_report().
 Markup lights_section(const Results& results, const std::function<std::string(const std::string&)>& read_file);
 
 // "Of the frame's error of 0.42 %, spot makes 69 %: Peter Panning." Of the worst frame; empty if there is none.
