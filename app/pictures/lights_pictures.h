@@ -12,6 +12,8 @@ namespace noonmark {
 
 inline constexpr std::string_view lights_prefix = report::lights_pictures;  // of their names
 
+inline bool is_lights_picture(const PictureRecord& picture) { return picture.name.starts_with(lights_prefix); }
+
 // Writes them below out/images. id: of the point. names: of the lights, in order.
 std::vector<PictureRecord> keep_lights(const LightsFrame& frame, const std::vector<std::string>& names, int64_t id,
                                        const std::string& out);

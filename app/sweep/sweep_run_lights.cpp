@@ -8,12 +8,6 @@
 #include "app/sweep/sweep_run.h"
 
 namespace noonmark {
-namespace {
-
-bool is_of_lights(const PictureRecord& picture) { return picture.name.starts_with(lights_prefix); }
-
-}  // namespace
-
 bool SweepRun::is_in_frame(int64_t id) const {
   return experiment_.lights && !part_of_point(experiment_, id).part.empty();
 }
@@ -74,8 +68,8 @@ void SweepRun::picture_lights() {
   for (const PointRecord& point : outcome_.results.points) {
     PointPictures now = point;
     PointPictures old;
-    std::copy_if(now.pictures.begin(), now.pictures.end(), std::back_inserter(old.pictures), is_of_lights);
-    std::erase_if(now.pictures, is_of_lights);
+    std::copy_if(now.pictures.begin(), now.pictures.end(), std::back_inserter(old.pictures), is_lights_picture);
+    std::erase_if(now.pictures, is_lights_picture);
     const auto shown = shown_frames_.find(point.id);
     if (old.pictures.empty() && shown == shown_frames_.end()) continue;
     remove_pictures(old, folder_.path());

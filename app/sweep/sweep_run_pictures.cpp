@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "app/pictures/lights_pictures.h"
 #include "app/pictures/pictures.h"
 #include "app/sweep/failing_pixels.h"
 #include "app/sweep/judging.h"
@@ -65,7 +66,7 @@ void SweepRun::picture() {
 
 // Whether the point has its pictures as they were written, beside those of a frame of several lights. Says why it has not.
 bool SweepRun::has_all_pictures(const PointRecord& point) {
-  if (point.images.empty()) return false;
+  if (std::all_of(point.pictures.begin(), point.pictures.end(), is_lights_picture)) return false;
   const std::string why = measured_before(point.id) ? why_not_as_written(point, folder_.path()) : "";
   if (why.empty()) return true;
   progress_->shown.end_line();
