@@ -78,7 +78,7 @@ double polygon_offset_unit(gl::Renderer& renderer, const Technique& technique) {
 
 SceneStage Pipeline::load_scene(gl::Renderer& renderer, const Settings& settings) {
   auto scene = std::make_unique<Scene>(make_scene(settings.scene));
-  auto tracer = std::make_unique<raytrace::Tracer>(*scene);
+  auto tracer = std::make_unique<raytrace::Tracer>(*scene, settings.truth.method);
   renderer.load_scene(*scene);
   std::string identity = scene_digest(*scene);
   const uint64_t open_edges = tracer->open_edges();
@@ -140,6 +140,7 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
   }
   keep_small_index(renderer, technique.frame);
   MapDepths depth = rays.trace_map(&texel_stage);
+  const TruthAnswers answers = rays.texel_answers();
   return {.probe = std::move(probe),
           .exact_depth = std::move(depth),
           .exact_map = {},
@@ -148,7 +149,8 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
           .taps = {},
           .edge_distance_texels = Image<float>(view.receivers.width(), view.receivers.height(), 0),
           .texel_stage = texel_stage,
-          .tap_stage = {}};
+          .tap_stage = {},
+          .texel_answers = answers};
 }
 
 Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique) {
@@ -181,11 +183,12 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   const LookupEvidence evidence = evidence_of(lookup, truth, shown, technique);
   SoundnessCheck soundness(
       {evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers, technique.frame, view.camera.eye_m});
-  Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height()), {}, {}};
+  Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height()), {}, {}, {}};
   if (varied) climbed.counts.emplace(lookup.probe, *varied);
   if (lookup.rays) lookup.tap_stage = {};
   for (const PixelRange& strip : lookup.strips) {
     if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
+    climbed.tap_answers += lookup.taps.answers;
     Climb climbing(evidence, strip, climbed.ladder);
     if (climbed.counts) {
       BiasCounts::Adding counting(*climbed.counts, evidence, shown.stored);

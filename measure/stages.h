@@ -68,6 +68,7 @@ struct LookupStage {
   TapTruth taps;  // of the present strip
   Image<float> edge_distance_texels;
   StageTime texel_stage, tap_stage;
+  TruthAnswers texel_answers{};
 };
 
 // What OpenGL shows: the technique on its own map, on the exact map and on the tie map.
@@ -81,6 +82,7 @@ struct Climbed {
   Ladder ladder;
   std::map<std::string, double> soundness;  // compare/judge/soundness.h
   std::optional<BiasCounts> counts;         // if a part is varied
+  TruthAnswers tap_answers{};
 };
 
 using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;

@@ -69,6 +69,20 @@ void add_time(PointRecord& record, const std::string& stage, const StageTime& ti
   record.times[stage + "_rays"] = static_cast<double>(time.rays);
 }
 
+// What share of the truth was found how. Without a receiver that faces the light nothing was asked.
+void add_answers(PointRecord& record, const TruthAnswers& receivers, const TruthAnswers& texels,
+                 const TruthAnswers& taps) {
+  TruthAnswers answers = receivers;
+  answers += texels;
+  answers += taps;
+  const auto share = [&](uint64_t some) {
+    return answers.all() == 0 ? 0 : static_cast<double>(some) / static_cast<double>(answers.all());
+  };
+  record.metrics["truth_by_cells"] = share(answers.cells);
+  record.metrics["truth_by_rays"] = share(answers.rays);
+  record.metrics["truth_by_scan"] = share(answers.scan);
+}
+
 // The point's numbers and times, without its curve.
 PointRecord record_of(const Measurement& m, const SceneStage& loaded, const ViewStage& view, const TruthStage& truth,
                       const LookupStage& lookup, const std::map<std::string, double>& soundness, MetricSet metrics) {
@@ -425,6 +439,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   Measurement m{{},           technique, std::move(climbed.ladder), view.camera,        scene, view.receivers,
                 lookup.probe, {},        std::move(shown.stored),   lookup.exact_depth, {}};
   m.record = record_of(m, loaded, view, truth, lookup, climbed.soundness, metrics);
+  add_answers(m.record, truth.receivers.answers, lookup.texel_answers, climbed.tap_answers);
   const auto texels = static_cast<double>(m.record.metrics.at("map_texels"));
   m.record.metrics["map_seen"] = static_cast<double>(lookup.exact_depth.texels->count()) / texels;
   if (metrics == MetricSet::all) m.record.metrics["map_used"] = static_cast<double>(*map.used) / texels;

@@ -131,7 +131,7 @@ Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTru
   const ReceiverImage& receivers = on_first(given, made);
   const std::shared_ptr<LightSide> light = traced_->lit_by(frame);
   const LightView& view = light->view();
-  LightCells* const cells = use_cells_ ? light->cells(receivers) : nullptr;
+  LightCells* const cells = uses_cells() ? light->cells(receivers) : nullptr;
   const OwnSurface surface(traced_->embree, traced_->adjacency, view, light->silhouettes(), cells);
   Image<uint8_t> near(receivers.width(), receivers.height(), 0);
   tbb::parallel_for(tbb::blocked_range<size_t>(0, mask.size(), 256), [&](const tbb::blocked_range<size_t>& pixels) {

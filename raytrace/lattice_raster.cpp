@@ -74,6 +74,29 @@ std::vector<std::vector<uint32_t>> LatticeRaster::candidates(std::span<const glm
   return lists;
 }
 
+LatticeRaster::Row LatticeRaster::row_of(const Triangle& t, int y) const {
+  Row row{0, -1, place(glm::dvec2(0, y)).y};
+  if (y < t.low.y || y > t.high.y) return row;
+  // Where the line of the row crosses each edge: the triangle lies on one side of it.
+  double left = -infinity, right = infinity;
+  for (glm::dvec3 inside : t.inside) {
+    const double rest = inside.y * row.y + inside.z;
+    if (inside.x == 0) {
+      if (rest < 0) left = infinity;
+      continue;
+    }
+    const double x = -rest / inside.x;
+    if (inside.x > 0)
+      left = std::max(left, x);
+    else
+      right = std::min(right, x);
+  }
+  if (!(left <= right)) return row;
+  row.from = ceil_to_int((left - origin_.x) / step_.x);
+  row.to = floor_to_int((right - origin_.x) / step_.x);
+  return row;
+}
+
 // True if all corners lie beyond one edge. It may be false for a triangle that covers nothing of the square.
 bool LatticeRaster::covers_nothing_of(const Triangle& t, const glm::dvec3 (&corners)[4]) const {
   return std::any_of(t.inside.begin(), t.inside.end(), [&](glm::dvec3 inside) {
@@ -121,29 +144,14 @@ void LatticeRaster::hits(glm::ivec2 tile, std::span<const uint32_t> candidates,
     const int from_row = std::max(0, t.low.y - base.y), to_row = std::min(side - 1, t.high.y - base.y);
     for (int row = from_row; row <= to_row; ++row) {
       if (!wanted[static_cast<size_t>(row)]) continue;
-      const double y = place(glm::dvec2(0, base.y + row)).y;
-      // Where the line of the row crosses each edge: the triangle lies on one side of it.
-      double left = -infinity, right = infinity;
-      for (glm::dvec3 inside : t.inside) {
-        const double rest = inside.y * y + inside.z;
-        if (inside.x == 0) {
-          if (rest < 0) left = infinity;
-          continue;
-        }
-        const double x = -rest / inside.x;
-        if (inside.x > 0)
-          left = std::max(left, x);
-        else
-          right = std::min(right, x);
-      }
-      if (!(left <= right)) continue;
+      const Row covered = row_of(t, base.y + row);
+      if (covered.from > covered.to) continue;
       const int wanted_from = std::countr_zero(wanted[static_cast<size_t>(row)]),
                 wanted_to = side - 1 - std::countl_zero(wanted[static_cast<size_t>(row)]);
-      const int from = std::max(wanted_from, ceil_to_int((left - origin_.x) / step_.x) - base.x);
-      const int to = std::min(wanted_to, floor_to_int((right - origin_.x) / step_.x) - base.x);
-      const double start = t.nearness.y * y + t.nearness.z;
+      const int from = std::max(wanted_from, covered.from - base.x);
+      const int to = std::min(wanted_to, covered.to - base.x);
       for (int column = from; column <= to; ++column) {
-        const double nearness = start + t.nearness.x * (origin_.x + step_.x * (base.x + column));
+        const double nearness = nearness_at(t, covered, base.x + column);
         const auto at = static_cast<size_t>(row * side + column);
         if (nearness > nearest[at] && view_.rays().is_ahead(nearness)) {
           nearest[at] = nearness;
@@ -156,6 +164,48 @@ void LatticeRaster::hits(glm::ivec2 tile, std::span<const uint32_t> candidates,
   for (size_t row = 0; row < side; ++row)
     for (uint64_t bits = wanted[row]; bits; bits &= bits - 1)
       hits[at++] = first[row * side + static_cast<size_t>(std::countr_zero(bits))];
+}
+
+void LatticeRaster::hits_by_rays(const OwnSurface& surface, glm::ivec2 tile, const std::array<uint64_t, side>& wanted,
+                                 std::span<uint32_t> hits) const {
+  thread_local std::vector<uint32_t> met;
+  size_t at = 0;
+  for (int row = 0; row < side; ++row)
+    for (uint64_t bits = wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1) {
+      const glm::ivec2 point = tile * side + glm::ivec2(std::countr_zero(bits), row);
+      surface.list_met(view_.texel_place(point), met);
+      hits[at++] = first_of(met, point);
+    }
+}
+
+// met: OwnSurface::list_met at this point; it is changed.
+uint32_t LatticeRaster::first_of(std::vector<uint32_t>& met, glm::ivec2 point) const {
+  const auto covers = [&](const Triangle& t, const Row& row) {
+    return t.low.x <= t.high.x && row.from <= point.x && point.x <= row.to;
+  };
+  // Where a point lies on an edge within double's rounding, these tests may give it to the neighbour.
+  const size_t count = met.size();
+  for (size_t i = 0; i < count; ++i) {
+    const Triangle& t = triangles_[met[i]];
+    if (covers(t, row_of(t, point.y))) continue;
+    for (int edge = 0; edge < 3; ++edge) {
+      const auto& across = traced_.adjacency.across(met[i], edge);
+      met.insert(met.end(), across.begin(), across.end());
+    }
+  }
+  std::sort(met.begin(), met.end());  // of equally near triangles scan conversion takes the first
+  uint32_t first = no_primitive;
+  double nearest = -infinity;
+  for (const uint32_t triangle : met) {
+    const Triangle& t = triangles_[triangle];
+    const Row row = row_of(t, point.y);
+    if (!covers(t, row)) continue;
+    const double nearness = nearness_at(t, row, point.x);
+    if (!(nearness > nearest) || !view_.rays().is_ahead(nearness)) continue;
+    nearest = nearness;
+    first = triangle;
+  }
+  return first;
 }
 
 }  // namespace noonmark::raytrace

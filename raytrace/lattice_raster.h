@@ -5,6 +5,10 @@
 //   LatticeRaster raster(traced, view);
 //   const auto lists = raster.candidates(tiles);              // for each tile the triangles that may cover it
 //   raster.hits(tiles[i], lists[i], wanted, found);
+//
+// hits_by_rays() gives the same hits without scan conversion (truth.method = "rays"). The ray through a point lists every
+// triangle that it meets in float; the first of them is chosen by the same arithmetic in double. Embree's distances
+// cannot choose it: where surfaces intersect or lie closer than float resolves, they name another triangle.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,6 +17,7 @@
 #include <vector>
 
 #include "raytrace/light_view.h"
+#include "raytrace/own_surface.h"
 #include "raytrace/traced_scene.h"
 
 namespace noonmark::raytrace {
@@ -36,6 +41,10 @@ class LatticeRaster {
   void hits(glm::ivec2 tile, std::span<const uint32_t> candidates, const std::array<uint64_t, side>& wanted,
             std::span<uint32_t> hits) const;
 
+  // The same without candidates, by a ray through each wanted point. surface: of the lattice's frame.
+  void hits_by_rays(const OwnSurface& surface, glm::ivec2 tile, const std::array<uint64_t, side>& wanted,
+                    std::span<uint32_t> hits) const;
+
  private:
   // A triangle as functions of a place (x, y, 1), each a dot product. They follow from the corners alone, so the two
   // triangles at an edge have the same function there, with opposite signs.
@@ -45,6 +54,17 @@ class LatticeRaster {
     glm::ivec2 low{0}, high{-1};       // the lattice points that it may cover; empty: none
   };
   Triangle triangle(uint32_t index) const;
+  // What a triangle covers of a row of the lattice: the points from `from` to `to`, perhaps none.
+  struct Row {
+    int from = 0, to = -1;
+    double y = 0;  // of the row's places
+  };
+  Row row_of(const Triangle& t, int y) const;
+  // LightRays::nearness of a triangle at the point of this column.
+  double nearness_at(const Triangle& t, const Row& row, int column) const {
+    return t.nearness.y * row.y + t.nearness.z + t.nearness.x * (origin_.x + step_.x * column);
+  }
+  uint32_t first_of(std::vector<uint32_t>& met, glm::ivec2 point) const;
   glm::dvec3 place(glm::dvec2 point) const { return {origin_.x + step_.x * point.x, origin_.y + step_.y * point.y, 1}; }
   bool covers_nothing_of(const Triangle& t, const glm::dvec3 (&corners)[4]) const;
 

@@ -1,5 +1,7 @@
 #include "raytrace/lookup_tracer.h"
 
+#include <tbb/combinable.h>
+
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -85,16 +87,17 @@ struct LookupTracer::Impl {
   std::optional<PolygonOffset> offset;
   std::shared_ptr<LightSide> light;
   LightView view;
-  bool use_cells;
+  TruthMethod method;
+  bool by_rays() const { return method == TruthMethod::rays; }
   TexelRays texels{traced, view, map.wrap};
 };
 
 LookupTracer::LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
                            const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit,
-                           bool use_cells) {
+                           TruthMethod method) {
   const std::shared_ptr<LightSide> light = traced.lit_by(frame);
   impl_.reset(new Impl{traced, receivers, truth, map, bias, polygon_offset_of(frame, map, bias, offset_unit), light,
-                       light->view().with_map_of(frame), use_cells});
+                       light->view().with_map_of(frame), method});
 }
 LookupTracer::LookupTracer(LookupTracer&&) noexcept = default;
 LookupTracer& LookupTracer::operator=(LookupTracer&&) noexcept = default;
@@ -107,9 +110,9 @@ void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* st
 
 MapDepths LookupTracer::trace_map(StageTime* stage) {
   const StageWatch watch(stage, impl_->traced.device);
-  impl_->texels.trace();
   const Impl& l = *impl_;
   const OwnSurface surface(l.traced.embree, l.traced.adjacency, l.view, l.light->silhouettes());
+  impl_->texels.trace(l.by_rays() ? &surface : nullptr);
   const DrawnMap drawn(l.traced, l.view, surface, l.light->silhouettes(), l.view.frame(), l.map, l.bias, l.offset);
   MapDepths map(l.texels.texels(), 1);
   l.texels.each_inside([&](int count, size_t first, const glm::dvec3* places, const uint32_t* hits) {
@@ -117,6 +120,8 @@ MapDepths LookupTracer::trace_map(StageTime* stage) {
   });
   return map;
 }
+
+TruthAnswers LookupTracer::texel_answers() const { return impl_->texels.answers(); }
 
 TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,
                                   StageTime* stage) {
@@ -137,10 +142,10 @@ class TapTracing {
         probe_(probe),
         strip_(strip),
         edge_distance_texels_(edge_distance_texels),
-        cells_(l_.use_cells ? l_.light->cells(l_.receivers) : nullptr),
+        cells_(l_.by_rays() ? nullptr : l_.light->cells(l_.receivers)),
         surface_(l_.traced.embree, l_.traced.adjacency, l_.view, l_.light->silhouettes(), cells_),
         among_taps_(l_.view, l_.light->silhouettes(), probe, l_.bias),
-        listed_(l_.use_cells && among_taps_.applies()),
+        listed_(!l_.by_rays() && among_taps_.applies()),
         parallel_(l_.view.rays().have_one_direction()),
         texel_m_(parallel_ ? frame().texel_m({}) : 0) {
     result_.taps.assign(strip.size() * static_cast<size_t>(probe.taps()), 0);
@@ -149,6 +154,7 @@ class TapTracing {
   TapTruth trace() {
     const std::vector<size_t> asked = answer_certain();
     for_each_packet(asked.size(), [&](size_t begin, int active) { trace_packet({&asked[begin], size_t(active)}); });
+    answers_.combine_each([&](const TruthAnswers& of_thread) { result_.answers += of_thread; });
     return std::move(result_);
   }
 
@@ -162,6 +168,7 @@ class TapTracing {
     bool behind[packet_size];                          // P' has no place in the map: behind a spot light
     Silhouettes::Nearby* nearby;                       // of each receiver, if the silhouettes are listed
     mutable std::optional<LightCells::Reader> reader;  // remembers where it looked last
+    mutable TruthAnswers answers;                      // counted here, and added to the thread's once
     int active() const { return static_cast<int>(pixels.size()); }
   };
 
@@ -200,22 +207,31 @@ class TapTracing {
   const bool parallel_;
   const double texel_m_;  // of parallel rays
   TapTruth result_{probe_.taps(), {}, strip_.first};
+  tbb::combinable<TruthAnswers> answers_{[] { return TruthAnswers(); }};  // of each thread
 };
 
 std::vector<size_t> TapTracing::answer_certain() {
   constexpr size_t pixels_per_part = 4096;
+  // At a tap without an offset V is R1, which is known.
+  uint64_t taps_beside = 0;
+  for (int tap = 0; listed_ && tap < probe_.taps(); ++tap)
+    taps_beside += glm::dvec3(probe_.pattern.offset(0, tap)) != glm::dvec3(0);
   std::vector<std::vector<size_t>> parts((strip_.size() + pixels_per_part - 1) / pixels_per_part);
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
     const size_t from = strip_.first + part * pixels_per_part, to = std::min(strip_.end, from + pixels_per_part);
     Silhouettes::Nearby nearby;
+    uint64_t certain = 0;  // receivers
     for (size_t pixel = from; pixel < to; ++pixel) {
       if (!l_.truth.facing[pixel]) continue;
       if (edge_distance_texels_) (*edge_distance_texels_)[pixel] = 0;
-      if (l_.truth.lit[pixel] && listed_ && among_taps_.none(pixel, l_.receivers.position[pixel], nearby))
+      if (l_.truth.lit[pixel] && listed_ && among_taps_.none(pixel, l_.receivers.position[pixel], nearby)) {
         answer_lit(pixel);
-      else
+        ++certain;
+      } else {
         parts[part].push_back(pixel);
+      }
     }
+    answers_.local().cells += certain * taps_beside;
   });
   std::vector<size_t> asked;
   for (const std::vector<size_t>& part : parts) asked.insert(asked.end(), part.begin(), part.end());
@@ -249,6 +265,7 @@ void TapTracing::trace_packet(std::span<const size_t> pixels) {
   }
   if (cells_) packet.reader.emplace(*cells_);
   for (int tap = 0; tap < probe_.taps(); ++tap) trace_tap(packet, tap);
+  answers_.local() += packet.answers;
 }
 
 // The cells' answers, and rays where they have none.
@@ -263,6 +280,7 @@ void TapTracing::first_hits(const Packet& packet, const glm::dvec3* x, uint32_t*
       unknown[rays++] = k;
     }
   }
+  packet.answers += {.cells = static_cast<uint64_t>(packet.active() - rays), .rays = static_cast<uint64_t>(rays)};
   if (rays == 0) return;
   uint32_t found[packet_size];
   l_.view.first_hits(l_.traced.embree, rays, places, found);

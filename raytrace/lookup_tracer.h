@@ -27,7 +27,7 @@ class LookupTracer {
  public:
   // What Tracer::lookup() is given.
   LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
-               const MapSettings& map, const Bias& bias, double offset_unit, bool use_cells);
+               const MapSettings& map, const Bias& bias, double offset_unit, TruthMethod method);
   ~LookupTracer();
   LookupTracer(LookupTracer&&) noexcept;
   LookupTracer& operator=(LookupTracer&&) noexcept;
@@ -37,6 +37,9 @@ class LookupTracer {
 
   // Window depth at the centres of the texels that were asked for, 1 elsewhere.
   MapDepths trace_map(StageTime* stage = nullptr);
+
+  // After trace_map(): how the first hits at the texels were found.
+  TruthAnswers texel_answers() const;
 
   // edge_distance_texels has the picture's size. It gets, for each receiver of the strip, the largest distance from the
   // exact place of a tap (moved, if the lookup is moved) to the shadow edge on the way to the texel centre that the tap

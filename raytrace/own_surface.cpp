@@ -159,17 +159,21 @@ void OwnSurface::list_covering(glm::dvec3 x, std::vector<uint32_t>& covering) co
                    [&](uint32_t triangle) { return covers(triangle, x); });
       return;
     }
+  list_met(x, covering);
+  std::erase_if(covering, [&](uint32_t triangle) { return !covers(triangle, x); });
+}
+
+void OwnSurface::list_met(glm::dvec3 x, std::vector<uint32_t>& met) const {
   std::vector<uint32_t> found;
   embree_.all_hits(view_.ray(x), found);
   silhouettes_.near(x, found);
-  for (uint32_t triangle : found) {
-    if (!covers(triangle, x)) {  // the sheet may continue below x
-      const glm::dvec3 centre =
-          (view_.corner(triangle, 0) + view_.corner(triangle, 1) + view_.corner(triangle, 2)) / 3.0;
-      triangle = walk({view_.frame().place(centre), triangle, false, false}, x, false).triangle;
-      if (!covers(triangle, x)) continue;
-    }
-    covering.push_back(triangle);
+  met.clear();
+  for (const uint32_t triangle : found) {
+    met.push_back(triangle);
+    if (covers(triangle, x)) continue;
+    const glm::dvec3 centre = (view_.corner(triangle, 0) + view_.corner(triangle, 1) + view_.corner(triangle, 2)) / 3.0;
+    const uint32_t below = walk({view_.frame().place(centre), triangle, false, false}, x, false).triangle;
+    if (below != no_primitive) met.push_back(below);
   }
 }
 

@@ -66,6 +66,10 @@ class OwnSurface {
   // x that it may have missed them.
   uint32_t exact_first(glm::dvec3 x) const;
 
+  // Every triangle that the exact ray through x may meet: those that the float ray meets, those that end so near to x
+  // that it may have missed them, and where their sheets continue to below x. With repetitions; some do not cover x.
+  void list_met(glm::dvec3 x, std::vector<uint32_t>& met) const;
+
   struct Sheet {
     double depth_m = 0;                // S
     uint32_t triangle = no_primitive;  // where the walk arrived, or no_primitive when it ended early

@@ -31,10 +31,12 @@ struct PlacementTracer::Impl {
   OwnSurface surface;
   DrawnMap drawn;
   LatticeRaster raster;
+  bool by_rays;
   std::optional<TexelLattice> lattice;
 
   Impl(TracedScene& scene, const ReceiverImage& image, const ReceiverTruth& receiver_truth, const LightFrame& frame,
-       const Placements& all, const MapSettings& settings, const Bias& bias, const std::optional<PolygonOffset>& offset)
+       const Placements& all, const MapSettings& settings, const Bias& bias, const std::optional<PolygonOffset>& offset,
+       TruthMethod method)
       : traced(scene),
         receivers(image),
         truth(receiver_truth),
@@ -44,14 +46,15 @@ struct PlacementTracer::Impl {
         silhouettes(scene.adjacency, view, Silhouettes::reach_of(view)),
         surface(scene.embree, scene.adjacency, view, silhouettes),
         drawn(scene, view, surface, silhouettes, frame, settings, bias, over_texels(offset, all)),
-        raster(scene, view) {}
+        raster(scene, view),
+        by_rays(method == TruthMethod::rays) {}
 };
 
 PlacementTracer::PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
                                  const LightFrame& frame, const Placements& placements, const MapSettings& map,
-                                 const Bias& bias, double offset_unit)
+                                 const Bias& bias, double offset_unit, TruthMethod method)
     : impl_(std::make_unique<Impl>(traced, receivers, truth, frame, placements, map, bias,
-                                   polygon_offset_of(frame, map, bias, offset_unit))) {}
+                                   polygon_offset_of(frame, map, bias, offset_unit), method)) {}
 PlacementTracer::PlacementTracer(PlacementTracer&&) noexcept = default;
 PlacementTracer& PlacementTracer::operator=(PlacementTracer&&) noexcept = default;
 PlacementTracer::~PlacementTracer() = default;
@@ -71,7 +74,7 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
       probe.taps_of(i, taps);
     l.lattice->want(taps);
   }
-  l.lattice->trace();
+  l.lattice->trace(l.by_rays ? &l.surface : nullptr);
 }
 
 PlacementTracer::RayError PlacementTracer::ray_error() const {
@@ -108,7 +111,7 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
                                 l.view.texel_place({taps.high.x, taps.low.y})};
   l.silhouettes.list_nearby(places, nearby);
   // Without a silhouette in the box, a lit receiver's surface is lit all over it (the rule of OwnSurface).
-  const bool all_lit = p.lit && nearby.none();
+  const bool all_lit = p.lit && !l.by_rays && nearby.none();
 
   thread_local std::vector<TexelLattice::Point> found;
   l.lattice->read(taps, found);

@@ -24,7 +24,7 @@ class PlacementTracer {
   // frame: of placement 0; a light whose grid can shift (KindOfLight). The rest is as for LookupTracer.
   PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
                   const LightFrame& frame, const Placements& placements, const MapSettings& map, const Bias& bias,
-                  double offset_unit);
+                  double offset_unit, TruthMethod method);
   ~PlacementTracer();
   PlacementTracer(PlacementTracer&&) noexcept;
   PlacementTracer& operator=(PlacementTracer&&) noexcept;

@@ -102,7 +102,7 @@ void TexelLattice::read(const PlacedTaps& taps, std::vector<Point>& points) cons
     }
 }
 
-void TexelLattice::trace() {
+void TexelLattice::trace(const OwnSurface* by_rays) {
   std::vector<glm::ivec2> at;
   std::vector<Tile*> list;
   for (const auto& [place, tile] : tiles_) {
@@ -110,11 +110,13 @@ void TexelLattice::trace() {
     list.push_back(tile.get());
     for (uint64_t row : tile->wanted) points_ += static_cast<uint64_t>(std::popcount(row));
   }
-  const std::vector<std::vector<uint32_t>> candidates = raster_.candidates(at);
-  tbb::parallel_for(size_t{0}, list.size(), [&](size_t i) { trace(at[i], candidates[i], *list[i]); });
+  std::vector<std::vector<uint32_t>> candidates(at.size());
+  if (!by_rays) candidates = raster_.candidates(at);
+  tbb::parallel_for(size_t{0}, list.size(), [&](size_t i) { trace(at[i], candidates[i], by_rays, *list[i]); });
 }
 
-void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, Tile& tile) const {
+void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, const OwnSurface* by_rays,
+                         Tile& tile) const {
   size_t wanted = 0;
   for (size_t row = 0; row < side; ++row) {
     tile.first[row] = static_cast<uint16_t>(wanted);
@@ -123,7 +125,10 @@ void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, Ti
   tile.hit.assign(wanted, no_primitive);
   tile.depth.assign(wanted, 1.0f);
   tile.clipped.assign(wanted, 0);
-  raster_.hits(at, candidates, tile.wanted, tile.hit);
+  if (by_rays)
+    raster_.hits_by_rays(*by_rays, at, tile.wanted, tile.hit);
+  else
+    raster_.hits(at, candidates, tile.wanted, tile.hit);
 
   glm::dvec3 places[packet_size];
   size_t first = 0;

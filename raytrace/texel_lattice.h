@@ -20,6 +20,7 @@
 #include "raytrace/drawn_map.h"
 #include "raytrace/lattice_raster.h"
 #include "raytrace/light_view.h"
+#include "raytrace/own_surface.h"
 #include "technique/map_address.h"
 #include "technique/placements.h"
 
@@ -36,8 +37,9 @@ class TexelLattice {
   // Asks for the points that these taps read; and, where a point's texel lies outside the map, for the point of the
   // texel that `wrap` reads in its stead.
   void want(const PlacedTaps& taps);
-  // Finds the first hits of the points that were asked for.
-  void trace();
+  // Finds the first hits of the points that were asked for: by scan conversion, or by rays (LatticeRaster::hits_by_rays)
+  // if the surfaces of the lattice's frame are given.
+  void trace(const OwnSurface* by_rays = nullptr);
 
   // After trace(), at a point that was asked for: the triangle that its ray meets first, or no_primitive; whether the
   // map's near plane clips it; and the window depth that the map of the point's placement gives to a lookup there.
@@ -75,7 +77,7 @@ class TexelLattice {
   const Tile& tile_of(glm::ivec2 point) const { return *tiles_.at(key(tile_at(point))); }
   void want(glm::ivec2 low, glm::ivec2 high);  // inclusive
   bool inside(glm::ivec2 point) const { return inside_map(placements_.texel_of(point), size_); }
-  void trace(glm::ivec2 at, std::span<const uint32_t> candidates, Tile& tile) const;
+  void trace(glm::ivec2 at, std::span<const uint32_t> candidates, const OwnSurface* by_rays, Tile& tile) const;
 
   const LatticeRaster& raster_;
   const LightView& view_;

@@ -103,20 +103,22 @@ void TexelRays::each_inside(const std::function<void(int, size_t, const glm::dve
   });
 }
 
-void TexelRays::trace() {
+void TexelRays::trace(const OwnSurface* by_rays) {
   wanted_->close();
   texels_ = std::move(wanted_);
   inside_.resize(texels_->count());
   outside_.resize(outside_keys_.size());
-  if (view_->frame().map_shape() == MapShape::flat)
-    trace_by_raster();
+  const bool flat = view_->frame().map_shape() == MapShape::flat;
+  (flat && !by_rays ? answers_.scan : answers_.rays) = inside_.size() + outside_.size();
+  if (flat)
+    trace_flat(by_rays);
   else
-    trace_by_rays();
+    trace_cube();
   std::vector<uint64_t>().swap(outside_keys_);
 }
 
 // A cube has no texels outside.
-void TexelRays::trace_by_rays() {
+void TexelRays::trace_cube() {
   std::atomic<bool> clipped = false;
   each_packet_inside([&](int count, size_t first, const glm::dvec3* places) {
     uint32_t triangles[packet_size];
@@ -130,7 +132,7 @@ void TexelRays::trace_by_rays() {
   if (clipped) std::swap(clipped_low_, clipped_high_);  // everywhere
 }
 
-void TexelRays::trace_by_raster() {
+void TexelRays::trace_flat(const OwnSurface* by_rays) {
   using raytrace::LatticeRaster;
   static_assert(TexelSet::side == LatticeRaster::side);
   constexpr size_t none = ~size_t{0};
@@ -158,7 +160,8 @@ void TexelRays::trace_by_raster() {
   const LatticeRaster raster(*traced_, *view_);
   std::vector<glm::ivec2> at;
   for (const Tile& tile : tiles) at.push_back(tile.at);
-  const std::vector<std::vector<uint32_t>> candidates = raster.candidates(at);
+  std::vector<std::vector<uint32_t>> candidates(at.size());
+  if (!by_rays) candidates = raster.candidates(at);
   tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t n) {
     Tile& tile = tiles[n];
     std::array<uint64_t, TexelSet::side> inside{}, wanted;
@@ -172,7 +175,10 @@ void TexelRays::trace_by_raster() {
     uint32_t triangles[TexelSet::side * TexelSet::side];
     size_t count = 0;
     for (const uint64_t bits : wanted) count += static_cast<size_t>(std::popcount(bits));
-    raster.hits(tile.at, candidates[n], wanted, {triangles, count});
+    if (by_rays)
+      raster.hits_by_rays(*by_rays, tile.at, wanted, {triangles, count});
+    else
+      raster.hits(tile.at, candidates[n], wanted, {triangles, count});
     size_t hit = 0, next_inside = tile.in_set == none ? 0 : texels_->first(tile.in_set), next_outside = 0;
     for (int row = 0; row < TexelSet::side; ++row)
       for (uint64_t bits = wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1, ++hit) {

@@ -1,6 +1,6 @@
 // First hits of the light-side rays through texel centres, for the texels that a receiver looks up and for no others. Of
 // a flat map they are found by scan conversion in double (raytrace/lattice_raster.h), as those of the lattice of all
-// placements are; of a cube by rays.
+// placements are, or by rays that give the same (LatticeRaster::hits_by_rays); of a cube by rays.
 //
 //   TexelRays texels(traced, view, Wrap::border);
 //   texels.ask(truth.facing, probe, strip);  // for each strip of the picture
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "raytrace/light_view.h"
+#include "raytrace/own_surface.h"
 #include "raytrace/traced_scene.h"
 #include "technique/evidence.h"
 #include "technique/map_address.h"
@@ -31,8 +32,9 @@ class TexelRays {
   // and, where that is outside the map, for the texel that `wrap` reads in its stead.
   void ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels);
 
-  // Finds the first hit at the centre of each texel that was asked for.
-  void trace();
+  // Finds the first hit at the centre of each texel that was asked for. by_rays: the surfaces of this light, if those of
+  // a flat map are found by rays too.
+  void trace(const OwnSurface* by_rays = nullptr);
 
   // After trace(), of a texel that was asked for: the triangle first met through its centre, or no_primitive; and
   // whether that hit lies before the map's near plane.
@@ -42,6 +44,9 @@ class TexelRays {
   bool may_be_clipped(glm::ivec2 low, glm::ivec2 high) const {
     return glm::all(glm::lessThanEqual(low, clipped_high_)) && glm::all(glm::greaterThanEqual(high, clipped_low_));
   }
+
+  // After trace(): how the first hits were found.
+  TruthAnswers answers() const { return answers_; }
 
   // After trace(): the texels inside the map that were asked for. each_inside() calls visit for up to 16 of them at a
   // time, which have consecutive numbers from `first` on, with the places of their centres and their first hits.
@@ -69,8 +74,8 @@ class TexelRays {
   const FirstHit& outside_hit(glm::ivec2 texel) const;
   // Calls visit(count, first, places) for up to 16 texels of the set at a time; `first` is the number of the first.
   void each_packet_inside(const auto& visit) const;
-  void trace_by_rays();
-  void trace_by_raster();
+  void trace_cube();
+  void trace_flat(const OwnSurface* by_rays);
   FirstHit first_hit_at(glm::dvec3 place, uint32_t triangle) const {
     return FirstHit(triangle, view_->clipped(triangle, place));
   }
@@ -84,6 +89,7 @@ class TexelRays {
   std::vector<FirstHit> inside_;  // by TexelSet::index
   // The rectangle around the tiles of texels that have a clipped hit; empty if there is none.
   glm::ivec2 clipped_low_{std::numeric_limits<int>::max()}, clipped_high_{std::numeric_limits<int>::min()};
+  TruthAnswers answers_;
   std::vector<std::pair<uint64_t, FirstHit>> outside_;  // (texel key, hit), sorted
 };
 

@@ -20,6 +20,7 @@ namespace {
 struct Facing {
   std::vector<uint32_t> facing;   // that face the light
   std::vector<uint32_t> unknown;  // those of them that the cells do not answer
+  uint64_t known = 0;             // how many of them the cells answer
 };
 
 // Receivers in blocks, so that the arithmetic that is the same for all of them stands in loops without a branch.
@@ -73,10 +74,12 @@ class FindFacing {
       const LightCells::Answer answer = reader && cosine[k] >= LightCells::least_cosine
                                             ? reader->at({u[k], v[k], z[k]}, primitives[k])
                                             : LightCells::Answer::unknown;
-      if (answer == LightCells::Answer::unknown)
+      if (answer == LightCells::Answer::unknown) {
         found.unknown.push_back(static_cast<uint32_t>(first + k));
-      else
+      } else {
         lit[k] = answer == LightCells::Answer::lit;
+        ++found.known;
+      }
     }
   }
 
@@ -100,6 +103,7 @@ Facing find_facing(const ReceiverImage& receivers, const LightFrame& frame, Ligh
   Facing all;
   for (const Facing& part : parts) {
     all.facing.insert(all.facing.end(), part.facing.begin(), part.facing.end());
+    all.known += part.known;
     all.unknown.insert(all.unknown.end(), part.unknown.begin(), part.unknown.end());
   }
   return all;
@@ -116,8 +120,8 @@ const ReceiverImage& Tracer::on_first(const ReceiverImage& receivers, std::optio
   return *made;
 }
 
-Tracer::Tracer(const Scene& scene, bool use_cells) try
-    : traced_(std::make_unique<TracedScene>(scene)), use_cells_(use_cells) {
+Tracer::Tracer(const Scene& scene, TruthMethod method) try
+    : traced_(std::make_unique<TracedScene>(scene)), method_(method) {
 } catch (const std::bad_alloc&) {
   throw Error(ErrorKind::device,
               "the ray tracer's tables for " + std::to_string(scene.triangles.size()) +
@@ -147,8 +151,10 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
   ReceiverTruth truth{Image<uint8_t>(width, height), Image<uint8_t>(width, height), Image<uint8_t>(width, height), {}};
 
   const std::shared_ptr<LightSide> light = traced_->lit_by(frame);
-  LightCells* const cells = use_cells_ ? light->cells(receivers) : nullptr;
+  LightCells* const cells = uses_cells() ? light->cells(receivers) : nullptr;
   const Facing found = find_facing(receivers, frame, cells, has_size(soft.light), truth);
+
+  truth.answers = {.cells = found.known, .rays = found.unknown.size()};
 
   // The verdict of each receiver at P and at four places beside it, at the distance of the error.
   const double error = light->view().start_error_m();
@@ -185,13 +191,13 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
 
 LookupTracer Tracer::lookup(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
                             const MapSettings& map, const Bias& bias, double offset_unit) const {
-  return LookupTracer(*traced_, receivers, truth, frame, map, bias, offset_unit, use_cells_);
+  return LookupTracer(*traced_, receivers, truth, frame, map, bias, offset_unit, method_);
 }
 
 PlacementTracer Tracer::placements(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
                                    const Placements& placements, const MapSettings& map, const Bias& bias,
                                    double offset_unit) const {
-  return PlacementTracer(*traced_, receivers, truth, frame, placements, map, bias, offset_unit);
+  return PlacementTracer(*traced_, receivers, truth, frame, placements, map, bias, offset_unit, method_);
 }
 
 LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,

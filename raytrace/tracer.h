@@ -59,8 +59,9 @@ double edge_ring(int ring);  // the radius in units; ring: from 0 on
 
 class Tracer {
  public:
-  // use_cells: false asks rays for everything that cells could answer (raytrace/light_cells.h). The answers are the same.
-  explicit Tracer(const Scene& scene, bool use_cells = true);
+  // method: rays asks no cells (raytrace/light_cells.h) and converts no map (raytrace/lattice_raster.h). The answers are
+  // the same.
+  explicit Tracer(const Scene& scene, TruthMethod method = TruthMethod::automatic);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
@@ -118,11 +119,12 @@ class Tracer {
                                  const Image<uint8_t>& mask) const;
 
  private:
+  bool uses_cells() const { return method_ == TruthMethod::automatic; }
   // The receivers on the first of coincident triangles, the one that the rays know; `made` holds them where they
   // differ.
   const ReceiverImage& on_first(const ReceiverImage& receivers, std::optional<ReceiverImage>& made) const;
   std::unique_ptr<TracedScene> traced_;
-  bool use_cells_;
+  TruthMethod method_;
 };
 
 }  // namespace noonmark::raytrace

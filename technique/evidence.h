@@ -140,12 +140,29 @@ enum TapBits : uint8_t {
 };
 inline constexpr uint8_t tap_unsure = tap_exact_unsure | tap_moved_unsure | tap_texel_unsure;
 
+// How many questions of the truth were answered how. The answer is the same either way. Questions are R1 of each facing
+// receiver, V at each place of a tap other than its receiver's own, and the first hit at each texel of the exact map. What
+// float error can change, and what confirms a verdict beside a silhouette, is not counted.
+struct TruthAnswers {
+  uint64_t cells = 0;  // without a ray: in a certified square of the light's plane, or with no silhouette near the taps
+  uint64_t rays = 0;   // by a ray
+  uint64_t scan = 0;   // by scan conversion in double: texels of a flat map
+  uint64_t all() const { return cells + rays + scan; }
+  TruthAnswers& operator+=(const TruthAnswers& more) {
+    cells += more.cells;
+    rays += more.rays;
+    scan += more.scan;
+    return *this;
+  }
+};
+
 // The truth of every tap of every facing receiver, for a strip or for the whole picture. The taps are in the order of
 // the pattern.
 struct TapTruth {
   int taps_per_receiver = 1;
   std::vector<uint8_t> taps;  // [(pixel - first) * taps_per_receiver + tap]; 0 if the pixel is not facing
   size_t first = 0;           // the first pixel of the strip
+  TruthAnswers answers{};
 
   bool holds(PixelRange pixels) const {
     const size_t count = taps.size() / static_cast<size_t>(taps_per_receiver);
@@ -163,6 +180,7 @@ struct ReceiverTruth {
   Image<uint8_t> lit;        // R1: one exact shadow ray to the light's centre; 0 if not facing
   Image<uint8_t> ambiguous;  // 1 if float error can change the verdict of R1; taps have bits of their own
   Image<float> soft;         // R0: the fraction of the light's disc that is seen; equals `lit` for a light without size
+  TruthAnswers answers{};    // of R1
 };
 
 // Time and number of rays of one stage, for the report. No test asserts them.

@@ -396,6 +396,13 @@ std::vector<Setting> make_table() {
            "Largest standard error of R0 at a receiver, for a light with a size. A smaller value takes more rays.",
            MEMBER(truth.standard_error))
           .idle(without_size_of_light),
+      choice(
+          "truth.method", {"auto", "rays"},
+          "auto: what certified squares of the light's plane answer needs no ray, and the exact map of a flat map is "
+          "found by scan conversion in double. rays: every answer comes from Embree's rays. The verdicts are the "
+          "same; rays takes longer.",
+          MEMBER(truth.method))
+          .only_read_by({Stage::scene}),
       text("given.frame", "Which frame of another renderer is judged; only [[frame]] of an experiment gives it.",
            MEMBER(given.frame)),
   };

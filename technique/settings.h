@@ -130,8 +130,15 @@ struct GivenSettings {
   std::string frame = "none";
 };
 
+// How the truth is found. The verdicts are the same.
+enum class TruthMethod : uint8_t {
+  automatic,  // what is certain without a ray, scan conversion of flat maps, and rays for the rest
+  rays        // rays for everything
+};
+
 struct TruthSettings {
   double standard_error = 0.01;  // standard error of R0 at each receiver, for a light with a size
+  TruthMethod method = TruthMethod::automatic;
 };
 
 struct Settings {

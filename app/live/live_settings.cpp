@@ -14,13 +14,13 @@ namespace {
 
 // Groups whose every setting the page takes as it is: what they change is in the geometry and the camera that it holds.
 constexpr std::array modelled_groups{"scene.", "view."};
-constexpr std::array modelled{
-    "light.kind",         "light.name",         "light.index",         "light.position_m",
-    "light.target_m",     "light.azimuth_deg",  "light.elevation_deg", "map.resolution",
-    "map.format",         "map.depth_range",    "map.extent_m",        "map.extent_scale",
-    "map.shift_u_texels", "map.shift_v_texels", "map.near_m",          "map.far_m",
-    "map.wrap",           "map.lit_beyond_far", "bias.unit",           "bias.reference",
-    "bias.plane_cap",     "filter.size",        "filter.step_texels",  "truth.standard_error"};
+constexpr std::array modelled{"light.kind",         "light.name",         "light.index",         "light.position_m",
+                              "light.target_m",     "light.azimuth_deg",  "light.elevation_deg", "map.resolution",
+                              "map.format",         "map.depth_range",    "map.extent_m",        "map.extent_scale",
+                              "map.shift_u_texels", "map.shift_v_texels", "map.near_m",          "map.far_m",
+                              "map.wrap",           "map.lit_beyond_far", "bias.unit",           "bias.reference",
+                              "bias.plane_cap",     "filter.size",        "filter.step_texels",  "truth.standard_error",
+                              "truth.method"};
 
 bool is_modelled(std::string_view name) {
   const auto begins = [&](std::string_view group) { return name.starts_with(group); };

@@ -19,7 +19,7 @@ bool is_of_the_axes(std::string_view name, const Settings& settings) {
   for (std::string_view axis : {"map.resolution", "map.extent_m", "map.extent_scale", "map.fov_deg", "map.placements",
                                 "map.shift_u_texels", "map.shift_v_texels", "map.cube_pass", "bias.constant"})
     if (name == axis) return true;
-  if (name.starts_with("truth.")) return true;  // of R0 alone
+  if (name.starts_with("truth.")) return true;  // R0 alone, and how the truth is found
   const Bias bias(settings.bias);
   if (name == "map.format") return !bias.polygon_offset();
   if (name != "bias.unit") return false;

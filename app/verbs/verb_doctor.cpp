@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/pictures/image_file.h"
 #include "app/verbs/verbs.h"
@@ -6,17 +7,38 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "compare/results/number_text.h"
 #include "gl/renderer.h"
+#include "measure/truth_agreement.h"
 #include "measure/workbench.h"
 #include "raytrace/tracer.h"
 
 namespace noonmark {
 namespace {
 
+// Measures a small picture with every method of the truth. Throws Error(defect) if they do not agree.
+std::string truth_methods_agree() {
+  Settings settings;
+  settings.scene.name = "cube-room";
+  settings.view.width_px = 160;
+  settings.view.height_px = 100;
+  settings.map.resolution = 256;
+  settings.filter.kind = "box";
+  Workbench bench(gl::DebugMode::off);
+  const TruthAgreement found = compare_truth_methods(bench, settings);
+  if (!found.differences.empty())
+    throw Error(ErrorKind::defect,
+                fmt::format("truth.method = auto and rays differ in the scene {}: {}. Please report this",
+                            settings.scene.name, fmt::join(found.differences, ", ")));
+  return fmt::format(
+      "truth.method auto ({} of the truth without a ray) and rays: the same in every picture and number of {}",
+      quantity_text(1 - found.by_rays, "fraction", 3), settings.scene.name);
+}
+
 int examine_machine() {
   const BuildFacts& facts = build_facts();
   fmt::print("noonmark  {} (commit {}, {}, {})\n", facts.version, facts.commit, facts.compiler, facts.build_type);
-  bool can_measure = true, can_write_pictures = true;
+  bool can_measure = true, can_write_pictures = true, agree = true;
   try {
     const ThreadLimit limit(0);
     require_room_to_start(true);
@@ -43,6 +65,13 @@ int examine_machine() {
     fmt::print("Embree    NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;
   }
+  if (can_measure) try {
+      fmt::print("Truth     {}\n", truth_methods_agree());
+    } catch (const Error& error) {
+      fmt::print("Truth     NOT USABLE: {}\n", printable(error.what()));
+      can_measure = false;
+      agree = error.kind() != ErrorKind::defect;
+    }
   try {
     if (room) {  // without room, loading the library ends the program
       require_image_files();
@@ -59,6 +88,7 @@ int examine_machine() {
   fmt::print("{}\n", !can_measure          ? "Nothing can be measured here until this is fixed."
                      : !can_write_pictures ? "Only experiments with pictures = \"none\" run here until this is fixed."
                                            : "Everything that a measurement needs is here.");
+  if (!agree) return static_cast<int>(ErrorKind::defect);
   return can_measure && can_write_pictures ? 0 : static_cast<int>(ErrorKind::device);
 }
 

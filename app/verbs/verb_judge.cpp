@@ -94,6 +94,7 @@ struct Subject {
   Scene scene;
   GivenFrame frame;
   JudgeRules rules;
+  TruthMethod method = TruthMethod::automatic;
 };
 
 Subject subject_of(const JudgeOptions& options) {
@@ -134,6 +135,7 @@ Subject subject_of(const JudgeOptions& options) {
         given_frame(options.picture, options.srgb ? ValueEncoding::srgb : ValueEncoding::linear, scene, settings);
     subject.emplace(Subject{std::move(scene), std::move(frame), {}});
     subject->rules.standard_error = settings.truth.standard_error;
+    subject->method = settings.truth.method;
   }
   subject->rules.accepted.insert(options.accepted.begin(), options.accepted.end());
   if (options.edge_pixels_given) {
@@ -224,7 +226,7 @@ int judge_one(const JudgeOptions& options) {
                   fmt::format("--max {}: known only of a frame with its own shadow map; {}", bound.metric,
                               options.without_map ? "leave out --without-map"
                                                   : fmt::format("add the key 'map' to {}", options.subject)));
-  const raytrace::Tracer tracer(subject.scene);
+  const raytrace::Tracer tracer(subject.scene, subject.method);
   FrameVerdict verdict = judge_frame(subject.scene, tracer, subject.frame, subject.rules);
   std::optional<Ladder> climbed;
   if (subject.frame.map && !verdict.refused())

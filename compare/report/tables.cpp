@@ -280,6 +280,37 @@ Markup meaning_section(const Results& results) {
 
 namespace {
 
+// How the truth was found: means over the points that have one.
+Markup truth_in_words(const Results& results) {
+  double cells = 0, rays = 0, scan = 0;
+  int points = 0;
+  bool all_by_rays = true;
+  for (const PointRecord& point : results.points) {
+    const auto share = [&](const char* name) {
+      const auto found = point.metrics.find(name);
+      return found == point.metrics.end() ? 0 : found->second;
+    };
+    if (!(share("truth_by_cells") + share("truth_by_rays") + share("truth_by_scan") > 0)) continue;
+    ++points;
+    cells += share("truth_by_cells");
+    rays += share("truth_by_rays");
+    scan += share("truth_by_scan");
+    const auto method = point.settings.find("truth.method");
+    all_by_rays &= method != point.settings.end() && method->second == "rays";
+  }
+  if (points == 0) return {};
+  if (all_by_rays)
+    return paragraph(css("note"), prose("Embree's rays answered all of the truth ({}).", code("truth.method = rays")));
+  return paragraph(
+      css("note"),
+      prose(
+          "{} of the truth needed no ray: certified squares of the light's plane and the lack of silhouettes answered "
+          "{}, scan conversion of the exact map in double answered {}; Embree's rays answered {}. {} asks a ray for "
+          "everything and gives the same verdicts.",
+          cell((cells + scan) / points, "fraction"), cell(cells / points, "fraction"), cell(scan / points, "fraction"),
+          cell(rays / points, "fraction"), code("truth.method = rays")));
+}
+
 // What the results were made with and from.
 Markup made_terms(const Results& results, bool timed) {
   const RunInfo& info = results.info;
@@ -314,6 +345,7 @@ Markup making_section(const Results& results) {
       out += paragraph(css("note"), prose("{} renders on the processor: its times are {}. They order settings roughly "
                                           "as a GPU would, but they do not predict a GPU's milliseconds.",
                                           software, bold("software times")));
+  out += truth_in_words(results);
   // The settings that all points share, for a reader who wants to repeat the experiment.
   Markup fixed;
   if (!results.points.empty())

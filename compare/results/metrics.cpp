@@ -215,6 +215,19 @@ constexpr Metric measured_once[] = {
      "What perspective_aliasing is at most at 95% of the receivers: large where the map spends its texels far from the "
      "camera.",
      true},
+    {"truth_by_cells", "fraction",
+     "Share of the truth that needed no ray, because a certified square of the light's plane or the lack of "
+     "silhouettes "
+     "answered it. The truth is R1 of each receiver that faces the light, V at the places of its taps, and the first "
+     "hit "
+     "at each texel of the exact map that they read.",
+     false},
+    {"truth_by_rays", "fraction",
+     "Share of the truth that Embree's rays answered; 1 with truth.method = rays, which gives the same verdicts.",
+     false},
+    {"truth_by_scan", "fraction",
+     "Share of the truth that scan conversion in double answered: the texels of a flat map. It is 0 for a cube.",
+     false},
     {"texel_work", "count",
      "Cost of the technique, the same on every machine: the texels of the map, each written once, and the texture "
      "instructions of the lookups of all facing receivers.",

@@ -49,7 +49,7 @@ inline CellsAndRays compare_cells(const Scene& scene, int count, uint32_t seed, 
       frame.light().rays().have_one_direction() ? frame.direction_to_light() : glm::dvec3(0, 1, 0);
   const ReceiverImage receivers = receivers_of(scene, to_light, count, seed);
   const auto measure = [&](bool use_cells, RayCounts& rays) {
-    const Tracer tracer(scene, use_cells);
+    const Tracer tracer(scene, use_cells ? TruthMethod::automatic : TruthMethod::rays);
     StageTime hard, soft;
     const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, sun(sun_deg, 0.1), &hard, &soft);
     const raytrace::LookupTruth lookup =

@@ -30,7 +30,7 @@ struct OffsetLooked {
 
 OffsetLooked look_up(const Scene& scene, const LightFrame& frame, const ReceiverImage& receivers, int kernel,
                      const Bias& bias, bool use_cells = true) {
-  const Tracer tracer(scene, use_cells);
+  const Tracer tracer(scene, use_cells ? TruthMethod::automatic : TruthMethod::rays);
   ReceiverImage moved = receivers;
   for (size_t i = 0; i < moved.position.size(); ++i)
     moved.position[i] = glm::vec3(bias.looked_up(frame, receivers.position[i], receivers.normal[i]));

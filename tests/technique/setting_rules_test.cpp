@@ -180,15 +180,17 @@ TEST(Settings, TheKeyOfAStageChangesWithWhatItReadsAndNothingElse) {
                                                      {"bias.normal_offset", {Stage::lookup}},
                                                      {"bias.polygon_units", {Stage::map, Stage::lookup}},
                                                      {"filter.size", {Stage::lookup}},
-                                                     {"truth.standard_error", {Stage::truth}}};
+                                                     {"truth.standard_error", {Stage::truth}},
+                                                     {"truth.method", {Stage::scene}}};
   for (const auto& [name, stages] : expected) {
     Settings changed;
     const Setting& row = find_setting(name);
-    const char* value = row.type == ValueType::point     ? "1,2,3"
-                        : row.type == ValueType::flag    ? "false"
-                        : row.type == ValueType::choice  ? "16"
-                        : row.type == ValueType::integer ? "7"
-                                                         : "0.5";
+    const char* value = row.type == ValueType::point               ? "1,2,3"
+                        : row.type == ValueType::flag              ? "false"
+                        : name == std::string_view("truth.method") ? "rays"
+                        : row.type == ValueType::choice            ? "16"
+                        : row.type == ValueType::integer           ? "7"
+                                                                   : "0.5";
     row.set(changed, value);
     for (Stage stage : {Stage::scene, Stage::view, Stage::truth, Stage::map, Stage::lookup, Stage::ladder})
       EXPECT_EQ(key(changed, stage) != key({}, stage), stages.has(stage)) << name << " " << static_cast<int>(stage);
