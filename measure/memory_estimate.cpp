@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "compare/ladder/live_picture.h"
+#include "compare/ladder/picture_stack.h"
 #include "compare/ladder/receiver_taps.h"
 #include "scenes/scene_size.h"
 #include "technique/casters.h"
@@ -55,7 +56,8 @@ constexpr double lattice_points = 9e6 * 28;
 constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
 // The live picture, which is drawn beside the point's own images: for each of its pixels a receiver as above and an
 // answer for each threshold, which are two for each tap (compare/ladder/live_picture.h), in a list that grows by doubling.
-constexpr double per_live_answer = 2 * sizeof(LiveAnswer);
+// A stack of pictures (compare/ladder/picture_stack.h) has an answer for each picture in its place.
+constexpr double per_live_answer = 2 * sizeof(LiveAnswer), per_stacked_answer = 2 * sizeof(PictureStack::Answer);
 // Of the flicker to the next frame: four lookups and what is booked of them, which pixels see a receiver and which light
 // reaches it there, and the receivers as they are uploaded again.
 constexpr double per_flicker_pixel = 90;
@@ -128,9 +130,11 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? 1 : 0));
   const double motion = s.view.motion.any() ? pixels * per_flicker_pixel : 0;
   double live = 0;
-  if (input.pictures && why_no_live_picture(s).empty()) {
+  if (input.pictures) {
     const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
-    live = live_pixels * (per_pixel + sizeof(std::vector<LiveAnswer>) + per_live_answer * (2.0 * pattern.taps + 1));
+    const double answers =
+        why_no_live_picture(s).empty() ? per_live_answer * (2.0 * pattern.taps + 1) : per_stacked_answer * most_stacked;
+    live = live_pixels * (per_pixel + sizeof(std::vector<LiveAnswer>) + answers);
   }
   return {{
       {"the live picture", "lower filter.size, or set pictures = \"none\"", live},

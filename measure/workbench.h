@@ -13,6 +13,7 @@
 
 #include "compare/ladder/flicker.h"
 #include "compare/ladder/live_picture.h"
+#include "compare/ladder/picture_stack.h"
 #include "compare/ladder/section.h"
 #include "compare/results/records.h"
 #include "measure/phase_diagram.h"
@@ -86,6 +87,11 @@ class Workbench {
   // with at most 320 x 180 pixels of the same view, and with fewer if its file would have more than 2 MB. Empty if the
   // settings have no such picture. The images of the last measurement are gone afterwards. Throws Error.
   std::optional<LivePicture> live_picture(const Settings& settings);
+
+  // The pictures of these settings at a few values of stacked_part() (compare/ladder/picture_stack.h), with the same size and
+  // the same limits. marks: as of stack_values(), in the part's own unit; its `otherwise` is here the bias of one texel, or 1 of a
+  // part that does not act on the compared depth. Throws Error.
+  PictureStack picture_stack(const Settings& settings, const std::vector<double>& marks);
 
   // The peak memory that measure() would take. pictures: whether its pictures and EXR files are written. Throws Error.
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);

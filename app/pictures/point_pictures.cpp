@@ -150,8 +150,11 @@ PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m,
   return kept;
 }
 
-ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out) {
-  const std::string path = fmt::format("images/p{:04}-live.bin", id), file = live_file(picture);
+ImageRecord keep_live_picture(Workbench& bench, const Settings& settings, const std::vector<double>& marks, int64_t id,
+                              const std::string& out) {
+  const std::optional<LivePicture> at_every_bias = bench.live_picture(settings);
+  const std::string path = fmt::format("images/p{:04}-live.bin", id),
+                    file = at_every_bias ? live_file(*at_every_bias) : stack_file(bench.picture_stack(settings, marks));
   make_folder(out + "/images");
   write_file_atomically(out + "/" + path, file);
   return {path, digest_of(file)};

@@ -47,8 +47,11 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
 // bench's last measurement.
 PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out);
 
-// Writes the point's live picture as out/images/p0003-live.bin.
-ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out);
+// Draws the point's live picture and writes it as out/images/p0003-live.bin: at every bias, or, if its settings have no such
+// picture, a stack of pictures at a few values (compare/ladder/picture_stack.h). marks: of the stack. The images of the bench's last
+// measurement are gone afterwards. Throws Error.
+ImageRecord keep_live_picture(Workbench& bench, const Settings& settings, const std::vector<double>& marks, int64_t id,
+                              const std::string& out);
 
 // Gives picture files the names of their points' new ids, in the records and on the disk. Each pair: the id before, and the
 // record with its id now and the paths before. A file that is lost stays lost (why_not_as_written finds it).

@@ -202,7 +202,7 @@ void SweepRun::measure_point(int64_t id) {
   m.record.machine.clock = utc_now();
   keep_light(m);
   if (experiment_.pictures == "all" || (experiment_.pictures == "first" && id == 0))
-    static_cast<PointPictures&>(m.record) = pictures_of(m);
+    static_cast<PointPictures&>(m.record) = pictures_of(m, m.record);
   store_->add(m.record);
   ++outcome_.measured;
   ++done_;

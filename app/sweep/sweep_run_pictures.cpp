@@ -11,6 +11,7 @@
 #include "app/sweep/recommended_picture.h"
 #include "app/sweep/sweep_run.h"
 #include "base/text.h"
+#include "compare/judge/curve_reading.h"
 
 namespace noonmark {
 namespace {
@@ -29,14 +30,27 @@ void remove_motion(PointPictures& point, const std::string& out) {
   std::erase_if(point.pictures, is_motion);
 }
 
+// The biases that the point's own curve names, in the parameter's unit: the best one and the ends of the usable window. Those
+// that depend on other points would differ from share to share.
+std::vector<double> marks_of(const PointRecord& point) {
+  if (!point.curve) return {};
+  std::vector<double> depths{point.curve->best_bias_depth};
+  if (const std::optional<Interval> window = usable_window(*point.curve))
+    depths.insert(depths.end(), {window->low, window->high});
+  for (double& depth : depths) depth *= parameter_per_depth(point);
+  return depths;
+}
+
 }  // namespace
 
 // Writes all picture files of a measured point. The measurement's images are gone afterwards.
-PointPictures SweepRun::pictures_of(const Measurement& m) {
-  const int64_t id = m.record.id;
+// with_curve: the point's record, with the curve if it has one; a measurement for its pictures alone has none.
+PointPictures SweepRun::pictures_of(const Measurement& m, const PointRecord& with_curve) {
+  const int64_t id = with_curve.id;
   PointPictures kept = keep_pictures_and_sections(bench_, m, id, folder_.path());
-  if (const std::optional<LivePicture> live = bench_.live_picture(m.technique.settings))
-    kept.images.push_back(keep_live_picture(*live, id, folder_.path()));
+  const Settings settings = m.technique.settings;
+  const std::vector<double> marks = marks_of(with_curve);
+  kept.images.push_back(keep_live_picture(bench_, settings, marks, id, folder_.path()));
   return kept;
 }
 
@@ -82,7 +96,7 @@ void SweepRun::draw_pictures_of(const PointRecord& point, const Instant& instant
   PointPictures kept = point;
   if (!whole) {
     progress_->shown.say(fmt::format("pictures of point {}", point.id));
-    kept = pictures_of(measured(point.id, std::nullopt));
+    kept = pictures_of(measured(point.id, std::nullopt), point);
     progress_->shown.finished(progress_->pictures, fmt::format("pictures of point {} are drawn", point.id));
   }
   remove_motion(kept, folder_.path());

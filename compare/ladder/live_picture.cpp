@@ -1,20 +1,18 @@
 #include "compare/ladder/live_picture.h"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <string_view>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "compare/ladder/live_arrays.h"
 #include "compare/ladder/receiver_taps.h"
 #include "compare/ladder/tap_threshold.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "the file's arrays are written as they lie in memory");
 
 // Climbs each receiver at each of its thresholds, as a judge of read_taps. A thread writes only the pixels that it
 // reads, so the threads share the images.
@@ -89,34 +87,29 @@ class Answers {
   mutable Ladder ladder_;
 };
 
-template <class T>
-void append(std::string& file, const std::vector<T>& values) {
-  file.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
-
 std::string head_of(const LivePicture& picture, size_t answers) {
-  nlohmann::ordered_json head{{"width", picture.flags.width},
-                              {"height", picture.flags.height},
-                              {"taps", picture.taps},
-                              {"answers", answers},
-                              {"parameter", picture.parameter},
-                              {"unit", picture.unit},
-                              {"depth_per_unit", picture.scale.depth_per_unit},
-                              {"m_per_depth", picture.scale.m_per_depth},
-                              {"texels_per_depth", picture.scale.texels_per_depth}};
-  for (int cause = 0; cause < cause_count; ++cause) head["causes"].push_back(cause_name(static_cast<Cause>(cause)));
-  std::string line = head.dump();
-  line.append(3 - line.size() % 4, ' ');  // with the line's end a multiple of 4, so that the floats are aligned
-  return line + '\n';
+  return live_head({{"kind", "thresholds"},
+                    {"width", picture.flags.width},
+                    {"height", picture.flags.height},
+                    {"taps", picture.taps},
+                    {"answers", answers},
+                    {"parameter", picture.parameter},
+                    {"unit", picture.unit},
+                    {"depth_per_unit", picture.scale.depth_per_unit},
+                    {"m_per_depth", picture.scale.m_per_depth},
+                    {"texels_per_depth", picture.scale.texels_per_depth}});
 }
 
 }  // namespace
 
 std::string why_no_live_picture(const Settings& settings) {
-  if (!curve_part(settings.bias)) return "no part of the bias has a curve";
+  if (!curve_part(settings.bias)) {
+    for (const BiasPart& part : bias_parts())
+      if (settings.bias[part.name] != 0) return fmt::format("bias.{} {}", part.name, part.no_curve);
+  }
   const TapPattern pattern = tap_pattern(settings.filter);
   if (pattern.bilinear()) return "a sampler blends the filter's taps, and how it rounds their weights is not specified";
-  if (pattern.taps > most_live_taps) return "the filter has more than 255 taps";
+  if (pattern.taps > most_live_taps) return fmt::format("the filter has more than {} taps", most_live_taps);
   return "";
 }
 
@@ -135,8 +128,7 @@ void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const 
     picture.flags[i] =
         static_cast<uint8_t>((truth.facing[i] ? live_facing : 0) | (truth.lit[i] != 0 ? live_lit : 0) |
                              (truth.ambiguous[i] ? live_ambiguous : 0) | (picture.flags[i] & live_surface));
-    const float cosine = std::clamp(evidence.probe.n_dot_l[i], 0.0f, 1.0f);
-    picture.n_dot_l[i] = static_cast<uint8_t>(std::lround(255 * cosine));
+    picture.n_dot_l[i] = live_cosine(evidence.probe.n_dot_l[i]);
   }
   Answers answers(picture, evidence, stored_map, bias, varied);
   read_taps(evidence, strip, answers);
@@ -157,11 +149,11 @@ std::string live_file(const LivePicture& picture) {
     }
   }
   std::string file = head_of(picture, from.size());
-  append(file, from);
+  append_array(file, from);
   for (const std::vector<uint8_t>* values : std::initializer_list<const std::vector<uint8_t>*>{
            &lit, &cause, &acne, &peter_panning, &picture.flags.pixels, &picture.n_dot_l.pixels})
-    append(file, *values);
-  append(file, count);
+    append_array(file, *values);
+  append_array(file, count);
   return file;
 }
 

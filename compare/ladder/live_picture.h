@@ -9,7 +9,7 @@
 // map. So it is enough to climb the ladder once at each threshold of a pixel. The thresholds are floats, because the
 // shader compares floats: a float bias that is compared with them gives the shader's own answer. This holds for
 // filters that are means of comparisons. A sampler that blends the taps rounds its weights in a way that no
-// specification defines, so such a filter has no live picture.
+// specification defines, so such a filter has a stack of pictures in its place (compare/ladder/picture_stack.h).
 #pragma once
 #include <cstdint>
 #include <string>
@@ -17,18 +17,13 @@
 
 #include "compare/ladder/bias_curves.h"
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/live_file.h"
 #include "technique/settings.h"
 
 namespace noonmark {
 
 // The most taps of a filter with a live picture, because numbers of taps are stored in a byte.
 inline constexpr int most_live_taps = 255;
-
-// The most pixels of the report's live picture; the point's view is made smaller with its proportions.
-inline constexpr int most_live_width_px = 320, most_live_height_px = 180;
-
-// Bits of LivePicture::flags: the first three are those of the pixel's receiver.
-enum LiveFlags : uint8_t { live_facing = 1, live_lit = 2, live_ambiguous = 4, live_surface = 8 };
 
 // The answer of a pixel from this bias on, up to the next one's.
 struct LiveAnswer {
@@ -45,7 +40,7 @@ struct LivePicture {
   std::string unit;                              // of the parameter: "depth", "m", "texel"
   BiasScale scale;                               // from the parameter to window depth, metres and texels
   Image<uint8_t> flags;                          // LiveFlags
-  Image<uint8_t> n_dot_l;                        // N.L from 0 to 1 in 255 steps, for shading alone
+  Image<uint8_t> n_dot_l;                        // live_cosine, for shading alone
   std::vector<std::vector<LiveAnswer>> answers;  // of each pixel; empty unless it faces the light
 };
 
@@ -60,12 +55,11 @@ LivePicture empty_live_picture(int width, int height);
 void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map,
                     const BiasSettings& bias, const BiasPart& varied, PixelRange strip);
 
-// The file of a live picture: one line of JSON, padded with spaces to a multiple of four bytes, then these arrays
-// one after the other, in little-endian order:
+// The file of a live picture: compare/ladder/live_file.h with these arrays:
 //   float from[answers]; uint8 lit[answers], cause[answers], acne[answers], peter_panning[answers];
 //   uint8 flags[pixels], n_dot_l[pixels]; uint16 count[pixels]
-// count is the number of a pixel's answers. Row 0 is on top. The line has width, height, taps, answers, parameter, unit,
-// depth_per_unit, m_per_depth, texels_per_depth and the names of the causes.
+// count is the number of a pixel's answers. The line has kind ("thresholds"), width, height, taps, answers, parameter,
+// unit, depth_per_unit, m_per_depth, texels_per_depth and the names of the causes.
 std::string live_file(const LivePicture& picture);
 
 }  // namespace noonmark

@@ -88,6 +88,8 @@ TEST(LivePicture, IsLeftOutWhereItWouldNotBeExact) {
   Workbench bench(gl::DebugMode::fatal);
   EXPECT_FALSE(bench.live_picture(with({{"filter.kind", "hardware"}}, small("cube-room", 40, 24))));
   EXPECT_NE(why_no_live_picture(with({{"filter.kind", "hardware"}})).find("sampler"), std::string::npos);
+  EXPECT_EQ(why_no_live_picture(with({{"bias.normal_offset", "1"}})),
+            "bias.normal_offset moves the lookup, so each of its values needs a lookup pass of its own");
 }
 
 TEST(LivePicture, IsOfTheSameViewWithFewerPixels) {

@@ -18,29 +18,44 @@
 namespace noonmark::acceptance {
 namespace {
 
-class LivePage : public Browser {};
+struct LiveCase {
+  SceneCase scene;
+  const char* parameter;
+};
+std::ostream& operator<<(std::ostream& out, const LiveCase& c) { return out << c.scene; }
+
+class LivePage : public Browser, public testing::WithParamInterface<LiveCase> {};
 
 // The page holds the cosine of the light in 255 steps, so it is off by up to half a step. Of the grey of the map that is
 // 0.75 * 0.5/255 in linear light; encoded at the least grey with light (0.15, slope 1.33) it is half a level. A colour
 // of the causes is off by 0.28 * 0.5. After rounding, both are within one level.
 constexpr int most_levels = 1;
 
-TEST_F(LivePage, DrawsThePicturesOfTheProgram) {
-  const Settings settings = with({{"map.resolution", "256"}, {"filter.kind", "box"}}, small("cube-room", 96, 54));
+TEST_P(LivePage, DrawsThePicturesOfTheProgram) {
+  const Settings settings = with(GetParam().scene.settings, small(GetParam().scene.scene, 96, 54));
   Workbench bench(gl::DebugMode::fatal);
-  const std::optional<LivePicture> live = bench.live_picture(settings);
-  ASSERT_TRUE(live);
+  const std::optional<LivePicture> at_every_bias = bench.live_picture(settings);
+  const bool stack = !at_every_bias;
+  const std::string live = stack ? stack_file(bench.picture_stack(settings, {})) : live_file(*at_every_bias);
   Results results = sample_results();
   results.points[18].images.push_back({"images/p0018-live.bin", ""});
-  open(render_report(results,
-                     [&](const std::string& path) {
-                       return path.ends_with("-live.bin") ? live_file(*live) : sample_picture(path);
-                     }),
+  open(render_report(
+           results, [&](const std::string& path) { return path.ends_with("-live.bin") ? live : sample_picture(path); }),
        "live_probe.js");
   if (IsSkipped() || HasFatalFailure()) return;
   ASSERT_EQ(saw_["size"], nlohmann::json({96, 54}));
   EXPECT_TRUE(saw_["moved"]);
-  ASSERT_EQ(saw_["pictures"].size(), 30u);
+  ASSERT_EQ(saw_["pictures"].size(), stack ? 39u : 30u);
+  EXPECT_EQ(saw_["marks"], stack ? 13 : 0);
+  const std::string caption = saw_["caption"];
+  EXPECT_NE(
+      caption.find(stack ? "exact pictures at 13 values of " + std::string(GetParam().parameter) : "at every bias"),
+      std::string::npos)
+      << caption;
+  if (stack) {
+    EXPECT_NE(caption.find("between them nothing is drawn, because"), std::string::npos) << caption;
+    EXPECT_EQ(saw_["snapped"], saw_["stop"]);
+  }
   TemporaryFolder folder;
   Settings at = settings;
   double measured = -1;
@@ -48,7 +63,7 @@ TEST_F(LivePage, DrawsThePicturesOfTheProgram) {
   for (const nlohmann::json& picture : saw_["pictures"]) {
     const double bias = picture["bias"];
     if (bias != measured) {
-      at.bias["constant"] = bias;
+      find_setting(GetParam().parameter).set(at, nlohmann::json(bias).dump());
       write_pictures(bench.measure(at, std::nullopt), folder.path().string(), "images", "p");
       measured = bias;
     }
@@ -66,6 +81,14 @@ TEST_F(LivePage, DrawsThePicturesOfTheProgram) {
   }
   EXPECT_GE(unlike_truth, 8u) << "a picture that is right everywhere tests nothing";
 }
+INSTANTIATE_TEST_SUITE_P(
+    , LivePage,
+    testing::Values(
+        LiveCase{{"box", "cube-room", {{"map.resolution", "256"}, {"filter.kind", "box"}}}, "bias.constant"},
+        LiveCase{{"hardware", "cube-room", {{"map.resolution", "256"}, {"filter.kind", "hardware"}}}, "bias.constant"},
+        LiveCase{{"normal_offset", "cube-room", {{"map.resolution", "256"}, {"bias.normal_offset", "2"}}},
+                 "bias.normal_offset"}),
+    testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace noonmark::acceptance

@@ -57,7 +57,7 @@ function picturesOf(p) {
                 })
                 .filter(Boolean);
   var live = page.live;
-  if (live && live.data.point === p.id && p.at && !named(out, 'map at the recommended bias'))
+  if (live && live.data.point === p.id && p.at && live.has(p.at.depth) && !named(out, 'map at the recommended bias'))
     [['truth', 'truth'], ['map', 'map'], ['causes', 'classes']].forEach(function(k) {
       out.push({
         name: k[1] + ' at the recommended bias',
@@ -84,7 +84,7 @@ function failureOf(p) {
 // Where the worst pixel is: with the bias as set as the record says, at the recommended one in the live picture.
 function worstOf(p) {
   var live = page.live && page.live.data.point === p.id && page.live;
-  if (mode() === 'recommended' && p.at && live) {
+  if (mode() === 'recommended' && p.at && live && live.has(p.at.depth)) {
     var found = live.worst(state.worst, p.at.depth);
     return found && {
       live: true,
@@ -122,7 +122,7 @@ function worstChoices(p) {
             return f.metric;
           }),
       Object.keys(p.worst_of || {}));
-  if (mode() === 'recommended' && page.live && page.live.data.point === p.id)
+  if (mode() === 'recommended' && p.at && page.live && page.live.data.point === p.id && page.live.has(p.at.depth))
     names = ['error'].concat(page.live.data.causes.slice(1));
   return names
       .filter(function(name, i) {

@@ -1,6 +1,6 @@
-// The picture at every bias. The element live-data holds the arrays that compare/ladder/live_picture.h describes,
-// compressed as compare/report/live_section.cpp packs them. Browsers unpack them only asynchronously; page.liveReady
-// ends when the picture is drawn.
+// The picture at every bias, or one picture of a stack. The element live-data holds the arrays that compare/ladder/live_picture.h or
+// compare/ladder/picture_stack.h describes, compressed as compare/report/live_section.cpp packs them. Browsers unpack them
+// only asynchronously; page.liveReady ends when the picture is drawn.
 (function() {
 'use strict';
 var source = document.getElementById('live-data');
@@ -19,32 +19,57 @@ function start(bytes) {
     at += count * bytesOfOne;
     return new type(part);
   }
-  var from = take(Float32Array, live.answers), lit = take(Uint8Array, live.answers),
-      cause = take(Uint8Array, live.answers), acne = take(Uint8Array, live.answers),
-      peterPanning = take(Uint8Array, live.answers), flags = take(Uint8Array, pixels),
-      cosine = take(Uint8Array, pixels), count = take(Uint16Array, pixels);
+  // Of a stack the answers name the first picture that they are of, and of the other kind the least bias.
+  var stack = live.kind === 'stack', floats = take(Float32Array, live.answers),
+      bytesOf = take(Uint8Array, live.answers), cause = take(Uint8Array, live.answers),
+      acne = stack ? null : take(Uint8Array, live.answers), peterPanning = stack ? null : take(Uint8Array, live.answers),
+      flags = take(Uint8Array, pixels), cosine = take(Uint8Array, pixels),
+      count = take(stack ? Uint8Array : Uint16Array, pixels), from = stack ? bytesOf : floats,
+      lit = stack ? floats : bytesOf;
   var facing = 1, truthLit = 2, ambiguous = 4, surface = 8;  // LiveFlags
-
-  // The bias in the parameter's own unit, as the shader gets it: a float. Returns each pixel's answer (an index) and the
-  // shares of the counted receivers.
-  function answersAt(bias) {
-    var x = Math.fround(bias), shown = new Int32Array(pixels).fill(-1), first = 0, counted = 0, wrong = 0, a = 0, p = 0;
+  // How much light an answer shows, from 0 to 1.
+  function light(answer) {
+    return stack ? lit[answer] : lit[answer] / live.taps;
+  }
+  function shownFrom(x) {
+    var shown = new Int32Array(pixels).fill(-1), first = 0;
     for (var i = 0; i < pixels; ++i) {
       var end = first + count[i], k = first;
       if (flags[i] & facing) {
         while (k + 1 < end && from[k + 1] <= x) ++k;
         shown[i] = k;
-        if (!(flags[i] & ambiguous)) {
-          ++counted;
-          wrong += flags[i] & truthLit ? live.taps - lit[k] : lit[k];
-          a += acne[k];
-          p += peterPanning[k];
-        }
       }
       first = end;
     }
+    return shown;
+  }
+
+  // The bias in the parameter's own unit. Returns each pixel's answer (an index) and the shares of the counted receivers. Of a
+  // stack it is one of its values; otherwise it is rounded to a float, as the shader gets it.
+  function answersAt(bias) {
+    if (stack) {
+      var number = pictureOf(bias);
+      return Object.assign({shown: shownFrom(number)}, live.values[number]);
+    }
+    var shown = shownFrom(Math.fround(bias)), counted = 0, wrong = 0, a = 0, p = 0;
+    shown.forEach(function(k, i) {
+      if (k < 0 || flags[i] & ambiguous) return;
+      ++counted;
+      wrong += flags[i] & truthLit ? live.taps - lit[k] : lit[k];
+      a += acne[k];
+      p += peterPanning[k];
+    });
     var taps = counted * live.taps;
     return {shown: shown, counted: counted, error: wrong / taps, acne: a / taps, peter_panning: p / taps};
+  }
+  // The number of the stack's picture at this value, or -1.
+  function pictureOf(value) {
+    return live.values.findIndex(function(v) {
+      return same(value, v.value);
+    });
+  }
+  function same(a, b) {  // one of them may have been converted from another unit
+    return Math.abs(a - b) <= 1e-9 * Math.abs(b);
   }
 
   var figure = document.getElementById('live-picture'), canvas = figure.querySelector('canvas'),
@@ -69,7 +94,7 @@ function start(bytes) {
     var n = cosine[i] / 255, truth = flags[i] & truthLit ? 1 : 0;
     if (kind === 'truth') return grey(0.15 + 0.75 * n * (flags[i] & facing ? truth : 0));
     if (answer < 0) return kind === 'map' ? grey(0.15) : colours.attached;
-    var seen = lit[answer] / live.taps;
+    var seen = light(answer);
     if (kind === 'map') return grey(0.15 + 0.75 * n * seen);
     if (flags[i] & ambiguous) return colours.ambiguous;
     var right = colours[truth ? 'lit' : 'shadowed'].map(function(v) {
@@ -82,21 +107,37 @@ function start(bytes) {
     });
   }
 
-  // The slider: 0, then a logarithmic scale from one quantum of 24 bits to the depth of the whole map.
-  var least = 1e-7, steps = 1400;
+  // The slider: 0, then a logarithmic scale from one quantum of 24 bits to the depth of the whole map. Of a stack it has a
+  // step for each stop: each picture, and the recommended bias if the point has its own pictures there.
+  var least = 1e-7, steps = 1400, stops = [];
   function depthAt(position) {
+    if (stack) return stops[Math.round(position)];
     return position <= 0 ? 0 : least * Math.pow(1 / least, (position - 1) / (steps - 1));
   }
   function positionOf(depth) {
-    return depth < least ? 0 : 1 + (steps - 1) * Math.log(depth / least) / Math.log(1 / least);
+    if (!stack) return depth < least ? 0 : 1 + (steps - 1) * Math.log(depth / least) / Math.log(1 / least);
+    var after = stops.findIndex(function(v) {
+      return v >= depth || same(v, depth);
+    });
+    if (after <= 0) return after < 0 ? steps : 0;
+    return after - (stops[after] - depth) / (stops[after] - stops[after - 1]);
   }
-  slider.min = 0;
-  slider.max = steps;
-  slider.step = 1;
+  // The nearest value that has a picture. A bias on the page is in window depth, and one of a stack in the parameter's unit.
+  function snapped(value) {
+    return !stack ? value : stops.reduce(function(best, v) {
+      return Math.abs(v - value) < Math.abs(best - value) ? v : best;
+    });
+  }
+  function fromDepth(d) {
+    return stack ? d / live.depth_per_unit : d;
+  }
+  // In window depth; of a stack in the parameter's unit.
   var depth = 0;
   function text(d) {
-    return kit.digits(d) + ' depth = ' + kit.digits(d * live.m_per_depth) +
-        ' m = ' + kit.digits(d * live.texels_per_depth) + ' texels';
+    if (stack && !live.depth_per_unit) return kit.shown(d, live.unit);
+    var inDepth = stack ? d * live.depth_per_unit : d;
+    return kit.digits(inDepth) + ' depth = ' + kit.digits(inDepth * live.m_per_depth) +
+        ' m = ' + kit.digits(inDepth * live.texels_per_depth) + ' texels';
   }
   // The point's own pictures, in full size, are of the bias as set, and some of the recommended one. They are shown at these
   // biases, and the live picture at every other.
@@ -105,16 +146,34 @@ function start(bytes) {
   function own(name) {
     return document.querySelector('.pictures[data-point="' + live.point + '"] figure[data-name="' + name + '"] img');
   }
-  function isAt(mark) {  // a mark may have been converted from another unit
-    return Math.abs(depth - mark) <= 1e-9 * Math.abs(mark);
+  function isAt(mark) {
+    return same(depth, mark);
   }
+  // The recommended bias of the point, if the page has the point's pictures there.
+  function recommendedBias() {
+    var p = kit.byId[live.point];
+    return p && p.at && own('map' + recommended) ? (stack ? p.at.value : p.at.depth) : NaN;
+  }
+  if (stack) {
+    stops = live.values.map(function(v) {
+      return v.value;
+    });
+    if (pictureOf(recommendedBias()) < 0 && isFinite(recommendedBias())) stops.push(recommendedBias());
+    stops.sort(function(a, b) {
+      return a - b;
+    });
+    steps = stops.length - 1;
+  }
+  slider.min = 0;
+  slider.max = steps;
+  slider.step = 1;
   // Shows it, if there is one at this bias, and returns the numbers of the point there.
   function showWhole() {
     var p = kit.byId[live.point], name = kind === 'causes' ? 'classes' : kind, found = null, numbers = null;
     if (isAt(live.marks.set)) {
       found = own(name);
       numbers = {metrics: p.metrics, words: ', as set'};
-    } else if (p.at && isAt(p.at.depth) && own('map' + recommended)) {
+    } else if (isAt(recommendedBias())) {
       found = own(kind === 'truth' ? name : name + recommended);  // no bias changes the truth
       numbers = {metrics: p.at.metrics, words: ', recommended'};
     }
@@ -138,12 +197,12 @@ function start(bytes) {
     choices.forEach(function(c) {
       c.button.setAttribute('aria-pressed', String(isAt(c.depth)));
     });
-    var now = paint(), numbers = showWhole();
+    var numbers = showWhole(), now = stack && pictureOf(depth) < 0 ? null : paint();
     tell(numbers ? numbers.words : '', numbers ? numbers.metrics : now);
   }
   // The live picture. Returns its numbers.
   function paint() {
-    var now = answersAt(depth / live.depth_per_unit), image = context.createImageData(live.width, live.height);
+    var now = answersAt(stack ? depth : depth / live.depth_per_unit), image = context.createImageData(live.width, live.height);
     for (var i = 0; i < pixels; ++i) {
       image.data.set(colourOf(i, now.shown[i]), 4 * i);
       image.data[4 * i + 3] = 255;
@@ -152,8 +211,8 @@ function start(bytes) {
     return now;
   }
   function set(d) {
-    depth = d;
-    slider.value = Math.round(positionOf(d));
+    depth = snapped(d);
+    slider.value = Math.round(positionOf(depth));
     draw();
   }
   slider.addEventListener('input', function() {
@@ -167,7 +226,7 @@ function start(bytes) {
   }
   controls.append(kit.segments([['truth', 'Truth'], ['map', 'Map'], ['causes', 'Causes']], kind, show));
   [['set', 'As set'], ['recommended', 'Recommended'], ['best', 'Best for this point']].forEach(function(m) {
-    if (!(m[0] in live.marks)) return;
+    if (!(m[0] in live.marks) || !same(snapped(live.marks[m[0]]), live.marks[m[0]])) return;
     function go() {
       set(live.marks[m[0]]);
     }
@@ -175,6 +234,9 @@ function start(bytes) {
     choices.push({depth: live.marks[m[0]], button: button});
     controls.append(button);
     marks.append(make('i', {class: 'mark ' + m[0], style: 'left:' + 100 * positionOf(live.marks[m[0]]) / steps + '%'}));
+  });
+  stops.forEach(function(_, k) {
+    marks.prepend(make('i', {class: 'stop', style: 'left:' + 100 * k / steps + '%'}));
   });
   if (live.marks.window) {
     var low = 100 * positionOf(live.marks.window[0]) / steps, high = 100 * positionOf(live.marks.window[1]) / steps;
@@ -188,31 +250,35 @@ function start(bytes) {
   // The recommended bias of the point, or the best of its curve.
   function best() {
     var p = kit.byId[live.point];
-    if (p && p.at) return p.at.depth;
+    if (p && p.at) return fromDepth(p.at.depth);
     return 'recommended' in live.marks ? live.marks.recommended : 'best' in live.marks ? live.marks.best : depth;
   }
   function follow() {
     set(page.bias === 'set' && 'set' in live.marks ? live.marks.set : best());
   }
   page.onBias.push(follow);
-  // A picture of the given kind at a bias in window depth, as a data: address.
+  // Whether there is a picture at a bias in window depth.
+  function has(d) {
+    return !stack || pictureOf(fromDepth(d)) >= 0;
+  }
+  // A picture of the given kind at such a bias, as a data: address.
   function pictureAt(d, wanted) {
     var held = [depth, kind];
     kind = wanted;
-    depth = d;
+    depth = fromDepth(d);
     paint();
     var address = canvas.toDataURL();
     kind = held[1];
     set(held[0]);
     return address;
   }
-  // The pixel that is most wrong by a cause, or by 'error' by any; null if there is none.
+  // The pixel that is most wrong by a cause, or by 'error' by any, at a bias that has a picture; null if there is none.
   function worst(name, d) {
     var now = answersAt(d / live.depth_per_unit), wanted = live.causes.indexOf(name), found = null;
     for (var i = 0; i < pixels; ++i) {
       var k = now.shown[i];
       if (k < 0 || flags[i] & ambiguous || !cause[k] || (name !== 'error' && cause[k] !== wanted)) continue;
-      var error = Math.abs(lit[k] / live.taps - (flags[i] & truthLit ? 1 : 0));
+      var error = Math.abs(light(k) - (flags[i] & truthLit ? 1 : 0));
       if (!found || error > found.error)
         found = {x: i % live.width, y: Math.floor(i / live.width), error: error, cause: live.causes[cause[k]]};
     }
@@ -221,10 +287,9 @@ function start(bytes) {
   follow();
   page.live = {
     data: live,
-    answersAt: answersAt,
-    lit: lit,
-    cause: cause,
+    stops: stops,
     set: set,
+    has: has,
     show: show,
     canvas: canvas,
     pictureAt: pictureAt,

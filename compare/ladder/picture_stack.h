@@ -1,0 +1,74 @@
+// What OpenGL shows at a few values of one part of the bias, and why each pixel is wrong there: a stack of pictures, each
+// measured at its value. The report's page shows one of them at a time.
+//
+//   PictureStack stack = empty_picture_stack(receivers, truth, probe);
+//   for (double value : stack_values(...)) add_picture(stack, value, ladder measured at that value);
+//   write(stack_file(stack));
+//
+// It stands where a picture at every bias (compare/ladder/live_picture.h) would not be exact:
+// - A part that moves the lookup or changes the map has no thresholds, because the taps read other texels at each value.
+// - A tap that a sampler blends has a threshold, and its weight does not depend on the bias. But the sampler rounds the
+//   weights to about 8 bits in a way that no specification defines, and a comparison in a fixed-point map may round the
+//   compared depth. So the sum of the weights of the lit taps is only near to what OpenGL shows.
+// - A filter of more than most_live_taps taps would need two answers for each of them in each pixel.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/ladder/bias_curves.h"
+#include "compare/ladder/live_file.h"
+#include "scenes/receivers.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+
+// The pictures of a stack, at most; a pixel names its picture in a byte.
+inline constexpr size_t most_stacked = 13;
+
+// The part that a stack varies: that of the bias curve, or, if no active part has a curve, the first active one.
+const BiasPart& stacked_part(const BiasSettings& settings);
+
+// The values of a stack, ascending: 0, the value as set, the marks, and, as far as most_stacked has room, values a factor
+// of sqrt(2) apart on both sides of the middle. The middle is the value as set, or the first positive mark if that is 0, or
+// else `otherwise`. marks: values that the report speaks of (the recommended one, the ends of the usable window), the most
+// important first; those that are not finite or outside 0 ... part.most are left out. otherwise: above 0.
+std::vector<double> stack_values(const BiasPart& part, double as_set, const std::vector<double>& marks,
+                                 double otherwise);
+
+struct PictureStack {
+  struct Value {
+    double value = 0;                               // of the part, in its own unit
+    double error = 0, acne = 0, peter_panning = 0;  // the metrics of the picture at that value
+  };
+  // The answer of a pixel from the picture of this number on, up to the next answer's.
+  struct Answer {
+    uint8_t from = 0;   // an index into values; the first answer of a pixel has 0
+    uint8_t cause = 0;  // a Cause: why the pixel is wrong; 0 if it is right
+    float light = 0;    // R5
+  };
+  std::string parameter;                     // "bias.normal_offset": the setting that is varied
+  std::string why;                           // why there is no picture at every bias: why_no_live_picture()
+  std::string unit;                          // of the parameter: "texels", "depth", "m"; "" if it has none
+  std::optional<BiasScale> scale;            // of a part of the compared depth: to window depth, metres and texels
+  std::vector<Value> values;                 // in the order in which they were added: ascending
+  Image<uint8_t> flags;                      // LiveFlags
+  Image<uint8_t> n_dot_l;                    // live_cosine
+  std::vector<std::vector<Answer>> answers;  // of each pixel; empty unless it faces the light
+};
+
+// Without a picture. The images have the same size.
+PictureStack empty_picture_stack(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe);
+
+// ladder: of the same receivers, without a rung on top of R5.
+void add_picture(PictureStack& stack, double value, const Ladder& ladder);
+
+// The file: compare/ladder/live_file.h with these arrays:
+//   float light[answers]; uint8 from[answers], cause[answers]; uint8 flags[pixels], n_dot_l[pixels], count[pixels]
+// count is the number of a pixel's answers. The line has kind ("stack"), width, height, answers, parameter, unit, why, values
+// (a list of objects: value, error, acne, peter_panning; a metric that is not finite is null), the names of the causes, and
+// for a part of the compared depth depth_per_unit, m_per_depth and texels_per_depth.
+std::string stack_file(const PictureStack& stack);
+
+}  // namespace noonmark
