@@ -18,6 +18,7 @@
 #include "compare/judge/recommendation.h"
 #include "compare/judge/tradeoff.h"
 #include "compare/ladder/flicker.h"
+#include "compare/report/lights_section.h"
 #include "compare/report/section_picture.h"
 #include "compare/report/speed_reading.h"
 
@@ -88,15 +89,17 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
   const auto add = [&](int64_t id) {
     if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
   };
-  // A failure is seen at its own point.
-  const auto add_broken = [&] {
+  // A failure is seen at its own point, and several lights by the one that makes most of the error.
+  const auto add_spoken_of = [&] {
     size_t more = most_broken_shown;
     for (const BoundResult& bound : results.bounds)
       if (breaks(bound) && find_point(points, bound.point) && more > 0) add(bound.point), --more;
+    // The report opens with this light.
+    if (const PointRecord* light = report::largest_light(results)) add(light->id);
   };
   if (pictures == "first") {
     ids = {points.front().id};
-    add_broken();
+    add_spoken_of();
     return ids;
   }
   if (pictures == "all") {
@@ -105,7 +108,7 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
   }
   if (pictures == "answers") {
     ids = report::answer_points(compared_groups(results), results);
-    add_broken();
+    add_spoken_of();
     return ids;
   }
   const auto badness = [](const PointRecord& p) {
@@ -118,7 +121,7 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
   if (pictures == "extremes" && best != worst) ids.push_back(best->id);
   ids.push_back(worst->id);
   if (const int64_t id = worst_instant(points).id; id >= 0) add(id);
-  add_broken();
+  add_spoken_of();
   // Points of different parts have no common answer.
   if (!points.front().part.empty()) return ids;
   const Recommendation found = recommend(results);

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
@@ -12,6 +14,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/gltf/write_glb.h"
 #include "scenes/library.h"
+#include "technique/chosen_light.h"
 #include "technique/light_frame.h"
 
 namespace noonmark {
@@ -41,10 +44,25 @@ int write_scene(const ExportOptions& options) {
   const Scene scene = make_scene(settings.scene);
   if (scene.triangles.empty()) throw Error(ErrorKind::file, options.scene + " has no triangle to write");
   const Light light = effective_light(scene, settings);
-  const std::string bytes = glb_of(scene, effective_camera(scene, settings.view), light);
+  // Where nothing chooses one light, the file has all, as an experiment with lights = "all" measures them. The first of them is
+  // `light`, with what the settings change of it.
+  std::span<const Named<Light>> more;
+  if (!first_of_several_note(scene, settings).empty()) more = std::span(scene.lights).subspan(1);
+  const std::string bytes = glb_of(scene, effective_camera(scene, settings.view), light, more);
   if (const std::string above = fs::path(file).parent_path().string(); !above.empty()) make_folder(above);
   write_file_atomically(file, bytes);
-  fmt::print("{} is written: {} triangles, camera and light\n", printable(file), scene.triangles.size());
+  const auto usable =
+      std::count_if(more.begin(), more.end(), [](const Named<Light>& one) { return one.value.has_value(); });
+  fmt::print("{} is written: {} triangles, camera and {}\n", printable(file), scene.triangles.size(),
+             usable == 0 ? "light" : fmt::format("{} lights", 1 + usable));
+  for (const Named<Light>& one : more)
+    if (!one.value) fmt::print("  note: a light is left out: {}\n", printable(one.why_not));
+  if (more.empty() && scene.lights.size() > 1)
+    fmt::print(
+        "  note: {} has {} lights, and the file has the one chosen; without light.name, light.index and light.kind it "
+        "has "
+        "all\n",
+        printable(scene.name), scene.lights.size());
   if (scene.map)
     fmt::print("  note: glTF has no shadow map; {} has extent {:g} m, near {:g} m, far {:g} m of its own\n",
                printable(scene.name), scene.map->extent_m, scene.map->near_m, scene.map->far_m);
@@ -72,7 +90,7 @@ RunVerb add_export(CLI::App& verb) {
 }  // namespace
 
 Verb verb_export() {
-  return {"export", "Write a scene, its camera and its light as a .glb that other renderers can show", add_export};
+  return {"export", "Write a scene, its camera and its lights as a .glb that other renderers can show", add_export};
 }
 
 }  // namespace noonmark

@@ -86,6 +86,9 @@ void print_ladder(const Measurement& m, const char* clock) {
        {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "edge_displacement_mean_pixels",
         "edge_displacement_p95_pixels", "flip", "residual", "tap_residual", "rounding_excess"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
+  // Up to 1 the map is fine enough for the camera.
+  for (const char* name : {"perspective_aliasing", "perspective_aliasing_p95"})
+    if (!(value(name) <= 1)) fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), "texel widths for a pixel's");
   for (const char* name : {"map_ms", "lookup_ms"}) {
     const MedianInterval time = interval_of(m.record, name);
     fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);

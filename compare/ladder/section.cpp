@@ -183,7 +183,8 @@ std::vector<SectionTap> taps_of(const SectionInput& in, const MapTile& tile, con
     SectionTap out;
     out.tap = static_cast<int>(t);
     out.texel = e.probe.texel(i, out.tap);
-    out.same_tile = in.technique.frame.tiles == 1 || e.probe.tile(i, out.tap) == section.tile;
+    if (in.technique.frame.tiles > 1) out.tile = e.probe.tile(i, out.tap);
+    out.same_tile = out.tile == section.tile;
     out.centre = glm::dvec2(out.texel) + 0.5 - section.place;
     out.along = glm::dot(out.centre, section.direction);
     out.reference_m = metres(tap.reference);

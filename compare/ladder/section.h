@@ -42,6 +42,7 @@ struct SectionTap {
   bool shown_lit = false;  // the verdict on OpenGL's map, R5
   bool inside = true;      // the texel lies in the map
   bool near_clipped = false;
+  int tile = 0;           // that it reads: the face of a cube; 0 of a flat map
   bool same_tile = true;  // false: it reads another face of the cube than the place looked up
   Cause cause = Cause::none;
 };

@@ -52,27 +52,45 @@ const CauseColor* largest_cause(const PointRecord& point) {
   return largest;
 }
 
+const PointRecord* with_largest_share(const Frame& frame) {
+  return *std::max_element(frame.begin(), frame.end(), [](const PointRecord* a, const PointRecord* b) {
+    return metric_of(*a, "light_share") < metric_of(*b, "light_share");
+  });
+}
+
 std::string setting_of(const PointRecord& point, const char* name) {
   const auto found = point.settings.find(name);
   return found == point.settings.end() ? "" : found->second;
 }
 
+struct Column {
+  const char *name, *unit;
+  // On a narrow screen each cell stands in a line of its own, with this before it (table.stacked in page/style.css).
+  Attribute label() const { return {"data-label", *unit ? fmt::format("{}, {}", name, unit) : name}; }
+  Markup head() const { return *unit ? th(with_small(name, unit)) : th(css("text"), name); }
+};
+constexpr Column columns[] = {{"Resolution", "texels"},    {"Share of the light", "%"},
+                              {"Its own error", "%"},      {"Its part of the frame's error", "%"},
+                              {"Share of all parts", "%"}, {"Largest cause", ""}};
+
 Markup row_of(const PointRecord& point) {
-  const auto percent = [&](const char* name) { return td(cell(metric_of(point, name), "fraction")); };
+  const auto percent = [&](const Column& column, const char* name) {
+    return td(column.label(), cell(metric_of(point, name), "fraction"));
+  };
   const CauseColor* cause = largest_cause(point);
-  return tr(row_head(css("text"), point_link(point.id, point.part)), td(setting_of(point, "map.resolution")),
-            percent("light_weight"), percent("error"), percent("light_error"), percent("light_share"),
-            td(css("text"), cause ? swatch(cause->name) + " " + Markup(cause->label) : Markup("none")));
+  return tr(
+      row_head(css("text"), point_link(point.id, point.part)),
+      td(columns[0].label(), setting_of(point, "map.resolution")), percent(columns[1], "light_weight"),
+      percent(columns[2], "error"), percent(columns[3], "light_error"), percent(columns[4], "light_share"),
+      td(css("text"), columns[5].label(), cause ? swatch(cause->name) + " " + Markup(cause->label) : Markup("none")));
 }
 
 Markup table_of(const Frame& frame) {
   Markup rows;
   for (const PointRecord* point : frame) rows += row_of(*point);
-  const Markup head = th(css("text"), "Light") + th(with_small("Resolution", "texels")) +
-                      th(with_small("Share of the light", "%")) + th(with_small("Its own error", "%")) +
-                      th(with_small("Its part of the frame's error", "%")) + th(with_small("Share of all parts", "%")) +
-                      th(css("text"), "Largest cause");
-  return div(css("scroll"), table("numbers", head, rows));
+  Markup head = th(css("text"), "Light");
+  for (const Column& column : columns) head += column.head();
+  return div(css("scroll"), table("numbers stacked", head, rows));
 }
 
 std::string frame_name(const Frame& frame, const std::vector<std::string>& swept) {
@@ -109,14 +127,18 @@ Markup lights_section(const Results& results, const std::function<std::string(co
   return section("lights", "Lights", content);
 }
 
+const PointRecord* largest_light(const Results& results) {
+  const std::vector<Frame> frames = frames_of(results);
+  if (frames.empty()) return nullptr;
+  const PointRecord* const most = with_largest_share(frames.front());
+  return metric_of(*most, "light_share") > 0 ? most : nullptr;
+}
+
 Markup lights_sentence(const Results& results) {
   const std::vector<Frame> frames = frames_of(results);
   if (frames.empty()) return "";
   const Frame& worst = frames.front();
-  const PointRecord& most =
-      **std::max_element(worst.begin(), worst.end(), [](const PointRecord* a, const PointRecord* b) {
-        return metric_of(*a, "light_share") < metric_of(*b, "light_share");
-      });
+  const PointRecord& most = *with_largest_share(worst);
   const CauseColor* cause = largest_cause(most);
   return prose("Together the {} lights make a frame with an error of {}; {} makes {} of it{}.", worst.size(),
                bold(quantity(error_of_frame(worst), "fraction")), bold(most.part),

@@ -15,6 +15,10 @@ inline constexpr std::string_view lights_pictures = "lights-";
 // frame of several lights. read_file: as for render_report().
 Markup lights_section(const Results& results, const std::function<std::string(const std::string&)>& read_file);
 
+// Of the frame with the largest error, the light that makes the largest share of it; null if there is no frame, or if the frame has no
+// error. The page opens with it, because lights_sentence() speaks of it.
+const PointRecord* largest_light(const Results& results);
+
 // "Of the frame's error of 0.42 %, spot makes 69 %: Peter Panning." Of the worst frame; empty if there is none.
 Markup lights_sentence(const Results& results);
 

@@ -8,6 +8,7 @@
 #include "compare/judge/bounds.h"
 #include "compare/judge/recommendation.h"
 #include "compare/judge/soundness.h"
+#include "compare/report/lights_section.h"
 #include "compare/report/point_data.h"
 #include "compare/results/quantities.h"
 
@@ -18,9 +19,12 @@ constexpr std::string_view bias_separator = " at ";  // no picture's own name ha
 
 const PointRecord* point_to_open(const Results& results) {
   for (const BoundResult& bound : results.bounds)
-    if (const PointRecord* point = breaks(bound) ? find_point(results.points, bound.point) : nullptr;
+    // A bound of the whole frame names its first light, which may have no part in it.
+    if (const PointRecord* point =
+            breaks(bound) && !bound.metric.starts_with("lights_") ? find_point(results.points, bound.point) : nullptr;
         point && live_image(*point))
       return point;
+  if (const PointRecord* light = largest_light(results); light && live_image(*light)) return light;
   const Recommendation found = recommend(results);
   const PointRecord* first = nullptr;
   for (const PointRecord& point : results.points) {
@@ -37,7 +41,7 @@ bool opens_as_set(const Results& results) {
   return static_cast<int64_t>(results.points.size()) < results.planned_points ||
          std::any_of(results.bounds.begin(), results.bounds.end(), breaks) ||
          std::any_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return !law.held; }) ||
-         !find_unsound(results.points).empty();
+         !find_unsound(results.points).empty() || largest_light(results);
 }
 
 const ImageRecord* live_image(const PointRecord& point) {

@@ -17,14 +17,15 @@
 namespace noonmark::report {
 
 // Whether the figures open with the bias as set, because the head of the page speaks of it: a bound or a law is broken, the
-// measurement is not sound, or the sweep is incomplete.
+// measurement is not sound, the sweep is incomplete, or it speaks of a frame of several lights.
 bool opens_as_set(const Results& results);
 
 // The file of a point's live picture; null if it has none.
 const ImageRecord* live_image(const PointRecord& point);
 
 struct Opening {
-  // The point that the head of the page speaks of, if it has a live picture: that of the first broken bound, or else the
+  // The point that the head of the page speaks of, if it has a live picture: that of the first broken bound that is not one of a
+  // whole frame of several lights; or else, of such a frame, largest_light() (compare/report/lights_section.h); or else the
   // recommended one; or else the first with a live picture. Null if no point has one.
   const PointRecord* point = nullptr;
   std::optional<double> bias;  // at which it opens, in bias.unit; empty: as set

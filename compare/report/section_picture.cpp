@@ -363,7 +363,19 @@ Markup plan(const ReceiverSection& section) {
   return out;
 }
 
-Markup legend(const ReceiverSection& section) {
+// The causes whose rings taps() and plan() draw, in the order of the taps.
+std::vector<Cause> ringed_causes(const ReceiverSection& section) {
+  std::vector<Cause> causes;
+  for (const SectionTap& tap : section.taps) {
+    if (tap_mark(section, tap).empty()) continue;
+    const Cause cause = tap.cause != Cause::none ? tap.cause : Cause::precision;
+    if (std::find(causes.begin(), causes.end(), cause) == causes.end()) causes.push_back(cause);
+  }
+  return causes;
+}
+
+// bottom: where it ends.
+Markup legend(const ReceiverSection& section, double& bottom_y) {
   Markup out;
   double y = plan_top + 8;
   const double x = margin, text_x = margin + 34;
@@ -380,12 +392,16 @@ Markup legend(const ReceiverSection& section) {
         "depth stored by a texel, and its centre");
   entry(circle(x + 13, 5.5, "f-ink"), "the receiver");
   entry(circle(x + 7, 4, "f-paper s-ink") + circle(x + 20, 4, "f-ink s-paper"), "compared depth: lit, dark");
-  const std::string wrong = section.cause == Cause::none ? "" : color_text(cause_name(section.cause));
-  if (!wrong.empty() && section.cause != Cause::filter && section.cause != Cause::displacement)
+  // A pixel can have wrong taps of other causes than its own, which is the largest.
+  for (const Cause cause : ringed_causes(section)) {
+    const CauseColor* const color = find_color(cause_name(cause));
     entry(element("circle", Attribute("cx", n(x + 13)), Attribute("cy", n(y)), Attribute("r", "7"),
-                  Attribute("fill", "none"), Attribute("stroke", wrong), Attribute("stroke-width", "2.6")),
-          "a wrong tap, in its cause's colour");
+                  Attribute("fill", "none"), Attribute("stroke", color_text(cause_name(cause))),
+                  Attribute("stroke-width", "2.6")),
+          fmt::format("a wrong tap: {}", color ? color->label : cause_name(cause)));
+  }
   entry(line_between(x, y, x + 26, y, "s-step", 1.4, "4 2"), "the plane, in the plan of the taps");
+  bottom_y = y;
   return out;
 }
 
@@ -441,7 +457,9 @@ std::string section_svg(const ReceiverSection& section, SectionTheme theme) {
   const std::string title = section_title(section);
   std::string spoken = title + ".";
   Markup text;
-  double y = words_top;
+  double legend_bottom = 0;
+  const Markup marks = legend(section, legend_bottom);
+  double y = std::max(words_top, legend_bottom + 8);
   for (const std::string& paragraph : words) {
     spoken += " " + paragraph;
     for (const std::string& line : wrapped_text(paragraph, line_letters)) {
@@ -478,7 +496,7 @@ std::string section_svg(const ReceiverSection& section, SectionTheme theme) {
                  "f-soft small");
   out += text_at(plan_left, plan_top - 6, section.taps.size() == 1 ? "the tap, in the map" : "the taps, in the map",
                  "f-soft small");
-  out += legend(section) + plan(section) + text;
+  out += marks + plan(section) + text;
   return element("svg", Attribute("xmlns", "http://www.w3.org/2000/svg"),
                  Attribute("viewBox", fmt::format("0 0 {:.0f} {:.0f}", width, height)), Attribute("width", n(width)),
                  Attribute("height", n(height)), Attribute("role", "img"), out)

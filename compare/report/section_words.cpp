@@ -8,11 +8,21 @@
 
 #include "compare/report/cause_colors.h"
 #include "compare/results/number_text.h"
+#include "technique/light_kind.h"
 
 namespace noonmark::report {
 namespace {
 
-std::string texel_text(const SectionTap& tap) { return fmt::format("texel ({}, {})", tap.texel.x, tap.texel.y); }
+// In the order of a cube's tiles (technique/light_frame.h).
+constexpr const char* face_names[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+
+// Of a cube with its face, and counted in that face: the faces stand one above the other in the map's image.
+std::string texel_text(const ReceiverSection& section, const SectionTap& tap) {
+  if (section.light != kind_of_light(LightKind::point).name())
+    return fmt::format("texel ({}, {})", tap.texel.x, tap.texel.y);
+  return fmt::format("texel ({}, {}) of the cube's face {}", tap.texel.x, tap.texel.y - tap.tile * section.map_size.x,
+                     face_names[tap.tile]);
+}
 
 std::string away_text(const ReceiverSection& section, const SectionTap& tap) {
   return fmt::format("{} from the {}", quantity_text(glm::length(tap.centre), "texels", 2),
@@ -30,14 +40,14 @@ std::string acne_text(const ReceiverSection& section, const SectionTap& tap) {
       "The exact map stores in {} a depth {} the compared depth. The texel's centre is {}, and no shadow edge lies "
       "between them: the surface shadows itself, because one depth stands for the whole texel. {} more bias would "
       "light the tap.",
-      texel_text(tap), nearer_text(tap.exact_m, tap.compared_m), away_text(section, tap),
+      texel_text(section, tap), nearer_text(tap.exact_m, tap.compared_m), away_text(section, tap),
       length_text(tap.compared_m - tap.exact_m));
 }
 
 std::string panning_text(const ReceiverSection& section, const SectionTap& tap) {
   std::string text = fmt::format(
       "The centre of {} is in shadow, but the exact map stores a depth {} the compared depth, so light shows. ",
-      texel_text(tap), nearer_text(tap.exact_m, tap.compared_m));
+      texel_text(section, tap), nearer_text(tap.exact_m, tap.compared_m));
   if (tap.exact_m < tap.reference_m)
     return text + fmt::format(
                       "What casts the shadow is stored {} nearer to the light than the receiver, and the bias "
@@ -58,8 +68,9 @@ std::string aliasing_text(const ReceiverSection& section, const SectionTap& tap)
       "The centre of {} is {}, and it is {}: the exact map stores a depth {} the compared depth. The receiver's own "
       "place "
       "is {}. A shadow's edge runs between them, and a texel has one answer for both. {}.",
-      texel_text(tap), away_text(section, tap), dark ? "in shadow" : "lit", nearer_text(tap.exact_m, tap.compared_m),
-      dark ? "lit" : "in shadow", "A finer map or a smaller extent brings the centre nearer; no bias does");
+      texel_text(section, tap), away_text(section, tap), dark ? "in shadow" : "lit",
+      nearer_text(tap.exact_m, tap.compared_m), dark ? "lit" : "in shadow",
+      "A finer map or a smaller extent brings the centre nearer; no bias does");
 }
 
 std::string coverage_text(const ReceiverSection& section, const SectionTap& tap) {
@@ -73,15 +84,15 @@ std::string coverage_text(const ReceiverSection& section, const SectionTap& tap)
         "The tap reads {}, outside the map of {} x {} texels. What it gets there makes it {}. A larger extent or "
         "another "
         "wrap mode helps.",
-        texel_text(tap), section.map_size.x, section.map_size.y, verdict);
+        texel_text(section, tap), section.map_size.x, section.map_size.y, verdict);
   return fmt::format(
       "What casts the shadow at the centre of {} lies before the map's near plane ({} from the light's origin of "
       "depths), "
       "so the map does not have it, and the tap is {}. A smaller near would cover it.",
-      texel_text(tap), length_text(section.near_m), verdict);
+      texel_text(section, tap), length_text(section.near_m), verdict);
 }
 
-std::string precision_text(const SectionTap& tap) {
+std::string precision_text(const ReceiverSection& section, const SectionTap& tap) {
   if (tap.lit == tap.shown_lit)
     return "On the exact map the lookup's result is another one: the difference is the rounding of the weights with "
            "which "
@@ -90,7 +101,7 @@ std::string precision_text(const SectionTap& tap) {
       "On the exact map the tap is {}, which is right. OpenGL's map stores in {} a depth {} the exact one, and the "
       "compared "
       "depth lies {} the stored one: the tap is {}. A deeper format or a tighter near and far helps.",
-      tap.lit ? "lit" : "dark", texel_text(tap), nearer_text(tap.stored_m, tap.exact_m),
+      tap.lit ? "lit" : "dark", texel_text(section, tap), nearer_text(tap.stored_m, tap.exact_m),
       tap.compared_m > tap.stored_m ? fmt::format("{} behind", length_text(tap.compared_m - tap.stored_m))
                                     : fmt::format("{} before", length_text(tap.stored_m - tap.compared_m)),
       tap.shown_lit ? "lit" : "dark");
@@ -113,9 +124,9 @@ std::string right_text(const ReceiverSection& section, const SectionTap& tap) {
         "{} But it does so by luck: the exact map stores in {} a depth {} the compared depth, which makes the tap {}, "
         "and "
         "the rounding of OpenGL's map, which stores a depth {} the exact one, turns it.",
-        same, texel_text(tap), nearer_text(tap.exact_m, tap.compared_m), tap.lit ? "lit" : "dark",
+        same, texel_text(section, tap), nearer_text(tap.exact_m, tap.compared_m), tap.lit ? "lit" : "dark",
         nearer_text(tap.stored_m, tap.exact_m));
-  return fmt::format("{} The exact map stores in {} a depth {} the compared depth.", same, texel_text(tap),
+  return fmt::format("{} The exact map stores in {} a depth {} the compared depth.", same, texel_text(section, tap),
                      nearer_text(tap.exact_m, tap.compared_m));
 }
 
@@ -133,7 +144,7 @@ std::string cause_text(const ReceiverSection& section) {
     case Cause::coverage_light:
       return coverage_text(section, tap);
     case Cause::precision:
-      return precision_text(tap);
+      return precision_text(section, tap);
     case Cause::filter:
       return filter_text(section);
     case Cause::displacement:

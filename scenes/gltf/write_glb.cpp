@@ -95,9 +95,9 @@ void add_camera(const Camera& camera, tinygltf::Model& model) {
   model.nodes.push_back(std::move(node));
 }
 
-void add_light(const Light& light, tinygltf::Model& model) {
+void add_light(const Light& light, const std::string& name, tinygltf::Model& model) {
   tinygltf::Light made;
-  made.name = "light";
+  made.name = name;
   made.intensity = light.power.intensity;
   made.color = {light.power.color.x, light.power.color.y, light.power.color.z};
   made.range = light.power.range_m.value_or(0);  // tinygltf writes no range of 0
@@ -111,16 +111,18 @@ void add_light(const Light& light, tinygltf::Model& model) {
     node.name = made.name;
     node.translation = {light.position_m.x, light.position_m.y, light.position_m.z};
   } else {
-    node = looking("light", light.position_m, light.target_m, {0, 1, 0});
+    node = looking(name.c_str(), light.position_m, light.target_m, {0, 1, 0});
   }
-  node.extensions["KHR_lights_punctual"] = tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(0)}});
+  const auto number = static_cast<int>(model.lights.size());
+  node.extensions["KHR_lights_punctual"] = tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(number)}});
   model.lights.push_back(std::move(made));
   model.nodes.push_back(std::move(node));
 }
 
 }  // namespace
 
-std::string glb_of(const Scene& scene, const Camera& camera, const Light& light) {
+std::string glb_of(const Scene& scene, const Camera& camera, const Light& light,
+                   std::span<const Named<Light>> more_lights) {
   tinygltf::Model model;
   model.asset.version = "2.0";
   model.asset.generator = "Noonmark";
@@ -156,7 +158,10 @@ std::string glb_of(const Scene& scene, const Camera& camera, const Light& light)
   }
   add_part("rest", written, scene.triangles.size());
   add_camera(camera, model);
-  add_light(light, model);
+  const auto name_of = [](const Named<Light>& one) { return one.name.empty() ? one.node : one.name; };
+  add_light(light, more_lights.empty() || scene.lights.empty() ? "light" : name_of(scene.lights.front()), model);
+  for (const Named<Light>& more : more_lights)
+    if (more.value) add_light(*more.value, name_of(more), model);
   tinygltf::Scene all;
   for (size_t n = 0; n < model.nodes.size(); ++n) all.nodes.push_back(static_cast<int>(n));
   model.scenes.push_back(std::move(all));

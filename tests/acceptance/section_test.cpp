@@ -299,6 +299,57 @@ TEST(SectionWords, SayTheBiasThatIsMissing) {
       << report::section_words(section)[0];
 }
 
+// Of a cube the face is named, and the texel is counted in it: the faces stand one above the other in the map's image.
+TEST(SectionWords, NameTheFaceOfACube) {
+  ReceiverSection section;
+  SectionTap tap;
+  tap.texel = {12, 4 * 64 + 40};
+  tap.tile = 4;
+  section.taps = {tap};
+  section.truth = section.soft_truth = 1;
+  section.map_size = {64, 6 * 64};
+  section.light = "point";
+  EXPECT_NE(report::section_words(section)[0].find("texel (12, 40) of the cube's face +Z"), std::string::npos)
+      << report::section_words(section)[0];
+}
+
+TEST(SectionTaps, KnowTheFaceThatTheyRead) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement m = bench.measure(small("point-room", 96, 54), std::nullopt);
+  const ReceiverSection section = bench.sections(m, std::array{middle_of(m)}).front();
+  const SectionTap& tap = section.taps.at(0);
+  EXPECT_EQ(tap.tile, section.tile);
+  EXPECT_EQ(tap.tile, tap.texel.y / section.map_size.x);
+  EXPECT_NE(report::section_words(section)[0].find("of the cube's face"), std::string::npos);
+}
+
+// Each ring of the drawing has a line in the legend, also of a cause that is not the pixel's.
+TEST(SectionPicture, ExplainsTheRingsOfAllCauses) {
+  ReceiverSection section;
+  SectionTap tap;
+  tap.reference_m = 8;
+  tap.compared_m = tap.exact_m = tap.stored_m = 7.99;
+  section.taps.assign(4, tap);
+  section.taps[1].cause = Cause::acne;
+  section.taps[2].cause = Cause::aliasing_light;
+  section.taps[3].cause = Cause::acne;
+  section.cause = Cause::filter;
+  section.reach = 2;
+  section.texel_m = 0.01;
+  section.reference_m = section.receiver_m = 8;
+  const std::string drawn = report::section_svg(section, report::SectionTheme::light);
+  const auto times = [&](const std::string& text) {
+    size_t count = 0;
+    for (size_t at = drawn.find(text); at != std::string::npos; at = drawn.find(text, at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(times("a wrong tap: "), 2u);
+  EXPECT_EQ(times("a wrong tap: Acne (too dark)"), 1u);
+  EXPECT_EQ(times("a wrong tap: Aliasing, too light"), 1u);
+  section.taps.assign(1, tap);
+  EXPECT_EQ(report::section_svg(section, report::SectionTheme::light).find("a wrong tap"), std::string::npos);
+}
+
 // For a paper the colours are written out; for a screen the reader's scheme decides.
 TEST(SectionPicture, HasTheColoursOfItsTheme) {
   Workbench bench(gl::DebugMode::fatal);

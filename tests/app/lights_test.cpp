@@ -13,7 +13,9 @@
 #include "app/sweep/sweep.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "compare/judge/tradeoff.h"
 #include "compare/report/lights_section.h"
+#include "compare/report/opening.h"
 #include "measure/lights_frame.h"
 #include "tests/scenes/gltf/files.h"
 
@@ -221,6 +223,19 @@ TEST_F(LightsRun, ResumesWithTheLightsItHasNow) {
   EXPECT_TRUE(std::filesystem::exists(folder + "/out/images/p0000-lights-shown.png"));
   EXPECT_NE(read_file(folder + "/out/report.html").find("id=\"lights\""), std::string::npos);
   EXPECT_NE(report::lights_sentence(all).html().find("Together the 3 lights"), std::string::npos);
+
+  // The page speaks of one light: that of the sentence, with the bias as set.
+  const PointRecord* const largest = report::largest_light(all);
+  ASSERT_NE(largest, nullptr);
+  for (size_t i = 0; i < 3; ++i) EXPECT_LE(metric(all, i, "light_share"), largest->metrics.at("light_share"));
+  EXPECT_NE(report::lights_sentence(all).html().find("<b>" + largest->part + "</b> makes"), std::string::npos)
+      << report::lights_sentence(all).html();
+  const report::Opening opened = report::opening(all, compared_groups(all));
+  ASSERT_NE(opened.point, nullptr);
+  EXPECT_EQ(opened.point->id, largest->id);
+  EXPECT_FALSE(opened.bias);
+  EXPECT_TRUE(report::opens_as_set(all));
+  EXPECT_NE(largest->id, 0) << "then it would be the first one by chance";
 
   const SweepOutcome again = run(start + "lights = \"all\"\n");
   EXPECT_EQ(again.measured, 0);

@@ -107,6 +107,32 @@ TEST_F(CommandLine, ASecondSceneIsRefused) {
   }
 }
 
+// As an experiment with lights = "all" measures them; what chooses one of them is said.
+TEST_F(CommandLine, ExportWritesAllLightsOfAFrame) {
+  ASSERT_EQ(run({"export", "lab", "--out", "all.glb"}), 0) << output_;
+  EXPECT_TRUE(says("camera and 3 lights")) << output_;
+  EXPECT_FALSE(says("the one chosen")) << output_;
+  ASSERT_EQ(run({"inspect", "all.glb"}), 0) << output_;
+  for (const char* light : {"sun", "spot", "lamp"}) EXPECT_TRUE(says(light)) << output_;
+  ASSERT_EQ(run({"export", "lab", "--set", "light.name=spot", "--out", "one.glb"}), 0) << output_;
+  EXPECT_TRUE(says("camera and light")) << output_;
+  EXPECT_TRUE(says("note: lab has 3 lights, and the file has the one chosen")) << output_;
+}
+
+TEST_F(CommandLine, RenderNamesAMapThatIsTooCoarseForTheCamera) {
+  const auto render = [&](const std::string& resolution) {
+    ASSERT_EQ(run({"render", "--set", "scene.name=cube-room", "--set", "view.width_px=96", "--set", "view.height_px=54",
+                   "--set", "map.resolution=" + resolution}),
+              0)
+        << output_;
+  };
+  render("32");
+  EXPECT_TRUE(says("perspective_aliasing ")) << output_;
+  EXPECT_TRUE(says("perspective_aliasing_p95 ")) << output_;
+  render("2048");
+  EXPECT_FALSE(says("perspective_aliasing")) << output_;
+}
+
 TEST_F(CommandLine, HelpAndVersionAreVerbsToo) {
   for (const std::string& verb : verbs()) {
     SCOPED_TRACE(verb);

@@ -25,6 +25,10 @@ saw.labels = all('.budget .name').map(function(e) {
 saw.cut = all('.budget .name').filter(function(e) {
   return e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1;
 }).length;
+saw.stacked = all('table.stacked').length;
+saw.stacked_that_scroll = all('.scroll').filter(function(e) {
+  return e.querySelector('table.stacked') && e.scrollWidth > e.clientWidth + 1;
+}).length;
 // Where the numbers of a column have their point, in pixels: the right edge of the digits before it.
 saw.points = {};
 all('table.sortable').forEach(function(table) {

@@ -92,6 +92,19 @@ std::string index() {
   return index_page({entry, entry}, "0.1.0");
 }
 
+std::string with_lights() {
+  Results results = long_names();
+  results.points.resize(3);
+  for (PointRecord& point : results.points) {
+    point.part = "the_light_over_the_table_number_" + std::to_string(point.id);
+    point.metrics["lights_frame"] = 0;
+    for (const char* metric : {"lights_error", "lights_rmse", "lights_flip", "light_weight", "light_error"})
+      point.metrics[metric] = 0.0123456;
+    point.metrics["light_share"] = point.id == 1 ? 0.6 : 0.2;
+  }
+  return render_report(results, sample_picture);
+}
+
 std::string with_phase() {
   Results results = long_names();
   results.phases = {sample_phase()};
@@ -105,6 +118,7 @@ struct Page {
 const Page pages[] = {
     {"sweep", [] { return render_report(long_names(), sample_picture); }},
     {"phase", with_phase},
+    {"lights", with_lights},
     {"parts", [] { return render_report(parts_and_laws(), sample_picture); }},
     {"map", [] { return render_phase(sample_phase()); }},
     {"index", index},
@@ -129,12 +143,14 @@ TEST_P(Width, NoPageScrollsSideways) {
   EXPECT_LE(saw_["needed"], saw_["width"]);
   EXPECT_LE(saw_["needed_unfolded"], saw_["width"]) << "with all that is folded unfolded";
   EXPECT_EQ(saw_["cut"], 0) << "labels of the error budget";
+  EXPECT_EQ(saw_["stacked_that_scroll"], 0) << "tables whose rows are lists on a narrow screen";
+  EXPECT_EQ(saw_["stacked"], page.name == std::string("lights") ? 1 : 0);
 }
 INSTANTIATE_TEST_SUITE_P(Layout, Width,
-                         testing::Combine(testing::Values("400,900", "1280,900"), testing::ValuesIn(pages)),
+                         testing::Combine(testing::Values("400,900", "500,900", "1280,900"), testing::ValuesIn(pages)),
                          [](const auto& test) {
                            return std::string(std::get<1>(test.param).name) +
-                                  (std::string(std::get<0>(test.param)) == "400,900" ? "400" : "1280");
+                                  std::to_string(std::stoi(std::get<0>(test.param)));
                          });
 
 // A live picture of 2 x 1 pixels (compare/ladder/live_picture.h): both are lit from the bias 0.001 on.

@@ -74,6 +74,26 @@ TEST_F(WriteGlb, KeepsALightFromStraightAboveAndAnOrthographicCamera) {
   EXPECT_LT(glm::distance(travels(read.light), glm::dvec3(0, -1, 0)), rotation_rounding);
 }
 
+TEST_F(WriteGlb, KeepsAllLightsOfASceneInTheirOrder) {
+  Scene scene;
+  for (const BuiltinScene& builtin : builtin_scenes())
+    if (builtin.name == std::string("lab")) scene = builtin.make({});
+  ASSERT_EQ(scene.lights.size(), 3u);
+  const Scene read = load_gltf(folder_.write(
+      "scene.glb", glb_of(scene, effective_camera(scene, {}), scene.light, std::span(scene.lights).subspan(1))));
+  ASSERT_EQ(read.lights.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(read.lights[i].name, scene.lights[i].name);
+    ASSERT_TRUE(read.lights[i].value) << read.lights[i].why_not;
+    const Light &there = *read.lights[i].value, &here = *scene.lights[i].value;
+    EXPECT_EQ(there.kind, here.kind);
+    if (here.kind != LightKind::directional) {
+      EXPECT_EQ(there.position_m, here.position_m);
+    }
+    EXPECT_NEAR(there.power.intensity, here.power.intensity, 1e-6 * here.power.intensity);
+  }
+}
+
 TEST_F(WriteGlb, KeepsWhichTrianglesAreSeenFromTheFrontOnly) {
   Scene scene = builtin_scenes().front().make({});
   scene.single_sided.assign(scene.triangles.size(), false);
