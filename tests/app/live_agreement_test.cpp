@@ -138,6 +138,49 @@ TEST_P(LivePage, AgreesWithTheProgram) {
   for (const char* metric : {"error", "acne", "peter_panning", "filter", "displacement"})
     EXPECT_GT(largest[metric], tolerance) << metric;
 }
+// What a slider, a choice and the address set is in all three of them, and in the picture.
+class LiveState : public Browser {
+ protected:
+  void SetUp() override {
+    more_flags_ = " --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader";
+    timeout_s_ = 600;
+    const Settings settings = small_picture("cube-room");
+    open(live_page(make_scene(settings.scene), settings, "0.1.0"), "../../app/live_state_probe.js");
+  }
+};
+
+TEST_F(LiveState, StandsInTheAddressAndInTheControls) {
+  if (IsSkipped() || HasFatalFailure()) return;
+  const json &began = saw_["began"], &moved = saw_["moved"], &chosen = saw_["chosen"], &addressed = saw_["addressed"];
+  EXPECT_EQ(began["address"]["bias.normal_offset"], "0");
+  EXPECT_EQ(began["address"].size(), 10u) << "every setting of the page";
+
+  EXPECT_EQ(moved["address"]["bias.normal_offset"], "2") << "two fifths of the slider's 5 texels";
+  EXPECT_EQ(moved["offset"], "2");
+  EXPECT_NE(moved["says"], began["says"]);
+  EXPECT_NE(moved["picture"], began["picture"]);
+
+  EXPECT_EQ(chosen["address"]["map.format"], "16");
+  EXPECT_EQ(chosen["address"]["bias.normal_offset"], "2") << "what was set before stays";
+
+  EXPECT_EQ(addressed["constant"], "0.2");
+  EXPECT_EQ(addressed["filter"], "box 5 × 5");
+  EXPECT_EQ(addressed["offset"], "0") << "what the address does not name is as the page began";
+  EXPECT_EQ(addressed["slider"], 0);
+  EXPECT_EQ(addressed["format"], began["format"]);
+  EXPECT_NE(addressed["picture"], moved["picture"]);
+  EXPECT_EQ(addressed["address"]["filter.size"], "5");
+}
+
+TEST_F(LiveState, IsAsItBeganWhereTheAddressIsWrong) {
+  if (IsSkipped() || HasFatalFailure()) return;
+  const json &began = saw_["began"], &refused = saw_["refused"], &reset = saw_["reset"];
+  EXPECT_NE(refused["says"].get<std::string>().find("bias.constant = moon"), std::string::npos) << refused["says"];
+  EXPECT_EQ(refused["picture"], began["picture"]);
+  EXPECT_EQ(reset["says"], began["says"]);
+  EXPECT_EQ(reset["address"], began["address"]);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, LivePage, testing::Values("cube-room", "facade", "pillars"), [](const auto& test) {
   std::string name = test.param;
   std::erase(name, '-');
