@@ -92,7 +92,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
                                 d20, d21, d22] = s.map;
-  [[maybe_unused]] const auto& [g1] = s.truth;
+  [[maybe_unused]] const auto& [g1, g2] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
   // Unit, reference and plane_cap, and every parameter of a part.
   const int bias = 3 + static_cast<int>(bias_parameters().size());
@@ -105,7 +105,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
                                               {"map", 22},
                                               {"bias", bias},
                                               {"filter", filter},
-                                              {"truth", 1},
+                                              {"truth", 2},
                                               {"given", 1}}));
 }
 
