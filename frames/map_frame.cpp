@@ -37,7 +37,7 @@ MapFrame map_frame(const std::string& name, const LightFrame& light, const glm::
     if (!std::isfinite(inverse[i / 4][i % 4])) refuse_map(name, "the map's matrix has no inverse");
   MapFrame made{light};
   LightFrame& frame = made.frame;
-  frame.resolution = resolution;
+  frame.resolution = frame.rows = resolution;
   frame.anchor_m.reset();
   const glm::dvec3 x = row(m, 0), y = row(m, 1), z = row(m, 2), w = row(m, 3);
   const double width = glm::length(x), height = glm::length(y);

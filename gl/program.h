@@ -30,6 +30,7 @@ class Program {
   // Throws std::logic_error when the program has no such uniform in use.
   void set(const char* uniform, int value);
   void set(const char* uniform, float value);
+  void set(const char* uniform, glm::vec2 value);
   void set(const char* uniform, glm::vec3 value);
   void set(const char* uniform, const glm::mat4& value);
   void set(const char* uniform, std::span<const glm::mat4> values);

@@ -198,17 +198,16 @@ void Renderer::load_scene(const Scene& scene) {
 
 ShadowMap::Impl::~Impl() {
   context->make_current();
-  if (const auto kept = spares.lock()) kept->put({std::move(depth), format, resolution, elsewhere, std::move(written)});
+  if (const auto kept = spares.lock()) kept->put({std::move(depth), format, size, elsewhere, std::move(written)});
 }
 
 ShadowMap::ShadowMap(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ShadowMap::ShadowMap(ShadowMap&&) noexcept = default;
 ShadowMap& ShadowMap::operator=(ShadowMap&&) noexcept = default;
 ShadowMap::~ShadowMap() = default;
-int ShadowMap::resolution() const { return impl_->resolution; }
+glm::ivec2 ShadowMap::size() const { return impl_->size; }
 size_t ShadowMap::texels() const {
-  const auto side = static_cast<size_t>(impl_->resolution);
-  return (impl_->cube ? 6 : 1) * side * side;
+  return (impl_->cube ? 6 : 1) * static_cast<size_t>(impl_->size.x) * static_cast<size_t>(impl_->size.y);
 }
 
 }  // namespace noonmark::gl

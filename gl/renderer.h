@@ -71,8 +71,8 @@ class ShadowMap {
   ShadowMap(ShadowMap&&) noexcept;
   ShadowMap& operator=(ShadowMap&&) noexcept;
   ~ShadowMap();
-  int resolution() const;
-  size_t texels() const;  // of all its faces
+  glm::ivec2 size() const;  // texels of one of its faces
+  size_t texels() const;    // of all its faces
 
  private:
   friend class Renderer;

@@ -29,7 +29,7 @@ struct ShadowMap::Impl {
   // Keeps the context alive, because the texture belongs to it. A map may exist longer than its Renderer.
   std::shared_ptr<EglContext> context;
   Texture depth;
-  int resolution = 0;
+  glm::ivec2 size{0};  // texels of a face
   bool cube = false;
   Wrap wrap = Wrap::clamp_to_border;
   // Of a flat map: where its texture goes in the end, and what is known of it (TiledMap).
@@ -41,14 +41,14 @@ struct ShadowMap::Impl {
   Impl(std::shared_ptr<EglContext> owner, const std::shared_ptr<SpareMaps>& ends_in, TiledMap map, Wrap mode)
       : context(std::move(owner)),
         depth(std::move(map.texture)),
-        resolution(map.side),
+        size(map.size),
         wrap(mode),
         spares(ends_in),
         format(map.format),
         elsewhere(map.elsewhere),
         written(std::move(map.written)) {}
-  Impl(std::shared_ptr<EglContext> owner, Texture texture, int side, bool is_cube, Wrap mode)
-      : context(std::move(owner)), depth(std::move(texture)), resolution(side), cube(is_cube), wrap(mode) {}
+  Impl(std::shared_ptr<EglContext> owner, Texture texture, glm::ivec2 texels, bool is_cube, Wrap mode)
+      : context(std::move(owner)), depth(std::move(texture)), size(texels), cube(is_cube), wrap(mode) {}
   ~Impl();
 };
 
@@ -111,15 +111,15 @@ struct Renderer::Impl {
                      const std::function<void()>& draw);
 
   // Throw Error(usage) if the device or its memory does not allow such a map.
-  void check_resolution(int resolution, bool cube) const;
-  Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);
-  // Of a flat map: a spare one, or a new one. keep_spares_of: deletes the spare maps of other sides.
-  TiledMap spare_or_new(SpareMaps& spares, GLenum format, int resolution, Wrap wrap);
-  void keep_spares_of(int side);
+  void check_map_size(glm::ivec2 size, bool cube) const;
+  Texture make_map_texture(GLenum format, glm::ivec2 size, bool cube, Wrap wrap);
+  // Of a flat map: a spare one, or a new one. keep_spares_of: deletes the spare maps of other sizes.
+  TiledMap spare_or_new(SpareMaps& spares, GLenum format, glm::ivec2 size, Wrap wrap);
+  void keep_spares_of(glm::ivec2 size);
   // The wrap mode and what else the lookup's sampler needs to know of a map.
   static void set_sampling(const Texture& map, bool cube, Wrap wrap);
-  // A map of 32-bit floats. copy_row(y, row) writes row y of the map's image.
-  Texture upload_rows(const MapSettings& settings, bool cube, const std::function<void(int, float*)>& copy_row);
+  // A map of 32-bit floats, of faces of this size. copy_row(y, row) writes row y of the map's image.
+  Texture upload_rows(glm::ivec2 face, Wrap wrap, bool cube, const std::function<void(int, float*)>& copy_row);
   // A flat map of these depths. elsewhere: of the texels that are not in the set, in [0, 1].
   TiledMap upload_tiles(const MapDepths& map, float elsewhere, Wrap wrap);
   // The depths of a flat map at the texels of the set, by TexelSet::index. Throws Error(device).

@@ -69,7 +69,7 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const Technique& te
     const glm::dmat4 clip_from_light = glm::translate(clip_from_world, glm::dvec3(light_position));
     program.set("clip_from_world", glm::mat4(clip_from_world));
     program.set_if_used("clip_from_world_planes", glm::mat4(glm::transpose(glm::inverse(clip_from_light))));
-    program.set("resolution", frame.resolution);
+    program.set("map_size", glm::vec2(frame.tile_size()));
     program.set_if_used("direction_to_light", glm::vec3(frame.direction_to_light()));  // for parallel rays
     program.set_if_used("light_axis", glm::vec3(frame.forward));
     program.set_if_used("light_right", glm::vec3(frame.right));
@@ -103,11 +103,12 @@ Image<float> Renderer::lookup(const ShadowMap& map, const Technique& technique, 
   r.context->make_current();
   const LightFrame& frame = technique.frame;
   const TapPattern& pattern = technique.taps;
-  if (frame.resolution != map.resolution() || (frame.map_shape() == MapShape::cube) != map.impl_->cube)
-    throw Error(ErrorKind::defect,
-                fmt::format("lookup: the light's frame is for {} face(s) of {} texels, the map has "
-                            "{} of {}",
-                            frame.tiles, frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
+  if (frame.tile_size() != map.size() || (frame.map_shape() == MapShape::cube) != map.impl_->cube)
+    throw Error(
+        ErrorKind::defect,
+        fmt::format("lookup: the light's frame is for {} face(s) of {} x {} texels, the map has "
+                    "{} of {} x {}",
+                    frame.tiles, frame.resolution, frame.rows, map.impl_->cube ? 6 : 1, map.size().x, map.size().y));
   const ShaderSlots slots = lookup_slots(r.programs, technique);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, slots);
   r.set_receiver_uniforms(program, technique);

@@ -63,7 +63,7 @@ Texture Renderer::Impl::draw_cells(Program& program, const LightFrame& frame, Te
   glDisable(GL_SCISSOR_TEST);
   program.set_if_used("cell", glm::vec2(0));
   if (cells.size() == 1) return map;
-  Texture ordered = make_map_texture(format, frame.resolution, false, wrap);
+  Texture ordered = make_map_texture(format, frame.tile_size(), false, wrap);
   for (const LightFrame::Cell& part : cells) {
     const glm::ivec2 size = part.end - part.first;
     glCopyImageSubData(map.id(), GL_TEXTURE_2D, 0, part.first.x, part.first.y, 0, ordered.id(), GL_TEXTURE_2D, 0,
@@ -77,15 +77,15 @@ ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std:
   r.context->make_current();
   const LightFrame& frame = technique.frame;
   const MapSettings& map = technique.settings.map;
-  const int side = map.resolution;
-  if (frame.resolution != side)
+  const glm::ivec2 size = frame.tile_size();
+  if (size.x != map.resolution)
     throw Error(ErrorKind::defect, fmt::format("render_map: the light's frame is for {} texels, the settings for {}",
-                                               frame.resolution, side));
+                                               size.x, map.resolution));
   const bool cube = frame.map_shape() == MapShape::cube;
   const bool layered = cube && map.cube_pass == CubePass::layered;
   TiledMap flat;  // unless it is a cube
-  if (!cube) flat = r.spare_or_new(*r.drawn, gl_format(map.format), side, map.wrap);
-  Texture depth = cube ? r.make_map_texture(gl_format(map.format), side, cube, map.wrap) : std::move(flat.texture);
+  if (!cube) flat = r.spare_or_new(*r.drawn, gl_format(map.format), size, map.wrap);
+  Texture depth = cube ? r.make_map_texture(gl_format(map.format), size, cube, map.wrap) : std::move(flat.texture);
   Program& program = r.programs.get(
       !cube     ? ShaderStages{"shaders/scene.vert", "shaders/depth.frag"}
       : layered ? ShaderStages{"shaders/cube_layers.vert", "shaders/distance.frag", "shaders/cube_layers.geom"}
@@ -113,7 +113,7 @@ ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std:
   // As an engine draws it, at once: the cell of the map itself. If the map is snapped this is what is timed, but a
   // rasteriser rounds a triangle's depths by its place in the window, so that the map would change by that when it moves.
   if (!cube)
-    program.set_if_used("cell", glm::vec2(frame.anchor_m ? frame.anchor_texels / double(side) : glm::dvec2(0)));
+    program.set_if_used("cell", glm::vec2(frame.anchor_m ? frame.anchor_texels / glm::dvec2(size) : glm::dvec2(0)));
   if (layered)
     program.set("clip_from_world", std::span<const glm::mat4>(clip_from_world));
   else
@@ -124,7 +124,7 @@ ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std:
     moved = make_buffer(casters.data(), casters.size() * sizeof(glm::vec3));
     glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, moved.id(), 0, sizeof(glm::vec3));
   }
-  r.draw_into({}, depth.id(), side, side);  // all layers if it is a cube
+  r.draw_into({}, depth.id(), size.x, size.y);  // all layers if it is a cube
   const std::optional<Bias::PolygonOffset> offset = technique.bias.polygon_offset();
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);
@@ -143,7 +143,7 @@ ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std:
   if (!casters.empty()) glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, r.positions.id(), 0, sizeof(glm::vec3));
   r.detach(0);
   r.context->check("render_map");
-  if (cube) return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), side, cube, map.wrap));
+  if (cube) return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), size, cube, map.wrap));
   flat.texture = std::move(depth);
   return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, r.drawn, std::move(flat), map.wrap));
 }
@@ -151,20 +151,21 @@ ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std:
 int64_t Renderer::used_texels(const ShadowMap& map) {
   Impl& r = *impl_;
   r.context->make_current();
-  const int side = map.resolution(), faces = map.impl_->cube ? 6 : 1;
+  const glm::ivec2 size = map.size();
+  const int faces = map.impl_->cube ? 6 : 1;
   int64_t used = 0;
-  // After a query llvmpipe keeps the map until the next but one, which is 268 MB for a side of 8192. Such a map is read back.
+  // After a query llvmpipe keeps the map until the next but one, which is 268 MB for 8192 x 8192. Such a map is read back.
   constexpr size_t most_queried = size_t{1} << 25;
   if (map.texels() > most_queried) {
     constexpr int band = 256;
-    for (int row = 0; row < faces * side; row += band) {
-      const Image<float> rows = read_rows(map, row, std::min(band, faces * side - row));
+    for (int row = 0; row < faces * size.y; row += band) {
+      const Image<float> rows = read_rows(map, row, std::min(band, faces * size.y - row));
       used += std::count_if(rows.pixels.begin(), rows.pixels.end(), [](float depth) { return depth < far_depth; });
     }
     return used;
   }
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/depth.frag"});
-  r.draw_into({}, map.impl_->depth.id(), side, side);
+  r.draw_into({}, map.impl_->depth.id(), size.x, size.y);
   GLuint query = 0;
   glCreateQueries(GL_SAMPLES_PASSED, 1, &query);
   glDepthRange(1, 1);  // a depth of 1 passes where the map is nearer
@@ -198,8 +199,8 @@ double Renderer::polygon_offset_unit(DepthFormat format) {
   // The depth of a triangle parallel to the image plane, at half the range.
   const auto depth_with = [&](double offset) {
     ShadowMap map(std::make_unique<ShadowMap::Impl>(
-        r.context, r.make_map_texture(gl_format(format), 1, false, Wrap::clamp_to_edge), 1, false,
-        Wrap::clamp_to_edge));
+        r.context, r.make_map_texture(gl_format(format), glm::ivec2(1), false, Wrap::clamp_to_edge), glm::ivec2(1),
+        false, Wrap::clamp_to_edge));
     r.draw_into({}, map.impl_->depth.id(), 1, 1);
     glClearBufferfv(GL_DEPTH, 0, &far_depth);
     glEnable(GL_POLYGON_OFFSET_FILL);

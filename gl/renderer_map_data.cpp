@@ -15,11 +15,12 @@ namespace {
 constexpr int largest_cube = 4096;
 
 // Maps are uploaded and read in bands of at most 16 MiB, so that a large one is nowhere held a second time.
-int rows_of_band(int side) { return std::clamp((1 << 22) / side, 1, side); }
+int rows_of_band(glm::ivec2 size) { return std::clamp((1 << 22) / size.x, 1, size.y); }
 
 void require_size(glm::ivec2 size, const MapSettings& settings, bool cube) {
   const int faces = cube ? 6 : 1;
-  if (size.x == settings.resolution && size.y == faces * size.x) return;
+  const int most = cube ? faces * size.x : settings.rows(), least = cube || settings.aspect ? most : 1;
+  if (size.x == settings.resolution && least <= size.y && size.y <= most) return;
   throw Error(ErrorKind::defect, fmt::format("upload_map: the image is {} x {}, the settings ask for {} face(s) of {} "
                                              "texels",
                                              size.x, size.y, faces, settings.resolution));
@@ -51,39 +52,40 @@ GLint gl_wrap(Wrap wrap) {
   throw std::logic_error("a wrap mode without an OpenGL mode");
 }
 
-void Renderer::Impl::check_resolution(int resolution, bool cube) const {
-  if (cube && resolution > largest_cube)
+void Renderer::Impl::check_map_size(glm::ivec2 size, bool cube) const {
+  if (cube && size.x > largest_cube)
     throw Error(ErrorKind::usage,
                 fmt::format("a point light's cube map of six faces of {0} x {0} texels takes too much memory; "
                             "map.resolution goes up to {1} for point lights",
-                            resolution, largest_cube));
-  if (resolution < 1 || resolution > info.max_map_resolution)
+                            size.x, largest_cube));
+  if (std::min(size.x, size.y) < 1 || std::max(size.x, size.y) > info.max_map_resolution)
     throw Error(ErrorKind::usage,
-                fmt::format("a shadow map of {0} x {0} texels cannot be made; map.resolution goes from 1 to "
-                            "{1} on this OpenGL device ({2})",
-                            resolution, info.max_map_resolution, info.renderer));
+                fmt::format("a shadow map of {} x {} texels cannot be made; map.resolution{} from 1 to "
+                            "{} on this OpenGL device ({})",
+                            size.x, size.y, size.x == size.y ? " goes" : " and the rows of map.aspect go",
+                            info.max_map_resolution, info.renderer));
 }
 
-Texture Renderer::Impl::make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap) {
-  check_resolution(resolution, cube);
-  keep_spares_of(cube ? 0 : resolution);
-  Texture texture = make_texture(format, resolution, resolution, cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D);
-  check_memory("a shadow map", resolution, resolution);
+Texture Renderer::Impl::make_map_texture(GLenum format, glm::ivec2 size, bool cube, Wrap wrap) {
+  check_map_size(size, cube);
+  keep_spares_of(cube ? glm::ivec2(0) : size);
+  Texture texture = make_texture(format, size.x, size.y, cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D);
+  check_memory("a shadow map", size.x, size.y);
   set_sampling(texture, cube, wrap);
   return texture;
 }
 
-TiledMap Renderer::Impl::spare_or_new(SpareMaps& spares, GLenum format, int resolution, Wrap wrap) {
-  keep_spares_of(resolution);
-  std::optional<TiledMap> spare = spares.take(format, resolution);
-  if (!spare) return {make_map_texture(format, resolution, false, wrap), format, resolution};
+TiledMap Renderer::Impl::spare_or_new(SpareMaps& spares, GLenum format, glm::ivec2 size, Wrap wrap) {
+  keep_spares_of(size);
+  std::optional<TiledMap> spare = spares.take(format, size);
+  if (!spare) return {make_map_texture(format, size, false, wrap), format, size};
   set_sampling(spare->texture, false, wrap);
   return std::move(*spare);
 }
 
-void Renderer::Impl::keep_spares_of(int side) {
-  uploaded->keep_only(side);
-  drawn->keep_only(side);
+void Renderer::Impl::keep_spares_of(glm::ivec2 size) {
+  uploaded->keep_only(size);
+  drawn->keep_only(size);
 }
 
 void Renderer::Impl::set_sampling(const Texture& map, bool cube, Wrap wrap) {
@@ -96,20 +98,21 @@ void Renderer::Impl::set_sampling(const Texture& map, bool cube, Wrap wrap) {
   glTextureParameteri(map.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
 }
 
-Texture Renderer::Impl::upload_rows(const MapSettings& settings, bool cube,
+Texture Renderer::Impl::upload_rows(glm::ivec2 face_size, Wrap wrap, bool cube,
                                     const std::function<void(int, float*)>& copy_row) {
-  const int side = settings.resolution, rows = rows_of_band(side);
-  Texture texture = make_map_texture(GL_DEPTH_COMPONENT32F, side, cube, settings.wrap);
-  std::vector<float> band(static_cast<size_t>(side) * static_cast<size_t>(rows));
+  const int width = face_size.x, height = face_size.y, rows = rows_of_band(face_size);
+  Texture texture = make_map_texture(GL_DEPTH_COMPONENT32F, face_size, cube, wrap);
+  std::vector<float> band(static_cast<size_t>(width) * static_cast<size_t>(rows));
   for (int face = 0; face < (cube ? 6 : 1); ++face)
-    for (int first = 0; first < side; first += rows) {
-      const int count = std::min(rows, side - first);
+    for (int first = 0; first < height; first += rows) {
+      const int count = std::min(rows, height - first);
       for (int row = 0; row < count; ++row)
-        copy_row(face * side + first + row, &band[static_cast<size_t>(row) * static_cast<size_t>(side)]);
+        copy_row(face * height + first + row, &band[static_cast<size_t>(row) * static_cast<size_t>(width)]);
       if (cube)
-        glTextureSubImage3D(texture.id(), 0, 0, first, face, side, count, 1, GL_DEPTH_COMPONENT, GL_FLOAT, band.data());
+        glTextureSubImage3D(texture.id(), 0, 0, first, face, width, count, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                            band.data());
       else
-        glTextureSubImage2D(texture.id(), 0, 0, first, side, count, GL_DEPTH_COMPONENT, GL_FLOAT, band.data());
+        glTextureSubImage2D(texture.id(), 0, 0, first, width, count, GL_DEPTH_COMPONENT, GL_FLOAT, band.data());
     }
   context->check("upload_map");
   return texture;
@@ -121,9 +124,10 @@ ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& set
   const bool cube = shape == MapShape::cube;
   require_size({depth.width, depth.height}, settings, cube);
   require_depths(depth.pixels);
-  Texture texture =
-      r.upload_rows(settings, cube, [&](int y, float* row) { std::copy_n(&depth.at(0, y), depth.width, row); });
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), depth.width, cube, settings.wrap));
+  const glm::ivec2 face(depth.width, cube ? depth.width : depth.height);
+  Texture texture = r.upload_rows(face, settings.wrap, cube,
+                                  [&](int y, float* row) { std::copy_n(&depth.at(0, y), depth.width, row); });
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), face, cube, settings.wrap));
 }
 
 ShadowMap Renderer::upload_map(const MapDepths& map, const MapSettings& settings, MapShape shape) {
@@ -132,12 +136,13 @@ ShadowMap Renderer::upload_map(const MapDepths& map, const MapSettings& settings
   const bool cube = shape == MapShape::cube;
   require_size(map.size(), settings, cube);
   require_depths(map.depth);
-  const int side = map.size().x;
-  const bool whole = map.texels->count() == static_cast<size_t>(side) * static_cast<size_t>(map.size().y);
+  const glm::ivec2 size = map.size();
+  const bool whole = map.texels->count() == static_cast<size_t>(size.x) * static_cast<size_t>(size.y);
   if (!whole) require_depths({&map.elsewhere, 1});
   if (cube) {
-    Texture texture = r.upload_rows(settings, cube, [&](int y, float* row) { map.copy_row(y, row); });
-    return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), side, cube, settings.wrap));
+    const glm::ivec2 face(size.x);
+    Texture texture = r.upload_rows(face, settings.wrap, cube, [&](int y, float* row) { map.copy_row(y, row); });
+    return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), face, cube, settings.wrap));
   }
   TiledMap tiled = r.upload_tiles(map, whole ? 1 : map.elsewhere, settings.wrap);  // of a whole map it says nothing
   r.context->check("upload_map");
@@ -147,7 +152,7 @@ ShadowMap Renderer::upload_map(const MapDepths& map, const MapSettings& settings
 void Renderer::release_deleted() {
   Impl& r = *impl_;
   r.context->make_current();
-  r.keep_spares_of(0);
+  r.keep_spares_of(glm::ivec2(0));
   // A draw without textures: what the driver has bound for the draw before is bound no longer.
   r.require(r.map_strip, GL_R32F, 1, 1);
   r.draw_into({r.map_strip.texture.id()}, 0, 1, 1);
@@ -160,24 +165,25 @@ void Renderer::release_deleted() {
 Image<float> Renderer::read_rows(const ShadowMap& map, int first_row, int count) {
   Impl& r = *impl_;
   r.context->make_current();
-  const int side = map.resolution(), faces = map.impl_->cube ? 6 : 1, band = rows_of_band(side);
-  if (first_row < 0 || count < 0 || first_row + count > faces * side)
+  const int width = map.size().x, height = map.size().y;
+  const int faces = map.impl_->cube ? 6 : 1, band = rows_of_band(map.size());
+  if (first_row < 0 || count < 0 || first_row + count > faces * height)
     throw Error(ErrorKind::defect,
-                fmt::format("read_rows: {} rows from {} on of a map of {}", count, first_row, faces * side));
-  r.require(r.map_strip, GL_R32F, side, band);
+                fmt::format("read_rows: {} rows from {} on of a map of {}", count, first_row, faces * height));
+  r.require(r.map_strip, GL_R32F, width, band);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/read_map.frag"});
-  Image<float> image(side, count);
-  r.draw_into({r.map_strip.texture.id()}, 0, side, band);
+  Image<float> image(width, count);
+  r.draw_into({r.map_strip.texture.id()}, 0, width, band);
   for (int row = first_row; row < first_row + count;) {
-    const int face = row / side, in_face = row % side;
-    const int rows = std::min({band, side - in_face, first_row + count - row});
+    const int face = row / height, in_face = row % height;
+    const int rows = std::min({band, height - in_face, first_row + count - row});
     Texture view;  // one face as a flat map with the same texels
     if (map.impl_->cube) view = make_face_view(map.impl_->depth, face);
     glBindTextureUnit(2, view ? view.id() : map.impl_->depth.id());
     program.set("first_row", in_face);
     r.draw_screen(program);
-    const size_t texels = static_cast<size_t>(side) * static_cast<size_t>(rows);
-    glGetTextureSubImage(r.map_strip.texture.id(), 0, 0, 0, 0, side, rows, 1, GL_RED, GL_FLOAT,
+    const size_t texels = static_cast<size_t>(width) * static_cast<size_t>(rows);
+    glGetTextureSubImage(r.map_strip.texture.id(), 0, 0, 0, 0, width, rows, 1, GL_RED, GL_FLOAT,
                          static_cast<GLsizei>(texels * sizeof(float)), &image.at(0, row - first_row));
     glBindTextureUnit(2, 0);
     row += rows;
@@ -188,7 +194,7 @@ Image<float> Renderer::read_rows(const ShadowMap& map, int first_row, int count)
 }
 
 Image<float> Renderer::read_map(const ShadowMap& map) {
-  return read_rows(map, 0, (map.impl_->cube ? 6 : 1) * map.resolution());
+  return read_rows(map, 0, (map.impl_->cube ? 6 : 1) * map.size().y);
 }
 
 MapDepths Renderer::read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels) {
@@ -199,7 +205,7 @@ MapDepths Renderer::read_map(const ShadowMap& map, const std::shared_ptr<const T
     impl_->read_listed(map.impl_->depth.id(), *texels, found.depth);
     return found;
   }
-  const int band = rows_of_band(map.resolution());
+  const int band = rows_of_band(map.size());
   for (int first = 0; first < texels->size().y; first += band) {
     const Image<float> rows = read_rows(map, first, std::min(band, texels->size().y - first));
     for (int row = 0; row < rows.height; ++row)

@@ -54,9 +54,8 @@ void write_tiles(GLuint texture, const MapDepths& map, float elsewhere, const st
 }  // namespace
 
 TiledMap Renderer::Impl::upload_tiles(const MapDepths& map, float elsewhere, Wrap wrap) {
-  const int side = map.size().x;
   const TexelSet& texels = *map.texels;
-  TiledMap made = spare_or_new(*uploaded, GL_DEPTH_COMPONENT32F, side, wrap);
+  TiledMap made = spare_or_new(*uploaded, GL_DEPTH_COMPONENT32F, map.size(), wrap);
   if (made.elsewhere != elsewhere) {
     glClearTexImage(made.texture.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &elsewhere);
     made.elsewhere = elsewhere;

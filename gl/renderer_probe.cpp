@@ -37,7 +37,7 @@ LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
   r.context->make_current();
   const LightFrame& frame = technique.frame;
   const bool cube = frame.map_shape() == MapShape::cube;
-  r.check_resolution(frame.resolution, cube);
+  r.check_map_size(frame.tile_size(), cube);
   Program& program =
       r.programs.get({"shaders/screen.vert", "shaders/probe.frag"}, receiver_slots(r.programs, frame, technique.bias));
   r.set_receiver_uniforms(program, technique);

@@ -1,14 +1,15 @@
-// Textures of flat maps that are looked up no more, for the next maps of the same side. What a texture of an uploaded map
+// Textures of flat maps that are looked up no more, for the next maps of the same size. What a texture of an uploaded map
 // holds is known, so that the next one writes only the tiles that hold something else (renderer_map_tiles.cpp). And new
 // memory costs more than it seems: the driver clears it, and the system gives it page by page.
 //
 //   SpareMaps spares(2);
 //   spares.put(std::move(map));                                              // at the end of a ShadowMap
-//   std::optional<TiledMap> next = spares.take(GL_DEPTH_COMPONENT32F, 1024);  // empty: make one
+//   std::optional<TiledMap> next = spares.take(GL_DEPTH_COMPONENT32F, {1024, 1024});  // empty: make one
 //
 // The context must be current for every call, because textures are deleted.
 #pragma once
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -22,7 +23,7 @@ namespace noonmark::gl {
 struct TiledMap {
   Texture texture;
   GLenum format = 0;
-  int side = 0;                                               // texels
+  glm::ivec2 size{0};                                         // texels
   float elsewhere = std::numeric_limits<float>::quiet_NaN();  // NaN: nothing is known, as of a drawn map
   std::vector<uint8_t>
       written{};  // for each tile of a TexelSet of this size: 1 if a texel of it may have another depth
@@ -35,9 +36,9 @@ class SpareMaps {
   // most: maps that are kept. Their memory is there already, so that put() allocates nothing: destructors call it.
   explicit SpareMaps(size_t most) : most_(most) { maps_.reserve(most); }
 
-  // Deletes the maps of other formats and sides.
-  std::optional<TiledMap> take(GLenum format, int side) {
-    std::erase_if(maps_, [&](const TiledMap& map) { return map.format != format || map.side != side; });
+  // Deletes the maps of other formats and sizes.
+  std::optional<TiledMap> take(GLenum format, glm::ivec2 size) {
+    std::erase_if(maps_, [&](const TiledMap& map) { return map.format != format || map.size != size; });
     if (maps_.empty()) return std::nullopt;
     TiledMap map = std::move(maps_.back());
     maps_.pop_back();
@@ -45,12 +46,12 @@ class SpareMaps {
   }
   // Deletes the map if there are enough.
   void put(TiledMap map) {
-    const auto side = static_cast<size_t>(map.side);
-    if (maps_.size() < most_ && side * side * sizeof(float) <= most_map_bytes) maps_.push_back(std::move(map));
+    const size_t texels = static_cast<size_t>(map.size.x) * static_cast<size_t>(map.size.y);
+    if (maps_.size() < most_ && texels * sizeof(float) <= most_map_bytes) maps_.push_back(std::move(map));
   }
-  // Deletes the maps of any other side. So they take no memory beside maps of another size.
-  void keep_only(int side) {
-    std::erase_if(maps_, [&](const TiledMap& map) { return map.side != side; });
+  // Deletes the maps of any other size. So they take no memory beside maps of another size.
+  void keep_only(glm::ivec2 size) {
+    std::erase_if(maps_, [&](const TiledMap& map) { return map.size != size; });
   }
   void clear() { maps_.clear(); }
   size_t count() const { return maps_.size(); }

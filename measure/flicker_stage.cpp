@@ -35,7 +35,7 @@ bool same_map(const LightFrame& a, const LightFrame& b) {
          a.anchor_texels == b.anchor_texels && a.ray_direction == b.ray_direction && a.right == b.right &&
          a.up == b.up && a.forward == b.forward && a.extent_m == b.extent_m && a.tan_half_fov == b.tan_half_fov &&
          a.cos_half_cone == b.cos_half_cone && a.shift_texels == b.shift_texels && a.cube_axes == b.cube_axes &&
-         a.near_m == b.near_m && a.far_m == b.far_m && a.resolution == b.resolution;
+         a.near_m == b.near_m && a.far_m == b.far_m && a.tile_size() == b.tile_size();
 }
 
 // How far from the place looked up a tap may read, in texels of a flat map: its offset, the texel that it snaps to or
@@ -57,7 +57,7 @@ bool holds(const LightFrame& frame, glm::dvec3 world, double reach) {
   if (!(depth >= 0 && depth <= 1)) return false;
   if (frame.map_shape() == MapShape::cube) return true;
   const glm::dvec2 at = frame.map_texels(p);
-  return at.x >= reach && at.y >= reach && at.x <= frame.resolution - reach && at.y <= frame.resolution - reach;
+  return at.x >= reach && at.y >= reach && at.x <= frame.resolution - reach && at.y <= frame.rows - reach;
 }
 
 bool same_place(const Camera& a, const Camera& b) {

@@ -84,7 +84,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const Settings& s = input.settings;
   const double pixels = static_cast<double>(s.view.width_px) * s.view.height_px;
   const double faces = kind_of_light(input.light).tiles(s.map);
-  const double texels = static_cast<double>(s.map.resolution) * s.map.resolution * faces;
+  const double texels = static_cast<double>(s.map.resolution) * s.map.rows() * faces;
   const TapPattern pattern = tap_pattern(s.filter);
   const double taps = pixels * pattern.taps;
   const double map =
@@ -157,8 +157,8 @@ double outside_texels(const Scene& scene, const Technique& technique) {
       const glm::vec3 o = glm::abs(pattern.offset(variant, tap));
       reach = std::max<double>({reach, o.x, o.y});
     }
-  const double inside = static_cast<double>(frame.resolution) * frame.resolution;
-  glm::dvec2 low(0), high(frame.resolution);
+  const double inside = static_cast<double>(frame.resolution) * frame.rows;
+  glm::dvec2 low(0), high(frame.tile_size());
   if (const auto tan_cone = frame.light().tan_half_cone(frame)) {  // no lookup lies beyond the cone
     const double beside = frame.resolution * std::max(0.0, *tan_cone / frame.tan_half_fov - 1) / 2;
     low -= beside;

@@ -32,9 +32,10 @@ std::vector<uint64_t> work_of(const Settings& s, const Settings* before, const s
   const auto square = [](int n) { return static_cast<uint64_t>(n) * static_cast<uint64_t>(n); };
   const uint64_t pixels = static_cast<uint64_t>(s.view.width_px) * static_cast<uint64_t>(s.view.height_px);
   const uint64_t taps = pixels * static_cast<uint64_t>(tap_pattern(s.filter).taps);
+  const uint64_t texels = static_cast<uint64_t>(s.map.resolution) * static_cast<uint64_t>(s.map.rows());
   work[PointWork::point] = 1;
   work[PointWork::scene] = anew(scene_key_of);
-  if (anew(map_key_of)) work[PointWork::map] = square(s.map.resolution) * (timed ? 1 + 2 * timed_rounds : 1);
+  if (anew(map_key_of)) work[PointWork::map] = texels * (timed ? 1 + 2 * timed_rounds : 1);
   if (anew(view_key_of)) work[PointWork::view] = pixels;
   if (anew(truth_key_of)) {
     work[PointWork::truth] = pixels;

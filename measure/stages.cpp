@@ -37,8 +37,8 @@ bool is_kept(size_t map_texels) { return map_texels * sizeof(float) <= most_kept
 
 // Frees the texture with which a cube is probed if it is large: the map has its size.
 void keep_small_index(gl::Renderer& renderer, const LightFrame& frame) {
-  const auto side = static_cast<size_t>(frame.resolution);
-  if (!is_kept(static_cast<size_t>(frame.tiles) * side * side)) renderer.forget_cube_index();
+  const glm::ivec2 size = frame.map_size();
+  if (!is_kept(static_cast<size_t>(size.x) * static_cast<size_t>(size.y))) renderer.forget_cube_index();
 }
 
 }  // namespace

@@ -103,8 +103,9 @@ PointRecord record_of(const Measurement& m, const SceneStage& loaded, const View
     record.metrics["flip"] = shaded_flip(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
     record.metrics.merge(footprint_metrics(texel_footprint(m.receivers, camera, t.frame, truth.receivers.facing)));
   }
-  add_cost(record, frame_cost(t.settings, t.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
-                              static_cast<int64_t>(m.scene.triangles.size())));
+  add_cost(record,
+           frame_cost(t.settings, t.frame.tiles, t.frame.texels(), static_cast<int64_t>(record.metrics["facing"]),
+                      static_cast<int64_t>(m.scene.triangles.size())));
   add_time(record, "hard_truth", truth.hard);
   add_time(record, "soft_truth", truth.soft);
   add_time(record, "texel", lookup.texel_stage);

@@ -80,9 +80,10 @@ struct Light {
 // The part of the world that a light's map covers. Near and far are measured from position_m along the light's axis. A
 // point light's far is a distance: depth 1 of its map.
 struct MapVolume {
-  double extent_m = 20;  // directional: whole width and height of the square map, centred on the axis
+  double extent_m = 20;  // directional: whole width of the map, centred on the axis
   double near_m = 1;
   double far_m = 10;
+  std::optional<double> height_m = {};  // directional: whole height; empty: as the width
 };
 
 // A camera or a light of a scene that has several. Either name finds it (camera_named(), light_named() of scenes/library.h).

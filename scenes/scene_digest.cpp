@@ -48,8 +48,9 @@ class SceneDigest {
     static_cast<void>(why_not);  // for people
   }
   void add(const MapVolume& map) {
-    const auto& [extent_m, near_m, far_m] = map;
+    const auto& [extent_m, near_m, far_m, height_m] = map;
     add_all(extent_m, near_m, far_m);
+    if (height_m) add(*height_m);  // else it is the extent once more
   }
 
   template <class T>

@@ -90,10 +90,10 @@ LookupCost lookup_cost(const Settings& settings) {
 
 int bytes_per_texel(DepthFormat format) { return format == DepthFormat::d16 ? 2 : 4; }
 
-FrameCost frame_cost(const Settings& settings, int tiles, int64_t receivers, int64_t triangles) {
+FrameCost frame_cost(const Settings& settings, int tiles, int64_t map_texels, int64_t receivers, int64_t triangles) {
   FrameCost cost;
-  const int64_t side = settings.map.resolution, texel = bytes_per_texel(settings.map.format);
-  cost.map_texels = tiles * side * side;
+  const int64_t texel = bytes_per_texel(settings.map.format);
+  cost.map_texels = map_texels;
   cost.map_bytes = cost.map_texels * texel;
   cost.map_triangles = tiles * triangles;
   cost.lookup = lookup_cost(settings);

@@ -1,7 +1,7 @@
 // What a technique asks of a machine in one frame, in numbers that do not depend on the machine: equal work has equal
 // cost, on every GPU and in every run. They say nothing about caches, and nothing about time.
 //
-//   FrameCost cost = frame_cost(settings, tiles, facing_receivers, triangles);
+//   FrameCost cost = frame_cost(settings, frame.tiles, frame.texels(), facing_receivers, triangles);
 //   if (cost.texel_work < other.texel_work) ...
 #pragma once
 #include <cstdint>
@@ -34,7 +34,7 @@ struct FrameCost {
 };
 
 // tiles: of the map, 6 for a cube. receivers: pixels that look up. triangles: of the scene.
-FrameCost frame_cost(const Settings& settings, int tiles, int64_t receivers, int64_t triangles);
+FrameCost frame_cost(const Settings& settings, int tiles, int64_t map_texels, int64_t receivers, int64_t triangles);
 
 // Bytes of a texel in the memory of a GPU. A depth of 24 bits takes 4.
 int bytes_per_texel(DepthFormat format);

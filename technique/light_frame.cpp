@@ -65,12 +65,13 @@ glm::dmat4 LightFrame::drawn_clip_from_world(const MapTile& t) const {
   glm::dvec3 rows[4];
   double offsets[4] = {0, 0, 0, 0};
   if (t.orthographic) {
-    rows[0] = axes[0] * (1 / t.half);
-    rows[1] = axes[1] * (1 / t.half);
+    const glm::dvec2 half = t.half_m();
+    rows[0] = axes[0] * (1 / half.x);
+    rows[1] = axes[1] * (1 / half.y);
     rows[2] = axes[2] * (2 / range);
     rows[3] = glm::dvec3(0);
-    offsets[0] -= t.centre_m.x / t.half;
-    offsets[1] -= t.centre_m.y / t.half;
+    offsets[0] -= t.centre_m.x / half.x;
+    offsets[1] -= t.centre_m.y / half.y;
     offsets[2] = -2 * t.near_m / range - 1;
     offsets[3] = 1;
   } else {
@@ -90,23 +91,24 @@ glm::dmat4 LightFrame::drawn_clip_from_world(const MapTile& t) const {
 }
 
 float LightFrame::snapped_step() const {
-  return std::ldexp(1.0f, std::ilogb(4.0f * static_cast<float>(resolution)) - std::numeric_limits<float>::digits + 1);
+  const auto longer = static_cast<float>(std::max(resolution, rows));
+  return std::ldexp(1.0f, std::ilogb(4.0f * longer) - std::numeric_limits<float>::digits + 1);
 }
 
 std::vector<LightFrame::Cell> LightFrame::snapped_cells() const {
   struct Piece {
     int cell, first, end, to;
   };
-  const auto along = [&](double texels) {
-    const int cell = static_cast<int>(std::floor(texels / resolution));
-    const int before = static_cast<int>(texels - static_cast<double>(cell) * resolution);
-    std::vector<Piece> parts = {{cell, before, resolution, 0}};
-    if (before > 0) parts.push_back({cell + 1, 0, before, resolution - before});
+  const auto along = [](double texels, int side) {
+    const int cell = static_cast<int>(std::floor(texels / side));
+    const int before = static_cast<int>(texels - static_cast<double>(cell) * side);
+    std::vector<Piece> parts = {{cell, before, side, 0}};
+    if (before > 0) parts.push_back({cell + 1, 0, before, side - before});
     return parts;
   };
   std::vector<Cell> cells;
-  for (const Piece& v : along(anchor_texels.y))
-    for (const Piece& u : along(anchor_texels.x))
+  for (const Piece& v : along(anchor_texels.y, rows))
+    for (const Piece& u : along(anchor_texels.x, resolution))
       cells.push_back({{u.cell, v.cell}, {u.first, v.first}, {u.end, v.end}, {u.to, v.to}});
   return cells;
 }
@@ -124,7 +126,7 @@ double LightFrame::depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const {
 }
 
 MapVolume fit_map(const Scene& scene, const Light& light) {
-  return kind_of_light(light.kind).fit(scene, kind_of_light(light.kind).axes(light));
+  return kind_of_light(light.kind).fit(scene, kind_of_light(light.kind).axes(light), {});
 }
 
 namespace {
@@ -218,7 +220,7 @@ Light effective_light(const Scene& scene, const Settings& settings) {
 namespace {
 
 std::optional<FittedMap> moved_fit(const Scene& scene, const Settings& settings, const LightFrame& axes) {
-  if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, axes);
+  if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, settings.map, axes);
   if (settings.map.fit == MapFit::sphere) return fit_to_sphere(scene, settings.view, settings.map, axes);
   if (settings.map.fit == MapFit::casters) return fit_to_casters(scene, settings.map, axes);
   return std::nullopt;
@@ -279,20 +281,24 @@ LaidMap laid_map(const Scene& scene, const Settings& settings, const KindOfLight
   // The scene's own map volume fits only the scene's own light.
   if (scene.map && settings.map.fit == MapFit::scene && why_not_the_scenes(scene, settings).empty())
     return {axes, *scene.map, {}};
-  return {axes, kind.fit(scene, axes), {}};
+  return {axes, kind.fit(scene, axes, settings.map), {}};
 }
 
-// Of all rotations the one whose map is smallest: a square repeats after 90 degrees. The extent has several minima, each narrower
-// than a step of 3 degrees only where it is shallow too.
+// Of all rotations the one whose texels are smallest, or of which a map of the box's own shape needs the fewest. A square
+// repeats after 90 degrees, a rectangle after 180. There are several minima, each narrower than a step of 3 degrees only
+// where it is shallow too.
 LaidMap smallest_map(const Scene& scene, const Settings& settings, const KindOfLight& kind, const LightFrame& axes) {
   constexpr double coarse_deg = 3, fine_deg = 0.5;
   double best_deg = 0;
   LaidMap best = laid_map(scene, settings, kind, axes);
+  const auto size = [&](const MapVolume& volume) {
+    return settings.map.aspect ? volume.extent_m : volume.extent_m * volume.height_m.value_or(volume.extent_m);
+  };
   const auto try_at = [&](double deg) {
     LaidMap one = laid_map(scene, settings, kind, rolled(axes, deg));
-    if (one.volume.extent_m < best.volume.extent_m) best = one, best_deg = deg;
+    if (size(one.volume) < size(best.volume)) best = one, best_deg = deg;
   };
-  for (double deg = coarse_deg; deg < 90; deg += coarse_deg) try_at(deg);
+  for (double deg = coarse_deg; deg < (settings.map.aspect == 1 ? 90 : 180); deg += coarse_deg) try_at(deg);
   for (double step = -coarse_deg + fine_deg, around = best_deg; step < coarse_deg; step += fine_deg)
     try_at(around + step);
   return best;
@@ -319,7 +325,7 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   frame.origin_m += laid.middle_m.x * frame.right + laid.middle_m.y * frame.up;
   frame.near_m = settings.map.near_m.value_or(volume.near_m);
   frame.far_m = settings.map.far_m.value_or(volume.far_m);
-  frame.resolution = settings.map.resolution;
+  frame.resolution = frame.rows = settings.map.resolution;
   frame.tiles = kind.tiles(settings.map);
   if (!(frame.near_m < frame.far_m) || !std::isfinite(frame.far_m - frame.near_m))
     throw SettingConflict("map.far_m",

@@ -11,7 +11,8 @@
 // any length. So for every light, three places lie on one line of the map if and only if their determinant is 0.
 //
 // The map of a point light has six faces, in OpenGL's order +X -X +Y -Y +Z -Z. They stand one above the other in an
-// image of resolution x 6 resolution texels: texel (i, j) of face f is (i, f * resolution + j).
+// image of resolution x 6 resolution texels: texel (i, j) of face f is (i, f * resolution + j). The map of a directional
+// light may be a rectangle of square texels (map.aspect).
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
@@ -46,7 +47,7 @@ struct LightFrame {
   // Directional: the direction of every light-side ray, exactly a float. forward is this vector, normalised in double.
   // So rays and frame have the same direction, to the last bit of the float.
   glm::vec3 ray_direction{0, 0, -1};
-  double extent_m = 1;         // directional
+  double extent_m = 1;         // directional: the map's width
   double tan_half_fov = 1;     // spot: tangent of half the map's angle; point: 1
   double cos_half_cone = -1;   // spot: cosine of half the light's cone
   glm::dvec2 shift_texels{0};  // spot: map.shift_*_texels
@@ -56,7 +57,8 @@ struct LightFrame {
   glm::dmat3 cube_axes{1};
   double near_m = 0;
   double far_m = 1;
-  int resolution = 1;  // texels on the side of a tile
+  int resolution = 1;  // texels along the width of a tile
+  int rows = 1;        // texels along its height
   int tiles = 1;
 
   const KindOfLight& light() const { return kind_of_light(kind); }
@@ -75,8 +77,10 @@ struct LightFrame {
   bool has_depth(TileDepth depth) const;
   // The tile that a lookup reads at a point in the light's frame.
   MapTile tile_at(glm::dvec3 point) const { return tile(tile_of(point)); }
-  MapTile tile_of_texel(glm::ivec2 texel) const { return tile(tiles > 1 ? texel.y / resolution : 0); }
-  glm::ivec2 map_size() const { return {resolution, tiles * resolution}; }
+  MapTile tile_of_texel(glm::ivec2 texel) const { return tile(tiles > 1 ? texel.y / rows : 0); }
+  glm::ivec2 tile_size() const { return {resolution, rows}; }
+  int64_t texels() const { return int64_t{1} * resolution * rows * tiles; }  // of the whole map
+  glm::ivec2 map_size() const { return {resolution, tiles * rows}; }
 
   glm::dvec3 to_light(glm::dvec3 world) const;
   glm::dvec3 to_world(glm::dvec3 light) const;
@@ -115,14 +119,14 @@ struct LightFrame {
   glm::dmat4 clip_from_world(const MapTile& tile) const;
   glm::dmat4 clip_from_world(int index) const { return clip_from_world(tile(index)); }
   // OpenGL's matrix is one from the anchor; without an anchor it is clip_from_world(). From the anchor the grid is the same
-  // in every frame, and a snapped map is a window of resolution x resolution texels on it, of which (snapped_corner) is
+  // in every frame, and a snapped map is a window of tile_size() texels on it, of which (snapped_corner) is
   // the first. OpenGL takes that from the place in the grid, exactly: a map is drawn cell by cell (snapped_cells), and a
   // lookup rounds its place to snapped_step before the subtraction. So two maps on one grid have bit for bit the same
   // texels, and a receiver has the same place in them.
   glm::dvec3 drawn_origin_m() const { return anchor_m.value_or(origin_m); }
   glm::dmat4 drawn_clip_from_world(const MapTile& tile) const;
   // Texels from the anchor to the map's first corner; a half one if the resolution is odd.
-  glm::dvec2 snapped_corner() const { return anchor_texels - resolution / 2.0; }
+  glm::dvec2 snapped_corner() const { return anchor_texels - glm::dvec2(tile_size()) / 2.0; }
   // In texels: the step of floats as large as 4 maps. So a place is exact after the subtraction if it lies within two
   // maps of the middle.
   float snapped_step() const;

@@ -64,7 +64,7 @@ class KindOfLight {
   // Position and axes of the frame. Throws SettingConflict if they give no direction.
   virtual LightFrame axes(const Light& light) const = 0;
   // The smallest volume around all parts of the scene that the light can reach.
-  virtual MapVolume fit(const Scene& scene, const LightFrame& frame) const = 0;
+  virtual MapVolume fit(const Scene& scene, const LightFrame& frame, const MapSettings& map) const = 0;
   // Sets what the settings define of the map: extent, angle, shift. The caller has set frame.near_m, far_m and
   // resolution. Throws SettingConflict.
   virtual void lay_map(LightFrame& frame, const Light& light, const MapVolume& volume,

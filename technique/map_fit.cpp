@@ -67,8 +67,8 @@ struct Depths {
   double least = infinity, most = -infinity;
 };
 
-// Of the scene inside a square of the light's plane.
-Depths depths_inside(const Scene& scene, const LightFrame& axes, glm::dvec2 middle, double half) {
+// Of the scene inside a rectangle of the light's plane.
+Depths depths_inside(const Scene& scene, const LightFrame& axes, glm::dvec2 middle, glm::dvec2 half) {
   const glm::dvec2 low = middle - half, high = middle + half;
   const std::array<glm::dvec4, 4> sides = {
       {{1, 0, 0, -low.x}, {-1, 0, 0, high.x}, {0, 1, 0, -low.y}, {0, -1, 0, high.y}}};
@@ -88,16 +88,17 @@ Depths depths_inside(const Scene& scene, const LightFrame& axes, glm::dvec2 midd
 
 }  // namespace
 
-std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& view, const LightFrame& axes) {
+std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& view, const MapSettings& map,
+                                     const LightFrame& axes) {
   const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
   const Box part = part_in_view(scene, camera, axes);
   if (!(part.low.x <= part.high.x)) return std::nullopt;
   const glm::dvec3 size = part.high - part.low;
-  const double reach = 0.5 * std::max(size.x, size.y);
-  const double half = reach * (1 + lights::map_margin);
+  const glm::dvec2 area = lights::area_around(0.5 * glm::dvec2(size), 0, map);
+  const glm::dvec2 half = area * (1 + lights::map_margin);
   const glm::dvec2 middle = 0.5 * (glm::dvec2(part.low) + glm::dvec2(part.high));
   const double near_m = std::min(depths_inside(scene, axes, middle, half).least, part.low.z);
-  return FittedMap{lights::with_margin(reach, near_m, part.high.z), middle};
+  return FittedMap{lights::with_margin(area, near_m, part.high.z), middle};
 }
 
 namespace {
@@ -127,12 +128,11 @@ Sphere sphere_of_frustum(const CameraFrame& camera, double reach) {
 FittedMap fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapSettings& map, const LightFrame& axes) {
   const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
   const Sphere sphere = sphere_of_frustum(camera, map.reach_m.value_or(diagonal_of(scene)));
-  const double texels = map.resolution;
-  const double reach = sphere.radius * texels / std::max(texels - 1, 1.0);
+  const glm::dvec2 area = lights::area_around(glm::dvec2(sphere.radius), 1, map);
   const glm::dvec3 middle = axes.to_light(camera.eye_m + sphere.along * camera.forward);
   const double near_m =
-      std::min(depths_inside(scene, axes, middle, reach * (1 + lights::map_margin)).least, middle.z - sphere.radius);
-  return {lights::with_margin(reach, near_m, middle.z + sphere.radius), middle};
+      std::min(depths_inside(scene, axes, middle, area * (1 + lights::map_margin)).least, middle.z - sphere.radius);
+  return {lights::with_margin(area, near_m, middle.z + sphere.radius), middle};
 }
 
 namespace {
@@ -246,10 +246,9 @@ std::optional<FittedMap> fit_to_casters(const Scene& scene, const MapSettings& m
   if (!(casters.low.x <= casters.high.x)) return std::nullopt;
   const glm::dvec2 size(casters.high - casters.low), middle = 0.5 * glm::dvec2(casters.low + casters.high);
   // A texel more on each side: the grid's placements, shifts and snapping move the map by up to one.
-  const double texels = map.resolution;
-  const double reach = 0.5 * std::max(size.x, size.y) * texels / std::max(texels - 2, 1.0);
-  const Depths depths = depths_inside(scene, axes, middle, reach * (1 + lights::map_margin));
-  return FittedMap{lights::with_margin(reach, depths.least, depths.most), middle};
+  const glm::dvec2 area = lights::area_around(0.5 * size, 2, map);
+  const Depths depths = depths_inside(scene, axes, middle, area * (1 + lights::map_margin));
+  return FittedMap{lights::with_margin(area, depths.least, depths.most), middle};
 }
 
 }  // namespace noonmark

@@ -48,14 +48,13 @@ glm::dvec3 MapTile::place_of(glm::ivec2 texel) const { return place_at(glm::dvec
 
 glm::dvec3 MapTile::place_at(glm::dvec2 texels) const {
   const glm::dvec2 at = texels - glm::dvec2(corner);
-  if (orthographic) return {at * (2 * half / resolution) - half + centre_m, 1};
+  if (orthographic) return {at * (2 * half / resolution) - half_m() + centre_m, 1};
   const glm::dvec2 side = (2.0 * (at + shift_texels) / static_cast<double>(resolution) - 1.0) * half;
   return forward + side.x * right + side.y * up;
 }
 
 glm::dvec2 MapTile::texels(glm::dvec3 place) const {
-  if (orthographic)
-    return ((glm::dvec2(place) - centre_m) / (2 * half) + 0.5) * static_cast<double>(resolution) + glm::dvec2(corner);
+  if (orthographic) return ((glm::dvec2(place) - centre_m) / (2.0 * half_m()) + 0.5) * size() + glm::dvec2(corner);
   const glm::dvec2 side = glm::dvec2(glm::dot(place, right), glm::dot(place, up)) / (along(place) * half);
   return (side + 1.0) / 2.0 * static_cast<double>(resolution) - shift_texels + glm::dvec2(corner);
 }

@@ -1,4 +1,4 @@
-// One tile of a light's map: a square of texels with its own volume, projection and texel size. The map of a
+// One tile of a light's map: a rectangle of square texels with its own volume, projection and texel size. The map of a
 // directional or spot light has one tile. The map of a point light has six, the faces of its cube.
 //
 //   const MapTile tile = frame.tile(frame.tile_of(place));
@@ -21,11 +21,12 @@ struct MapTile {
   // view. An orthographic tile has the frame's own axes, these defaults.
   glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
   bool orthographic = true;
-  double half = 1;         // half of its side in metres (orthographic), or the tangent of half its angle
+  double half = 1;         // half of its width in metres (orthographic), or the tangent of half its angle
   glm::dvec2 centre_m{0};  // orthographic: u and v of its middle
   double near_m = 0, far_m = 1;
   TileDepth depth = TileDepth::linear;
-  int resolution = 1;          // texels on a side
+  int resolution = 1;          // texels along its width
+  int rows = resolution;       // texels along its height; perspective tiles are square
   glm::ivec2 corner{0};        // the position of its first texel in the map's image
   glm::dvec2 shift_texels{0};  // perspective: the shift of its grid
 
@@ -37,6 +38,10 @@ struct MapTile {
   double window_depth_slope(double depth_m) const;    // its derivative, per metre
   // The depth at which the near plane cuts the ray of a place. If depths are distances, the place is a unit vector.
   double near_depth(glm::dvec3 place) const { return depth == TileDepth::distance ? near_m / along(place) : near_m; }
+
+  glm::dvec2 size() const { return {resolution, rows}; }  // in texels
+  // Orthographic: half of its width and height in metres.
+  glm::dvec2 half_m() const { return rows == resolution ? glm::dvec2(half) : half * size() / double(resolution); }
 
   double texel_m(glm::dvec3 light) const;        // the width of a texel at a point in the light's frame
   glm::dvec3 place_of(glm::ivec2 texel) const;   // the place of the centre of a texel of the map's image

@@ -16,6 +16,7 @@ LightFrame Placements::frame(const LightFrame& map, int placement) const {
 LightFrame Placements::lattice(const LightFrame& map) const {
   LightFrame fine = map;
   fine.resolution = map.resolution * side_;
+  fine.rows = map.rows * side_;
   fine.light().refine_grid(fine, side_);
   fine.light().shift_grid(fine, glm::dvec2((side_ - 1) / 2.0));
   return fine;

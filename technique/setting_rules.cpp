@@ -216,6 +216,17 @@ std::string searched_roll_without_fit(const Settings& s, std::optional<LightKind
                         : "";
 }
 
+std::string rectangle_without_parallel_rays(const Settings& s, std::optional<LightKind> light) {
+  if (s.map.aspect == 1) return "";
+  if (light && !kind_of_light(*light).rays().have_one_direction())
+    return "map.aspect needs a directional light: the map of a spot light is square around its cone, and so is each "
+           "face "
+           "of a cube";
+  return !s.map.aspect && s.map.extent_m
+             ? "map.aspect = auto is the shape of what a fit holds, and map.extent_m gives the extent; give a number"
+             : "";
+}
+
 std::string snapped_perspective(const Settings& s, std::optional<LightKind> light) {
   if (!s.map.snap || !light || kind_of_light(*light).rays().have_one_direction()) return "";
   return "map.snap needs a directional light: only its texels have one size everywhere";

@@ -86,6 +86,7 @@ std::string plane_on_cube_or_blended(const Settings&, std::optional<LightKind>);
 std::string cube_shifted_along_u(const Settings&, std::optional<LightKind>);
 std::string cube_shifted_along_v(const Settings&, std::optional<LightKind>);
 std::string turn_beyond_a_circle(const Settings&, std::optional<LightKind>);
+std::string rectangle_without_parallel_rays(const Settings&, std::optional<LightKind>);
 std::string snapped_perspective(const Settings&, std::optional<LightKind>);
 std::string pancaked_perspective(const Settings&, std::optional<LightKind>);
 

@@ -273,8 +273,15 @@ std::vector<Setting> make_table() {
       real("light.cone_deg", "deg", 1, 170,
            "spot: whole angle of the cone; outside it nothing is lit; auto: the scene's.", MEMBER(light.cone_deg))
           .idle(without_cone),
-      integer("map.resolution", "texels", 1, 16384, "Texels along each side of the shadow map.",
-              MEMBER(map.resolution)),
+      integer("map.resolution", "texels", 1, 16384,
+              "Texels along each side of the shadow map; with map.aspect along its width.", MEMBER(map.resolution)),
+      real("map.aspect", "", 1.0 / 64, 64,
+           "directional: width over height of the map. Its texels are square: it has map.resolution / map.aspect rows, "
+           "rounded, and its extent is its width. A fit then is the smallest area of this shape. auto: a fitted map is "
+           "as wide as what it holds, with as many rows as that needs, but no more than map.resolution; "
+           "map.roll_deg = auto turns its longer side along the width.",
+           MEMBER(map.aspect))
+          .refused(rectangle_without_parallel_rays),
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format))
           .only_read_by({Stage::map}),
       choice(

@@ -60,7 +60,8 @@ inline bool fits_view(MapFit fit) { return fit == MapFit::view || fit == MapFit:
 inline bool moves_map(MapFit fit) { return fits_view(fit) || fit == MapFit::casters; }
 
 struct MapSettings {
-  int resolution = 1024;  // texels on a side
+  int resolution = 1024;             // texels along its width
+  std::optional<double> aspect = 1;  // directional: width over height, in texels; empty: of what the fit holds
   DepthFormat format = DepthFormat::d24;
   MapFit fit = MapFit::scene;     // the source of empty extent, near and far: the scene's own values, or a fit
   std::optional<double> reach_m;  // sphere: how far from the camera there are shadows; empty: the scene's diagonal
@@ -87,6 +88,8 @@ struct MapSettings {
   // Whether what lies before near or beyond far is kept. With pancake it must be: rounding leaves some of the moved
   // vertices just before the near plane.
   bool keeps_clipped() const { return depth_clamp || pancake; }
+  // Texels along its height. With aspect auto this is the most that a fit gives it; LightFrame::rows says how many.
+  int rows() const { return aspect ? static_cast<int>(std::max(1.0, std::round(resolution / *aspect))) : resolution; }
 };
 
 // A bias is the sum of its parts (technique/bias_parts.h). Each part is 0 unless it is set.

@@ -118,6 +118,7 @@ void lay_as(const LightFrame& frame, Settings& settings) {
   settings.map.shift_u_texels = settings.map.shift_v_texels = 0;
   settings.map.extent_scale = 1;
   settings.map.extent_m = frame.extent_m;
+  settings.map.aspect = static_cast<double>(frame.resolution) / frame.rows;
   settings.map.near_m = frame.near_m;
   settings.map.far_m = frame.far_m;
 }
@@ -133,8 +134,9 @@ std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> c
   const Settings& first = conditions.front();
   const Light light = effective_light(scene, first);
   std::vector<MapPlace> places = {place_as_given()};
-  const bool rolled = first.map.roll_deg != 0;  // the places are boxes along the light's own axes
-  if (light.kind != LightKind::directional || first.view.motion.moves_light() || rolled ||
+  // The places are square boxes along the light's own axes.
+  const bool other_shape = first.map.roll_deg != 0 || first.map.aspect != 1;
+  if (light.kind != LightKind::directional || first.view.motion.moves_light() || other_shape ||
       !same_light_and_scene(scene, conditions, light))
     return places;
   places.front().extent_m = make_light_frame(scene, first).extent_m;

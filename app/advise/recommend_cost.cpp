@@ -11,12 +11,13 @@ SeenShare seen_share(const PointRecord& measured) {
   const auto setting = [&](const char* name) { return number_of(setting_of(measured, name)).value(); };
   const double side = setting("map.resolution");
   return {metric_of(measured, "facing") / (setting("view.width_px") * setting("view.height_px")),
-          static_cast<int>(std::lround(metric_of(measured, "map_texels") / side / side))};
+          metric_of(measured, "map_texels") / side / side};
 }
 
 double full_texel_work(const Settings& full, const SeenShare& seen) {
   const auto receivers = std::llround(seen.facing * full.view.width_px * full.view.height_px);
-  return static_cast<double>(frame_cost(full, seen.tiles, receivers, 0).texel_work);
+  const auto texels = std::llround(seen.map_squares * full.map.resolution * full.map.resolution);
+  return static_cast<double>(frame_cost(full, 1, texels, receivers, 0).texel_work);
 }
 
 }  // namespace noonmark

@@ -7,8 +7,8 @@ namespace noonmark {
 
 // What a view and a light have in common for all settings.
 struct SeenShare {
-  double facing = 0;  // share of the pixels that look up
-  int tiles = 1;      // of the map
+  double facing = 0;       // share of the pixels that look up
+  double map_squares = 1;  // texels of the map, in squares of map.resolution: 6 for a cube
 };
 SeenShare seen_share(const PointRecord& measured);
 

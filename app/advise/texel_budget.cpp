@@ -75,10 +75,18 @@ class Divider {
 
  private:
   int64_t tiles(size_t light) const { return tiles_[light]; }
-  int64_t texels(size_t light, int resolution) const { return tiles(light) * resolution * resolution; }
+  int64_t texels(size_t light, int resolution) const {
+    MapSettings map = lights_[light].second.map;
+    map.resolution = resolution;
+    return tiles(light) * resolution * map.rows();
+  }
   int resolution_of(size_t light, int64_t texels) const {
-    const auto side = static_cast<int64_t>(std::sqrt(static_cast<double>(texels) / static_cast<double>(tiles(light))));
-    return static_cast<int>(std::min<int64_t>(side, largest_map));
+    const double aspect = lights_[light].second.map.aspect.value_or(1);
+    auto side =
+        static_cast<int64_t>(std::sqrt(static_cast<double>(texels) * aspect / static_cast<double>(tiles(light))));
+    side = std::min<int64_t>(side, largest_map);
+    while (side > 1 && this->texels(light, static_cast<int>(side)) > texels) --side;  // rows are rounded
+    return static_cast<int>(side);
   }
 
   // The settings with this resolution and the bias of least error there.

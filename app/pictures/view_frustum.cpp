@@ -24,11 +24,11 @@ using Corners = std::array<glm::dvec3, 4>;
 
 // The corners of a tile at a depth along its axis.
 Corners corners_at(const LightFrame& light, const MapTile& tile, double z) {
-  const double half = tile.orthographic ? tile.half : z * tile.half;
+  const glm::dvec2 half = tile.orthographic ? tile.half_m() : glm::dvec2(z * tile.half);
   const glm::dvec2 shift = 2.0 * tile.shift_texels / double(tile.resolution) * half;
   Corners c;
   for (size_t k = 0; k < 4; ++k) {
-    const double u = (k == 1 || k == 2 ? half : -half) + shift.x, v = (k >= 2 ? half : -half) + shift.y;
+    const double u = (k == 1 || k == 2 ? half.x : -half.x) + shift.x, v = (k >= 2 ? half.y : -half.y) + shift.y;
     c[k] = light.to_world(u * tile.right + v * tile.up + z * tile.forward);
   }
   return c;

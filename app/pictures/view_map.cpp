@@ -40,20 +40,22 @@ Span covered(int pixel, int pixels, int texels) {
 }
 
 // The arguments of std::min have this order so that a NaN is kept, which is drawn black.
-Image<float> shrunk(const MapRows& map, int resolution, int side) {
-  Image<float> out(side, side, 1);
+Image<float> shrunk(const MapRows& map, glm::ivec2 texels) {
+  const double scale = std::min(1.0, largest_side / static_cast<double>(std::max(texels.x, texels.y)));
+  const glm::ivec2 size = glm::max(glm::ivec2(glm::round(scale * glm::dvec2(texels))), glm::ivec2(1));
+  Image<float> out(size.x, size.y, 1);
   constexpr int most_texels = 1 << 22;  // that are read at a time: 16 MiB
-  const int at_a_time = std::max(1, most_texels / resolution * side / resolution);
-  for (int first = 0; first < side; first += at_a_time) {
-    const int end = std::min(side, first + at_a_time), first_row = covered(first, side, resolution).first;
-    const Image<float> rows = map(first_row, covered(end - 1, side, resolution).last - first_row);
+  const int at_a_time = std::max(1, static_cast<int>(most_texels / texels.x * scale));
+  for (int first = 0; first < size.y; first += at_a_time) {
+    const int end = std::min(size.y, first + at_a_time), first_row = covered(first, size.y, texels.y).first;
+    const Image<float> rows = map(first_row, covered(end - 1, size.y, texels.y).last - first_row);
     for (int y = first; y < end; ++y)
-      for (int x = 0; x < side; ++x) {
-        const Span across = covered(x, side, resolution), along = covered(y, side, resolution);
+      for (int x = 0; x < size.x; ++x) {
+        const Span across = covered(x, size.x, texels.x), along = covered(y, size.y, texels.y);
         float nearest = rows.at(across.first, along.first - first_row);
         for (int j = along.first; j < along.last; ++j)
           for (int i = across.first; i < across.last; ++i) nearest = std::min(nearest, rows.at(i, j - first_row));
-        out.at(x, side - 1 - y) = nearest;  // row 0 of the picture is the highest v
+        out.at(x, size.y - 1 - y) = nearest;  // row 0 of the picture is the highest v
       }
   }
   return out;
@@ -61,9 +63,8 @@ Image<float> shrunk(const MapRows& map, int resolution, int side) {
 
 // The whole map, small enough for a picture.
 Image<float> map_depths(const MapRows& stored, const LightFrame& frame) {
-  return frame.map_shape() == MapShape::cube
-             ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
-             : shrunk(stored, frame.resolution, std::min(frame.resolution, largest_side));
+  return frame.map_shape() == MapShape::cube ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
+                                             : shrunk(stored, frame.map_size());
 }
 
 }  // namespace

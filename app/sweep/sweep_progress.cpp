@@ -30,7 +30,7 @@ std::optional<CurveOptions> curve_of(const Experiment& experiment, int64_t id) {
 }
 
 double picture_s(const Settings& point) {
-  return picture_s_per_pixel * pixels_of(point) + picture_s_per_texel * point.map.resolution * point.map.resolution;
+  return picture_s_per_pixel * pixels_of(point) + picture_s_per_texel * point.map.resolution * point.map.rows();
 }
 
 // What a point costs more if it is timed.

@@ -203,7 +203,7 @@ std::vector<double> picture_times(Workbench& bench, const std::vector<Settings>&
     keep_pictures_and_sections(bench, m, 0, folder.path());
     return now().cpu_s - before.cpu_s;
   };
-  const auto texels = [](const Settings& s) { return std::pow(s.map.resolution, 2); };
+  const auto texels = [](const Settings& s) { return static_cast<double>(s.map.resolution) * s.map.rows(); };
   const Settings& first = planned.front();
   write(small_part(first, 4));  // opens the picture library
   const double quarter = write(small_part(first, 4));

@@ -185,8 +185,8 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
     double ndc = clip[row] / clip.w;
     double error = (row_error[row] + std::abs(ndc) * row_error[3]) / std::abs(clip.w) + division * std::abs(ndc);
     if (frame_.anchor_m && row < 2) {
-      error += u * std::abs(ndc) + static_cast<double>(frame_.snapped_step()) / frame_.resolution;
-      ndc -= 2 * frame_.anchor_texels[row] / frame_.resolution;
+      error += u * std::abs(ndc) + static_cast<double>(frame_.snapped_step()) / frame_.tile_size()[row];
+      ndc -= 2 * frame_.anchor_texels[row] / frame_.tile_size()[row];
     }
     return std::pair((ndc + 1) / 2, error / 2 + u * std::abs((ndc + 1) / 2));
   };
@@ -205,7 +205,7 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
     const double exact = std::clamp(texels[axis], -farthest, farthest);
     raise_error(found.address_texels, std::max(0.0, std::abs(exact - (texel[axis] + 0.5)) - 0.5));
     const double beside = std::clamp<double>(probe.map_texels[i][axis], -farthest, farthest) - exact;
-    raise_error(found.excess, std::abs(beside) / (frame_.resolution * (error + u * std::abs(at))));
+    raise_error(found.excess, std::abs(beside) / (frame_.tile_size()[axis] * (error + u * std::abs(at))));
   }
 
   if (tile.depth == TileDepth::perspective && e_.bias.unit() != BiasUnit::depth) {
@@ -317,8 +317,8 @@ void ProbeCheck::compare_gradient(size_t i, const Place& place, ProbeErrors& fou
     // This bound is not to first order, because the divisor may be little more than its error.
     const double bound =
         (error[axis] + std::abs(slope) * error[2]) / (std::abs(value[2]) - error[2]) + 2 * division * std::abs(slope);
-    raise_error(found.excess, std::abs(static_cast<double>(e_.probe.gradient[i][axis]) * frame_.resolution - slope) /
-                                  (bound + std::numeric_limits<float>::min()));
+    const double gradient = static_cast<double>(e_.probe.gradient[i][axis]) * frame_.tile_size()[axis];
+    raise_error(found.excess, std::abs(gradient - slope) / (bound + std::numeric_limits<float>::min()));
   }
 }
 

@@ -149,7 +149,7 @@ std::vector<SectionColumn> columns_of(const SectionInput& in, const MapTile& til
     column.to = ends[k + 1];
     column.texel = glm::ivec2(glm::floor(section.place + (ends[k] + ends[k + 1]) / 2 * section.direction));
     const glm::ivec2 in_tile = column.texel - tile.corner;
-    const bool in_this_tile = inside_map(in_tile, {tile.resolution, tile.resolution});
+    const bool in_this_tile = inside_map(in_tile, glm::ivec2(tile.size()));
     if (!in_this_tile && in.technique.frame.tiles > 1) continue;  // a line of one face says nothing of the next
     column.inside = in_this_tile;
     const glm::dvec2 centre = glm::dvec2(column.texel) + 0.5 - section.place;

@@ -29,17 +29,17 @@ class Directional final : public KindOfLight {
     return frame;
   }
 
-  MapVolume fit(const Scene& scene, const LightFrame& frame) const override {
-    double reach = 0;
+  MapVolume fit(const Scene& scene, const LightFrame& frame, const MapSettings& map) const override {
+    glm::dvec2 reach(0);
     double near_m = std::numeric_limits<double>::infinity();
     double far_m = -near_m;
     for (const glm::vec3& position : scene.positions) {
       const glm::dvec3 p = frame.to_light(position);
-      reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+      reach = glm::max(reach, glm::abs(glm::dvec2(p)));
       near_m = std::min(near_m, p.z);
       far_m = std::max(far_m, p.z);
     }
-    return lights::with_margin(reach, near_m, far_m);
+    return lights::with_margin(lights::area_around(reach, 0, map), near_m, far_m);
   }
 
   void lay_map(LightFrame& frame, const Light& light, const MapVolume& volume, const MapSettings& map) const override {
@@ -47,6 +47,14 @@ class Directional final : public KindOfLight {
     if (!(frame.extent_m > 0) || !std::isfinite(frame.extent_m))
       throw SettingConflict("map.extent_m",
                             fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
+    if (map.aspect)
+      frame.rows = map.rows();
+    else if (!volume.height_m)
+      throw SettingConflict("map.aspect",
+                            "map.aspect = auto is the shape of what a fit holds, but map.fit = scene takes the scene's "
+                            "own square volume; set map.fit to another, or map.aspect to a number");
+    else
+      frame.rows = static_cast<int>(std::lround(map.resolution * *volume.height_m / volume.extent_m));
     const double w = tile(frame, 0).texel_m({});
     // The texels, the matrix and the depths are all relative to the origin, so the whole grid moves together. The anchor
     // is the world's origin, moved along the light to where depths are measured from.
@@ -73,7 +81,8 @@ class Directional final : public KindOfLight {
             .near_m = frame.near_m,
             .far_m = frame.far_m,
             .depth = TileDepth::linear,
-            .resolution = frame.resolution};
+            .resolution = frame.resolution,
+            .rows = frame.rows};
   }
 
   glm::dvec3 direction_to_light(const LightFrame& frame, glm::dvec3) const override { return -frame.forward; }

@@ -80,7 +80,7 @@ class Point final : public KindOfLight {
     return frame;
   }
 
-  MapVolume fit(const Scene& scene, const LightFrame& frame) const override {
+  MapVolume fit(const Scene& scene, const LightFrame& frame, const MapSettings&) const override {
     return lights::fit_central(scene, frame, nullptr);
   }
 

@@ -42,9 +42,28 @@ glm::dvec3 way_of(const Light& light) {
   return glm::normalize(way);
 }
 
-MapVolume with_margin(double reach, double near_m, double far_m) {
-  const double depth = std::max(far_m - near_m, reach * map_margin);
-  return {2 * reach * (1 + map_margin), near_m - depth * map_margin, far_m + depth * map_margin};
+glm::dvec2 area_around(glm::dvec2 reach, int more_texels, const MapSettings& map) {
+  const auto widened = [&](double side, int texels) {
+    return more_texels == 0 ? side : side * texels / std::max(static_cast<double>(texels) - more_texels, 1.0);
+  };
+  const int columns = map.resolution;
+  if (!map.aspect) {
+    const double half = widened(std::max(reach.x, reach.y), columns);
+    const double needed = std::ceil(reach.y * columns / half) + more_texels;
+    return {half, half * std::clamp(needed, 1.0, static_cast<double>(columns)) / columns};
+  }
+  const int rows = map.rows();
+  if (rows == columns) return glm::dvec2(widened(std::max(reach.x, reach.y), columns));
+  const double half = std::max(widened(reach.x, columns), widened(reach.y, rows) * columns / rows);
+  return {half, half * rows / columns};
+}
+
+MapVolume with_margin(glm::dvec2 half, double near_m, double far_m) {
+  const double depth = std::max(far_m - near_m, half.x * map_margin);
+  return {.extent_m = 2 * half.x * (1 + map_margin),
+          .near_m = near_m - depth * map_margin,
+          .far_m = far_m + depth * map_margin,
+          .height_m = 2 * half.y * (1 + map_margin)};
 }
 
 // The near plane of a perspective map cannot be 0, so the fit never puts it nearer than a thousandth of far. Geometry

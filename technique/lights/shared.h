@@ -13,8 +13,14 @@ inline constexpr double map_margin = 0x1p-10;
 // The direction from the light to its target. Throws SettingConflict if the light's position is its target.
 glm::dvec3 way_of(const Light& light);
 
-// The volume of a directional light's map whose square reaches this far from its middle, with the margin.
-MapVolume with_margin(double reach, double near_m, double far_m);
+// Half of the width and height, in metres, of the smallest map of a directional light that holds a box around its middle.
+// reach: half of the box's sides. The map has the shape of map.aspect; if that is auto, its width is the box's and it has
+// as many rows as the box needs, but no more than columns. more_texels: the map is larger than the box by so many on each
+// axis.
+glm::dvec2 area_around(glm::dvec2 reach, int more_texels, const MapSettings& map);
+
+// The volume of a directional light's map of this half width and height, with the margin.
+MapVolume with_margin(glm::dvec2 half, double near_m, double far_m);
 
 // The near and far planes for the part of the scene that the light can reach. behind(corners) is true if the triangle
 // is behind the light.

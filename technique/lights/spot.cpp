@@ -29,7 +29,7 @@ class Spot final : public KindOfLight {
     return frame;
   }
 
-  MapVolume fit(const Scene& scene, const LightFrame& frame) const override {
+  MapVolume fit(const Scene& scene, const LightFrame& frame, const MapSettings&) const override {
     return lights::fit_central(scene, frame, [](const glm::dvec3(&corner)[3]) {
       return corner[0].z <= 0 && corner[1].z <= 0 && corner[2].z <= 0;
     });

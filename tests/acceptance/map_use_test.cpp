@@ -123,6 +123,99 @@ TEST(MapRoll, AutoFindsTheSmallestExtent) {
   EXPECT_GT(used("auto"), 0.87);
 }
 
+// A map with fewer rows is the middle of the square one, texel for texel, if both have an even number of them: so a scene
+// that lies within has the same errors. Only the matrix is rounded elsewhere.
+TEST(RectangularMap, IsTheMiddleOfTheSquareOne) {
+  for (const char* filter : {"none", "box", "hardware", "castano"})
+    for (const char* extra : {"", "map.snap", "bias.normal_offset"}) {
+      std::vector<Assignment> given = {{"bias.constant", "0.002"},
+                                       {"filter.kind", filter},
+                                       {"map.resolution", "1024"},
+                                       {"map.extent_m", "80"},
+                                       {"map.wrap", "clamp_to_border"}};
+      if (*extra) given.emplace_back(extra, *extra == 'm' ? "true" : "1");
+      const Measurement square = measured(with(given, small("cube-room")));
+      given.emplace_back("map.aspect", "2");
+      const Measurement wide = measured(with(given, small("cube-room")));
+      ASSERT_EQ(wide.technique.frame.map_size(), glm::ivec2(1024, 512));
+      EXPECT_EQ(metric(wide, "map_texels"), 1024 * 512);
+      EXPECT_GE(metric(wide, "map_used"), metric(square, "map_used"));
+      const double pixel = 1 / metric(square, "facing");
+      for (const char* name : {"error", "acne", "peter_panning", "aliasing", "filter", "coverage", "precision"})
+        EXPECT_NEAR(metric(wide, name), metric(square, name), 2 * pixel) << name << " " << filter << " " << extra;
+      EXPECT_GT(metric(wide, "acne") + metric(wide, "filter") + metric(wide, "aliasing"), 0);
+      EXPECT_EQ(metric(wide, "contract"), 0);
+      EXPECT_LE(metric(wide, "rounding_excess"), 1);
+      EXPECT_LE(wide.ladder.residual, rounding_of_steps);
+    }
+}
+
+// Every place of the truth and of the shader agrees in a rectangle as in a square, in all scenes under the sun.
+TEST(RectangularMap, IsSoundWithEveryFit) {
+  for (const char* scene : {"cube-room", "facade", "wall", "fence"})
+    for (const char* fit : {"tight", "view", "sphere", "casters"})
+      for (const char* aspect : {"auto", "2", "0.4"}) {
+        const Measurement m = measured(with({{"map.fit", fit},
+                                             {"map.aspect", aspect},
+                                             {"map.resolution", "192"},
+                                             {"map.placements", "2"},
+                                             {"filter.kind", "box"}},
+                                            small(scene, 160, 90)));
+        EXPECT_EQ(metric(m, "contract"), 0) << scene << fit << aspect;
+        EXPECT_LE(metric(m, "rounding_excess"), 1) << scene << fit << aspect;
+        EXPECT_LE(m.ladder.residual, rounding_of_steps) << scene << fit << aspect;
+        EXPECT_EQ(metric(m, "placement_disagreements"), 0) << scene << fit << aspect;
+        const glm::ivec2 size = m.technique.frame.map_size();
+        EXPECT_EQ(size.x, 192);
+        if (*aspect == 'a') {
+          EXPECT_LE(size.y, 192);
+        } else {
+          EXPECT_EQ(size.y, std::lround(192 / std::stod(aspect)));
+        }
+      }
+}
+
+// A fit of a given shape holds what the square one holds, with texels that are no smaller than they must be.
+TEST(RectangularMap, HoldsTheWholeFit) {
+  for (const char* name : {"cube-room", "facade", "pillars", "wall"})
+    for (const char* aspect : {"auto", "1", "3", "0.5"}) {
+      const Settings settings = with({{"map.fit", "tight"}, {"map.aspect", aspect}}, small(name));
+      const Scene scene = make_scene(settings.scene);
+      const LightFrame frame = make_light_frame(scene, settings);
+      const glm::dvec2 size = frame.map_size();
+      double nearest = frame.resolution;  // texels from a side of the map
+      for (const glm::vec3& p : scene.positions) {
+        const glm::dvec2 at = frame.map_texels(frame.to_light(glm::dvec3(p)));
+        const glm::dvec2 beside = glm::min(at, size - at);
+        nearest = std::min({nearest, beside.x, beside.y});
+      }
+      EXPECT_GT(nearest, 0) << name << " " << aspect;
+      // The margin, and in an automatic map less than a row.
+      EXPECT_LT(nearest, 1e-3 * std::max(size.x, size.y) + 1) << name << " " << aspect;
+    }
+}
+
+// The wider side along the map's width: no shape takes more texels than a square.
+TEST(RectangularMap, OfTheFittedShapeUsesMore) {
+  for (const char* name : {"cube-room", "facade", "pillars"}) {
+    const auto of = [&](const char* roll, const char* aspect) {
+      return measured(with({{"map.fit", "tight"}, {"map.roll_deg", roll}, {"map.aspect", aspect}}, small(name)));
+    };
+    const Measurement square = of("auto", "1"), shaped = of("auto", "auto");
+    EXPECT_LE(metric(shaped, "map_texels"), metric(square, "map_texels")) << name;
+    EXPECT_GE(metric(shaped, "map_used"), metric(square, "map_used") - 0.01) << name;
+    const LightFrame &a = square.technique.frame, &b = shaped.technique.frame;
+    EXPECT_LE(b.extent_m * b.extent_m * b.rows / b.resolution, a.extent_m * a.extent_m * 1.001) << name;
+  }
+}
+
+TEST(RectangularMap, IsRefusedWhereItHasNoMeaning) {
+  EXPECT_THROW(measured(with({{"map.aspect", "2"}}, small("spot-room"))), Error);
+  EXPECT_THROW(measured(with({{"map.aspect", "2"}}, small("point-room"))), Error);
+  EXPECT_THROW(measured(with({{"map.aspect", "auto"}, {"map.extent_m", "10"}}, small("cube-room"))), Error);
+  EXPECT_THROW(measured(with({{"map.aspect", "auto"}}, small("cube-room"))), Error) << "the scene's own volume";
+}
+
 TEST(MapRoll, AutoNeedsAFit) {
   EXPECT_THROW(measured(with({{"map.roll_deg", "auto"}}, small("spot-room"))), Error);
   EXPECT_THROW(measured(with({{"map.roll_deg", "auto"}, {"map.extent_m", "10"}}, small("cube-room"))), Error);

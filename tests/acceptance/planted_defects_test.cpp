@@ -140,7 +140,7 @@ std::vector<Planted> defects() {
 
   // --- Code that probe and lookup share. The truth uses the wrong texels too, and the contract is kept. -------------
 
-  const auto half_texel = patched(projected, "window.xy * float(resolution)", "window.xy * float(resolution) - 0.5");
+  const auto half_texel = patched(projected, "window.xy * map_size", "window.xy * map_size - 0.5");
   // The texel is off by half its width in both axes, so true edges are up to sqrt(2) texels away, not sqrt(1/2).
   all.push_back({"HalfTexelOffset",
                  cubes(),
@@ -218,12 +218,13 @@ std::vector<Planted> defects() {
   // --- The map. R4 is right and R5 is wrong. So the whole error is precision. ---------------------------------
 
   // At half the resolution the floor needs twice the bias that it has.
-  all.push_back({"MapOneSizeSmallerThanClaimed",
-                 cubes(),
-                 {.drawn_map = [](LightFrame& frame, MapSettings& map) { frame.resolution = map.resolution /= 2; },
-                  .edited_map = doubled},
-                 {{"precision", 1e-3, 0.05}, {"map_error_quanta", 2, 1000}},
-                 {"contract", "rounding_excess"}});
+  all.push_back(
+      {"MapOneSizeSmallerThanClaimed",
+       cubes(),
+       {.drawn_map = [](LightFrame& frame, MapSettings& map) { frame.resolution = frame.rows = map.resolution /= 2; },
+        .edited_map = doubled},
+       {{"precision", 1e-3, 0.05}, {"map_error_quanta", 2, 1000}},
+       {"contract", "rounding_excess"}});
   // The receivers in the shadow of the missing caster are lit, and no others change.
   all.push_back({"MissingCaster",
                  cubes(),

@@ -86,7 +86,7 @@ std::vector<Planted> defects() {
   // The gradient is per map instead of per texel, which is the other common mistake.
   all.push_back({"ReceiverPlanePerMap",
                  plane,
-                 {.shaders = patched(projected, "(-plane.xy / plane.z) / float(resolution)", "-plane.xy / plane.z")},
+                 {.shaders = patched(projected, "(-plane.xy / plane.z) / map_size", "-plane.xy / plane.z")},
                  {{"rounding_excess", 1, 1000}, {"acne", 0.005, 0.2}},
                  {"contract"}});
   // The reference is the receiver plane instead of the texel plane. The bias for the distance to the texel centre is

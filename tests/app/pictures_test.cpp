@@ -56,7 +56,7 @@ class Pictures : public testing::Test {
     ladder.flags.pixels = {1, 3, 5, 7, 1, 0};
     scene.light.angular_diameter_deg = 0;
     settings.map.wrap = Wrap::repeat;
-    frame.resolution = 2;
+    frame.resolution = frame.rows = 2;
   }
   Measurement measurement() const {
     const Camera camera{.near_m = 0.1, .far_m = 100};

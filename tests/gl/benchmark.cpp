@@ -72,7 +72,7 @@ void upload_map(benchmark::State& state) {
   Bench b(1);
   b.settings.map.resolution = static_cast<int>(state.range(0));
   const Image<float> depth(b.settings.map.resolution, b.settings.map.resolution, 0.5f);
-  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.upload_map(depth, b.settings.map).resolution());
+  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.upload_map(depth, b.settings.map).texels());
 }
 
 void lookup(benchmark::State& state) {

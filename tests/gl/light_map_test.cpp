@@ -106,7 +106,7 @@ TEST_F(GlTest, CubeFacesLieWhereTheFrameSays) {
       renderer.load_scene(scene);
       const LightFrame frame = make_light_frame(scene, settings);
       const ShadowMap shadow_map = renderer.render_map({settings, frame});
-      EXPECT_EQ(shadow_map.resolution(), 48);
+      EXPECT_EQ(shadow_map.size(), glm::ivec2(48));
       const Image<float> map = renderer.read_map(shadow_map);
       ASSERT_EQ(glm::ivec2(map.width, map.height), frame.map_size());
       // Three coordinates are interpolated in float under a perspective, each with the error of a spot light's depth, and
@@ -252,7 +252,7 @@ TEST_F(GlTest, TooLargeACubeIsAUsageErrorThatNamesTheLimit) {
   settings.map.resolution = 4097;
   LightFrame frame;
   frame.kind = LightKind::point;
-  frame.resolution = 4097;
+  frame.resolution = frame.rows = 4097;
   std::string message;
   EXPECT_EQ(kind_thrown([&] { renderer.render_map({settings, frame}); }, &message), static_cast<int>(ErrorKind::usage));
   EXPECT_NE(message.find("4096"), std::string::npos) << message;

@@ -256,7 +256,7 @@ TEST_F(GlTest, TooLargeAMapIsAUsageErrorThatNamesTheLimit) {
   const int limit = renderer.info().max_map_resolution;
   settings.map.resolution = limit + 1;
   LightFrame frame;
-  frame.resolution = limit + 1;
+  frame.resolution = frame.rows = limit + 1;
   std::string message;
   EXPECT_EQ(kind_thrown([&] { renderer.render_map({settings, frame}); }, &message), static_cast<int>(ErrorKind::usage));
   EXPECT_NE(message.find(std::to_string(limit)), std::string::npos) << message;

@@ -105,22 +105,23 @@ TEST_F(GlTest, ListedTexelsAreThoseOfTheWholeMap) {
 
 TEST(GlSpareMaps, AreFewAndOfOneKind) {
   constexpr GLenum kind = GL_DEPTH_COMPONENT32F;
-  const auto of_side = [](int side) { return TiledMap{Texture(), kind, side}; };
+  const auto of_side = [](int side) { return TiledMap{Texture(), kind, glm::ivec2(side)}; };
+  const glm::ivec2 square(64);
   SpareMaps spares(2);
-  EXPECT_FALSE(spares.take(kind, 64));
+  EXPECT_FALSE(spares.take(kind, square));
   for (int i = 0; i < 5; ++i) spares.put(of_side(64));
   EXPECT_EQ(spares.count(), 2u);
-  EXPECT_EQ(spares.take(kind, 64)->side, 64);
+  EXPECT_EQ(spares.take(kind, square)->size, square);
   EXPECT_EQ(spares.count(), 1u);
-  EXPECT_FALSE(spares.take(kind, 65)) << "a map of another side";
+  EXPECT_FALSE(spares.take(kind, {64, 65})) << "a map of another size";
   EXPECT_EQ(spares.count(), 0u) << "must not take memory beside that map";
   spares.put(of_side(64));
-  EXPECT_FALSE(spares.take(GL_DEPTH_COMPONENT16, 64)) << "a map of another format";
+  EXPECT_FALSE(spares.take(GL_DEPTH_COMPONENT16, square)) << "a map of another format";
   EXPECT_EQ(spares.count(), 0u) << "must not take the place of one of that format";
   spares.put(of_side(64));
-  spares.keep_only(64);
+  spares.keep_only(square);
   EXPECT_EQ(spares.count(), 1u);
-  spares.keep_only(0);
+  spares.keep_only(glm::ivec2(0));
   EXPECT_EQ(spares.count(), 0u);
   spares.put(of_side(8192));
   EXPECT_EQ(spares.count(), 0u) << "256 MiB are too much to be kept";

@@ -73,19 +73,20 @@ TEST(Cost, AddsTheMapAndTheLookups) {
   Settings s = with({"box", {{"size", 3}}});
   s.map.resolution = 1024;
   s.map.format = DepthFormat::d24;
-  const FrameCost flat = frame_cost(s, 1, 1000, 50);
+  const FrameCost flat = frame_cost(s, 1, int64_t{s.map.resolution} * s.map.resolution, 1000, 50);
   EXPECT_EQ(flat.map_texels, 1 << 20);
   EXPECT_EQ(flat.map_bytes, 4 << 20);
   EXPECT_EQ(flat.map_triangles, 50);
   EXPECT_EQ(flat.texel_work, (1 << 20) + 1000 * 9);
   EXPECT_EQ(flat.traffic_bytes, (4 << 20) + 1000 * 9 * 4);
   s.map.format = DepthFormat::d16;
-  const FrameCost cube = frame_cost(s, 6, 1000, 50);
+  const FrameCost cube = frame_cost(s, 6, int64_t{6} * s.map.resolution * s.map.resolution, 1000, 50);
   EXPECT_EQ(cube.map_bytes, 6 * (2 << 20));
   EXPECT_EQ(cube.map_triangles, 300);
   EXPECT_EQ(cube.traffic_bytes, 6 * (2 << 20) + 1000 * 9 * 2);
   s.map.resolution = 16384;  // beyond 32 bits
-  EXPECT_EQ(frame_cost(s, 6, 0, 0).map_bytes, int64_t{6} * 2 * 16384 * 16384);
+  EXPECT_EQ(frame_cost(s, 6, int64_t{6} * s.map.resolution * s.map.resolution, 0, 0).map_bytes,
+            int64_t{6} * 2 * 16384 * 16384);
 }
 
 // A row without its counters would cost nothing, or crash.

@@ -71,7 +71,8 @@ TEST(ViewFit, HoldsWhatIsInThePictureAndItsCasters) {
       const Settings settings = random_view(scene, random);
       const CameraFrame camera = make_camera_frame(effective_camera(scene, settings.view), 1280, 720);
       const LightFrame frame = make_light_frame(scene, settings);
-      if (!fit_to_view(scene, settings.view, kind_of_light(LightKind::directional).axes(scene.light))) continue;
+      if (!fit_to_view(scene, settings.view, settings.map, kind_of_light(LightKind::directional).axes(scene.light)))
+        continue;
       for (int i = 0; i < 2000; ++i) {
         const glm::dvec3 world = random_point_of(scene, random), light = frame.to_light(world);
         const bool inside = std::max(std::abs(light.x), std::abs(light.y)) <= frame.extent_m / 2;

@@ -160,7 +160,7 @@ TEST(SnappedCells, FillTheMapOnce) {
   for (int resolution : {1, 2, 7, 64, 251})
     for (glm::dvec2 anchor : {glm::dvec2(0), {1, -1}, {63, 64}, {-65, 130}, {-1000003, 12345678}}) {
       LightFrame frame;
-      frame.resolution = resolution;
+      frame.resolution = frame.rows = resolution;
       frame.anchor_m = glm::dvec3(0);
       frame.anchor_texels = anchor;
       std::vector<int> times(static_cast<size_t>(resolution) * static_cast<size_t>(resolution), 0);

@@ -86,7 +86,7 @@ TEST(Bias, IsTheSumOfItsPartsInTheReceiversOwnUnit) {
 TEST(Bias, OfANormalOffsetIsALengthAndNoDepth) {
   LightFrame frame;
   frame.extent_m = 20;
-  frame.resolution = 1000;
+  frame.resolution = frame.rows = 1000;
   BiasSettings settings = bias_settings_of({{"normal_offset", 1.5}});
   for (const BiasUnit unit : {BiasUnit::depth, BiasUnit::m, BiasUnit::texel}) {
     settings.unit = unit;

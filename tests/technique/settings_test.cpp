@@ -51,8 +51,9 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers without a unit.
   const std::set<std::string_view> pure = {
-      "scene.animation",    "map.placements", "map.extent_scale", "truth.standard_error", "bias.polygon_factor",
-      "bias.polygon_units", "view.up",        "motion.frame",     "motion.zoom",          "light.index"};
+      "scene.animation",     "map.placements",     "map.extent_scale", "truth.standard_error",
+      "bias.polygon_factor", "bias.polygon_units", "view.up",          "motion.frame",
+      "motion.zoom",         "light.index",        "map.aspect"};
   const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "frames", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
@@ -91,8 +92,8 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8, e9] = motion;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
-                                d20, d21, d22] = s.map;
-  [[maybe_unused]] const auto& [g1] = s.truth;
+                                d20, d21, d22, d23] = s.map;
+  [[maybe_unused]] const auto& [g1, g2] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
   // Unit, reference and plane_cap, and every parameter of a part.
   const int bias = 3 + static_cast<int>(bias_parameters().size());
@@ -102,10 +103,10 @@ TEST(SettingsTable, HasARowForEveryMember) {
                                               {"view", 11},
                                               {"motion", 9},
                                               {"light", 11},
-                                              {"map", 22},
+                                              {"map", 23},
                                               {"bias", bias},
                                               {"filter", filter},
-                                              {"truth", 1},
+                                              {"truth", 2},
                                               {"given", 1}}));
 }
 

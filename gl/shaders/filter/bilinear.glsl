@@ -10,7 +10,7 @@ float lit(Receiver receiver, float bias) {
   float biased = biased_depth(receiver.reference, bias), sum = 0.0;
   for (int fetch = 0; fetch < taps; ++fetch) {
     vec4 row = tap_offsets[fetch];
-    vec2 at = (receiver.map_texels + row.xy) / float(resolution);
+    vec2 at = (receiver.map_texels + row.xy) / map_size;
     sum += row.w * textureLod(comparing_map, vec3(at, biased), 0.0);
   }
   return sum;

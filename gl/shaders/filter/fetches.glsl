@@ -19,7 +19,7 @@ float lit(Receiver receiver, float bias) {
       float left = filter_weight(x, s.x), right = filter_weight(x + 1, s.x);
       float weight = (left + right) * (below + above);
       vec2 between = vec2(right / (left + right), above / (below + above));
-      vec2 place = (base + vec2(x - before, y - before) + 0.5 + between) / float(resolution);
+      vec2 place = (base + vec2(x - before, y - before) + 0.5 + between) / map_size;
       whole += weight;
       sum += weight * textureLod(comparing_map, vec3(place, biased), 0.0);
     }

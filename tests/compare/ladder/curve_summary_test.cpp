@@ -42,7 +42,7 @@ void make_shadow(Synthetic& s, size_t i, float b) {
 LightFrame test_frame() {
   LightFrame frame;
   frame.extent_m = 20;
-  frame.resolution = 1000;
+  frame.resolution = frame.rows = 1000;
   frame.near_m = 1;
   frame.far_m = 7.5;
   return frame;
@@ -201,7 +201,7 @@ TEST(BiasScaleOf, IsThatOfTheMedianFacingReceiver) {
   frame.near_m = 0.5;
   frame.far_m = 8;
   frame.tan_half_fov = 0.25;
-  frame.resolution = 100;
+  frame.resolution = frame.rows = 100;
   ReceiverImage receivers{Image<glm::vec3>(4, 1), {}, {}};
   ReceiverTruth truth;
   truth.facing = Image<uint8_t>(4, 1, 1);

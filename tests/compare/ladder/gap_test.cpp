@@ -63,7 +63,7 @@ TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
   p.frame.near_m = 0.5;
   p.frame.far_m = 20;
   p.frame.tan_half_fov = 0.5;
-  p.frame.resolution = 1000;
+  p.frame.resolution = p.frame.rows = 1000;
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
   p.receivers.position[0] = {3, 0, -6};
@@ -93,7 +93,7 @@ TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
   p.frame = LightFrame{};
   p.frame.kind = LightKind::point;
   p.frame.far_m = 20;
-  p.frame.resolution = 1 << 14;
+  p.frame.resolution = p.frame.rows = 1 << 14;
   p.probe.pattern.offsets = {glm::vec3(0.3f, 0, 0.4f)};
   p.probe.pattern.in_world = true;
   p.bias = bias_of({{"constant", 0.01}});  // of the map's 20 m: 0.2 m

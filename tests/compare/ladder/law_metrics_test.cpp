@@ -28,7 +28,7 @@ struct Sight {
     frame.up = {0, 0, -1};
     frame.forward = {0, -1, 0};
     frame.extent_m = 8;
-    frame.resolution = 64;
+    frame.resolution = frame.rows = 64;
     frame.near_m = -3;
     frame.far_m = 7;
   }

@@ -227,10 +227,27 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
     EXPECT_EQ(&find_metric(metric.name), &metric);
   }
   std::set<std::string> measured = times;
-  for (const char* name :
-       {"shaded_rmse", "flip", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes",
-        "map_texels", "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations", "map_used", "map_seen",
-        "undersampled", "perspective_aliasing", "perspective_aliasing_p95"})
+  for (const char* name : {"shaded_rmse",
+                           "flip",
+                           "clipped",
+                           "culled",
+                           "scene_behind",
+                           "texel_work",
+                           "traffic_bytes",
+                           "map_bytes",
+                           "map_texels",
+                           "map_triangles",
+                           "lookup_fetches",
+                           "lookup_texels",
+                           "lookup_operations",
+                           "map_used",
+                           "map_seen",
+                           "undersampled",
+                           "perspective_aliasing",
+                           "perspective_aliasing_p95",
+                           "truth_by_cells",
+                           "truth_by_rays",
+                           "truth_by_scan"})
     measured.insert(name);  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);

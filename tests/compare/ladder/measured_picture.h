@@ -28,7 +28,7 @@ struct Picture {
     probe.n_dot_l = probe.bias_unit = probe.tan_theta = Image<float>(width, height, 1);
     probe.pattern.offsets = {glm::vec3(0)};
     frame.extent_m = 5;
-    frame.resolution = 10;
+    frame.resolution = frame.rows = 10;
     frame.far_m = 10;
   }
   void rungs(int x, int y, std::array<float, 6> r) {
