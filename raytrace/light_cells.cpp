@@ -400,6 +400,38 @@ bool LightCells::disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 
   return true;
 }
 
+std::optional<uint32_t> LightCells::Reader::front_in(glm::dvec2 low, glm::dvec2 high) {
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return std::nullopt;
+  find(glm::dvec3(low, 0));
+  if (cell_->kind != Kind::triangle) return std::nullopt;
+  const uint32_t front = cell_->front;
+  if (!(((x0 ^ x1) | (y0 ^ y1)) >> shift_)) return front;  // all in one square
+  const int divisions = cells_.divisions_;
+  for (uint32_t y = y0 >> divisions; y <= y1 >> divisions; ++y)
+    for (uint32_t x = x0 >> divisions; x <= x1 >> divisions; ++x)
+      if (!cells_.is_front_in(*cells_.base_cell(x << divisions, y << divisions), x << divisions, y << divisions, front,
+                              low, high))
+        return std::nullopt;
+  return front;
+}
+
+bool LightCells::is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high) {
+  const Square square = square_at(x, y, cell.divisions);  // widened: squares beside the rectangle may be asked too
+  if (square.middle.x - square.half > high.x || square.middle.x + square.half < low.x ||
+      square.middle.y - square.half > high.y || square.middle.y + square.half < low.y)
+    return true;
+  if (cell.kind != Kind::mixed) return cell.kind == Kind::triangle && cell.front == triangle;
+  if (cell.divisions == 0) return false;
+  Four* four = cell.four.load(std::memory_order_acquire);
+  if (!four) four = divide(cell, x, y);
+  if (!four) return false;
+  const uint32_t half = 1u << (cell.divisions - 1);
+  for (uint32_t i = 0; i < 4; ++i)
+    if (!is_front_in(four->cell[i], x + i % 2 * half, y + i / 2 * half, triangle, low, high)) return false;
+  return true;
+}
+
 void LightCells::Reader::find(uint32_t x, uint32_t y) {
   cell_ = &cells_.cell_at(x, y);
   x_ = x;

@@ -60,6 +60,12 @@
 //     F, at a distance of at least 2 / 3 of gap_m > near. So each dark receiver sees nothing of the disc.
 //   - No ray starts below the receiver's own horizon, because N.L is greater than tangent.
 //
+// ---- Why a dark receiver is dark at all taps of a rectangle
+//
+// If one triangle F is the front of all good squares that hold the rectangle, it is the first hit at each place in it,
+// and all else lies deeper by gap_m. If the triangle of the receiver covers the rectangle too, by more than reach_m, it is
+// the receiver's sheet at each place: V compares these two planes only (OwnSurface::dark_in).
+//
 // Only parallel rays have cells so far.
 #pragma once
 #include <atomic>
@@ -89,6 +95,7 @@ class LightCells {
   // What is worth its time for so many receivers.
   static int finest_for(const ReceiverImage& receivers);
   int finest() const { return finest_; }
+  double gap_m() const { return gap_m_; }
   ~LightCells();
   LightCells(const LightCells&) = delete;
   LightCells& operator=(const LightCells&) = delete;
@@ -185,6 +192,8 @@ class LightCells {
   Judged judge_place(const Cell& cell, glm::dvec2 at) const;
   // Whether the cell is out of reach of the disc as `at` sees it, or good, or divided into such cells.
   bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
+  // Whether this triangle is the front of the cell, or of all its parts that touch the rectangle.
+  bool is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high);
   void free_below(Cell& cell);
 
   int finest_;
@@ -231,6 +240,16 @@ class LightCells::Reader {
     if (place.kind == Kind::nothing) return no_primitive;
     return std::nullopt;
   }
+
+  // The triangle that covers a rectangle of the light's plane before everything else, by gap_m() or more; no value if no
+  // triangle is known to.
+  std::optional<uint32_t> front_in(glm::dvec2 low, glm::dvec2 high);
+  // Whether the triangle covers the rectangle, and reach_m around it.
+  bool covers(uint32_t triangle, glm::dvec2 low, glm::dvec2 high) {
+    if (inner_.triangle != triangle) inner_ = Inner(cells_, triangle);
+    return inner_.holds(low) && inner_.holds(high) && inner_.holds({low.x, high.y}) && inner_.holds({high.x, low.y});
+  }
+  const LightCells& cells() const { return cells_; }
 
   // at() for all rays to a disc of directions, whose radius is `tangent`: lit if no such ray meets an occluder, dark
   // if all do. The receiver's N.L is at least least_cosine + tangent.

@@ -58,7 +58,6 @@ class AmongTaps {
     silhouettes_.list_in(around(pixel, p), nearby);
   }
 
- private:
   // Holds the receiver's place, those of its taps, and the centres of their texels, as LightFrame computes them except
   // for double's rounding, which is far less than the reach of the silhouettes' lists. LightFrame's own functions serve
   // every kind of light, and took half of the time of a lookup without a filter.
@@ -69,6 +68,7 @@ class AmongTaps {
             glm::max(place + texel_m_ * glm::dvec2(high_), first_texel_ + texel_m_ * glm::dvec2(high))};
   }
 
+ private:
   const Silhouettes& silhouettes_;
   const LookupProbe& probe_;
   bool applies_;
@@ -132,7 +132,7 @@ TapTruth LookupTracer::trace_places(const LookupProbe& probe, PixelRange strip, 
   return trace(probe, strip, nullptr, stage);
 }
 
-// One trace of a strip. Receivers that are lit for sure at all their taps are answered first; for the others rays are
+// One trace of a strip. Receivers that are lit, or dark, for sure at all their taps are answered first; for the others rays are
 // asked, packet by packet.
 class TapTracing {
  public:
@@ -185,9 +185,10 @@ class TapTracing {
                    : surface_.lit_at(packet.points[k], x, hit);
   }
 
-  // Books the facing receivers that are lit at every tap for sure. Returns the pixels of the others, in order.
+  // Books the facing receivers that are lit at every tap for sure, or dark at every tap. Returns the pixels of the others,
+  // in order.
   std::vector<size_t> answer_certain();
-  void answer_lit(size_t pixel);
+  void answer(size_t pixel, bool lit);
   void trace_packet(std::span<const size_t> pixels);
   void first_hits(const Packet& packet, const glm::dvec3* x, uint32_t* hits) const;
   void verdicts_at(const Packet& packet, const glm::dvec3* from, const glm::dvec3* offsets,
@@ -220,12 +221,22 @@ std::vector<size_t> TapTracing::answer_certain() {
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
     const size_t from = strip_.first + part * pixels_per_part, to = std::min(strip_.end, from + pixels_per_part);
     Silhouettes::Nearby nearby;
+    std::optional<LightCells::Reader> reader;
+    if (cells_) reader.emplace(*cells_);
+    OwnSurface::Pair pair;
+    const auto dark = [&](size_t pixel) {
+      if (!reader) return false;
+      const Silhouettes::Rectangle around = among_taps_.around(pixel, l_.receivers.position[pixel]);
+      return surface_.dark_in(l_.traced.adjacency.first(l_.receivers.primitive[pixel]), around.low, around.high,
+                              *reader, pair);
+    };
     uint64_t certain = 0;  // receivers
     for (size_t pixel = from; pixel < to; ++pixel) {
       if (!l_.truth.facing[pixel]) continue;
       if (edge_distance_texels_) (*edge_distance_texels_)[pixel] = 0;
-      if (l_.truth.lit[pixel] && listed_ && among_taps_.none(pixel, l_.receivers.position[pixel], nearby)) {
-        answer_lit(pixel);
+      const bool lit = l_.truth.lit[pixel] != 0;
+      if (listed_ && (lit ? among_taps_.none(pixel, l_.receivers.position[pixel], nearby) : dark(pixel))) {
+        answer(pixel, lit);
         ++certain;
       } else {
         parts[part].push_back(pixel);
@@ -238,9 +249,10 @@ std::vector<size_t> TapTracing::answer_certain() {
   return asked;
 }
 
-void TapTracing::answer_lit(size_t pixel) {
+void TapTracing::answer(size_t pixel, bool lit) {
   uint8_t* const bits = bits_of(pixel);
-  std::fill_n(bits, probe_.taps(), static_cast<uint8_t>(tap_exact_lit | (edge_distance_texels_ ? tap_texel_lit : 0)));
+  if (lit)
+    std::fill_n(bits, probe_.taps(), static_cast<uint8_t>(tap_exact_lit | (edge_distance_texels_ ? tap_texel_lit : 0)));
   if (!may_clip()) return;
   const auto [low, high] = among_taps_.texels(pixel);
   if (!l_.texels.may_be_clipped(low, high)) return;

@@ -265,6 +265,22 @@ template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes>(const SurfacePoint&
 template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes::Nearby>(const SurfacePoint&, glm::dvec3, uint32_t,
                                                                      const Silhouettes::Nearby&) const;
 
+// At each place the first hit is `front` and P's sheet is its own triangle. So lit_at() compares these two planes only, and
+// they lie further apart than gap_m. A silhouette nearby changes nothing: it belongs to a surface behind `front`.
+bool OwnSurface::dark_in(uint32_t triangle, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
+                         Pair& last) const {
+  if (view_.scene().mask_error_m > 0) return false;  // a verdict beside the border of a mask is not sure
+  if (!reader.covers(triangle, low, high)) return false;
+  const std::optional<uint32_t> front = reader.front_in(low, high);
+  if (!front || *front == triangle) return false;
+  if (last.own != triangle || last.front != *front) {
+    // Of parallel rays it is the same at all places. Half of the gap leaves room for double's rounding.
+    const double error = depth_error(*front, triangle, glm::dvec3(low, 1));
+    last = {triangle, *front, error < reader.cells().gap_m() / 2 && !may_be_one_plane(view_.scene(), *front, triangle)};
+  }
+  return last.apart;
+}
+
 bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own) const {
   if (hit == no_primitive || hit == p.primitive) return true;
   const Sheet& sheet = *own;

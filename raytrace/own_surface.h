@@ -54,6 +54,15 @@ class OwnSurface {
     return lit_at<Silhouettes::Nearby>(p, x, hit, nearby);
   }
 
+  // Remembers the last pair of triangles that dark_in() compared.
+  struct Pair {
+    uint32_t own = no_primitive, front = no_primitive;
+    bool apart = false;
+  };
+  // Whether V(P, x) is dark, for sure, at every place of a rectangle of the light's plane; false if that is not known. P is
+  // dark, on this triangle. reader: of this surface's cells. The first hit is known there without a ray.
+  bool dark_in(uint32_t triangle, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader, Pair& last) const;
+
   // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
   // to 2^-8 of the way.
   double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const;

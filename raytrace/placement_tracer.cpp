@@ -1,5 +1,10 @@
 #include "raytrace/placement_tracer.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/combinable.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -33,6 +38,15 @@ struct PlacementTracer::Impl {
   LatticeRaster raster;
   bool by_rays;
   std::optional<TexelLattice> lattice;
+  // The light's own frame, whose squares are certified; empty if there are none, or if rays shall answer.
+  std::shared_ptr<LightSide> light;
+  LightCells* cells = nullptr;
+  std::optional<OwnSurface> in_cells;
+  struct Asking {
+    LightCells::Reader reader;
+    OwnSurface::Pair pair{};
+  };
+  mutable tbb::enumerable_thread_specific<Asking> asking{[this] { return Asking{LightCells::Reader(*cells)}; }};
 
   Impl(TracedScene& scene, const ReceiverImage& image, const ReceiverTruth& receiver_truth, const LightFrame& frame,
        const Placements& all, const MapSettings& settings, const Bias& bias, const std::optional<PolygonOffset>& offset,
@@ -47,7 +61,25 @@ struct PlacementTracer::Impl {
         surface(scene.embree, scene.adjacency, view, silhouettes),
         drawn(scene, view, surface, silhouettes, frame, settings, bias, over_texels(offset, all)),
         raster(scene, view),
-        by_rays(method == TruthMethod::rays) {}
+        by_rays(method == TruthMethod::rays) {
+    if (by_rays) return;
+    light = traced.lit_by(frame);
+    cells = light->cells(receivers);
+    if (cells) in_cells.emplace(traced.embree, traced.adjacency, light->view(), light->silhouettes(), cells);
+  }
+
+  // Whether a dark receiver on this triangle is dark for sure at all points that these taps read.
+  bool dark_in(uint32_t triangle, const PlacedTaps& taps) const {
+    if (!in_cells) return false;
+    // The lattice has another origin than the light's own frame. The difference is rounded far finer than the reach of
+    // the squares.
+    const auto place = [&](glm::ivec2 point) {
+      return glm::dvec2(light->view().frame().to_light(view.frame().to_world(view.texel_place(point))));
+    };
+    const glm::dvec2 a = place(taps.low), b = place(taps.high);
+    Asking& of_thread = asking.local();
+    return in_cells->dark_in(triangle, glm::min(a, b), glm::max(a, b), of_thread.reader, of_thread.pair);
+  }
 };
 
 PlacementTracer::PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
@@ -65,15 +97,21 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
   const StageWatch watch(stage, l.traced.device);
   l.lattice.reset();  // freed before the next is made, because it is large
   l.lattice.emplace(l.raster, l.view, l.drawn, l.placements, l.map);
-  PlacedTaps taps;
-  for (size_t i = strip.first; i < strip.end; ++i) {
-    if (!l.truth.facing[i]) continue;
-    if (placement)
-      probe.taps_of(i, *placement, taps);
-    else
-      probe.taps_of(i, taps);
-    l.lattice->want(taps);
-  }
+  // Each thread asks a lattice of its own; what all of them ask for is traced.
+  tbb::combinable<TexelLattice> asked([&] { return TexelLattice(l.raster, l.view, l.drawn, l.placements, l.map); });
+  tbb::parallel_for(tbb::blocked_range<size_t>(strip.first, strip.end, 1024), [&](const auto& range) {
+    TexelLattice& of_thread = asked.local();
+    PlacedTaps taps;
+    for (size_t i = range.begin(); i != range.end(); ++i) {
+      if (!l.truth.facing[i]) continue;
+      if (placement)
+        probe.taps_of(i, *placement, taps);
+      else
+        probe.taps_of(i, taps);
+      of_thread.want(taps);
+    }
+  });
+  asked.combine_each([&](const TexelLattice& of_thread) { l.lattice->want(of_thread); });
   l.lattice->trace(l.by_rays ? &l.surface : nullptr);
 }
 
@@ -99,9 +137,6 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
   if (taps.low.x > taps.high.x) return;
   const size_t side = static_cast<size_t>(taps.side);
   const size_t points = static_cast<size_t>(taps.size().x) * static_cast<size_t>(taps.size().y);
-  box.bits.assign(points, lattice_unknown);
-  box.depth.resize(points);
-
   const glm::dvec3 light = l.view.frame().to_light(l.receivers.position[pixel]);
   const SurfacePoint p =
       l.surface.point(light, l.traced.adjacency.first(l.receivers.primitive[pixel]), l.truth.lit[pixel] != 0);
@@ -112,14 +147,21 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
   l.silhouettes.list_nearby(places, nearby);
   // Without a silhouette in the box, a lit receiver's surface is lit all over it (the rule of OwnSurface).
   const bool all_lit = p.lit && !l.by_rays && nearby.none();
+  const bool all_dark = !p.lit && l.dark_in(p.primitive, taps);
 
-  thread_local std::vector<TexelLattice::Point> found;
-  l.lattice->read(taps, found);
-  const OwnSurface::Verdict everywhere{true, !p.on_silhouette};
+  const OwnSurface::Verdict everywhere{all_lit, !p.on_silhouette};
   const auto bits_of = [](OwnSurface::Verdict v, bool clipped) {
     return static_cast<uint8_t>((v.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                 (v.sure ? 0 : tap_texel_unsure));
   };
+  if ((all_lit || all_dark) && l.lattice->read_depths(taps, box.depth)) {
+    box.bits.assign(points, bits_of(everywhere, false));
+    return;
+  }
+  thread_local std::vector<TexelLattice::Point> found;
+  l.lattice->read(taps, found);
+  box.bits.assign(points, lattice_unknown);
+  box.depth.resize(points);
   for (size_t tap = 0; tap < taps.column.size(); tap += side)
     for (size_t j = 0; j < side; ++j)
       for (size_t i = 0; i < side; ++i) {
@@ -127,8 +169,8 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
         const size_t n = taps.index(k.x, k.y);
         if (box.bits[n] != lattice_unknown) continue;
         const TexelLattice::Point& at = found[n];
-        box.bits[n] =
-            bits_of(all_lit ? everywhere : l.surface.lit_at(p, l.view.texel_place(k), at.hit, nearby), at.clipped);
+        box.bits[n] = bits_of(
+            all_lit || all_dark ? everywhere : l.surface.lit_at(p, l.view.texel_place(k), at.hit, nearby), at.clipped);
         box.depth[n] = at.depth;
       }
 }

@@ -182,6 +182,14 @@ void Silhouettes::list_in(const Rectangle& rectangle, Nearby& nearby) const {
            (std::abs(way.x) * half.y + std::abs(way.y) * half.x) * (1 + 1e-9);
   };
   std::erase_if(edges, beside);
+  if (!view_.rays().have_one_direction()) return;
+  nearby.ends_.clear();
+  nearby.farthest_m_ = 0;
+  for (const uint32_t index : edges) {
+    const glm::dvec2 a(edges_[index].a), b(edges_[index].b);
+    nearby.ends_.push_back({a, b});
+    nearby.farthest_m_ = std::max({nearby.farthest_m_, std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+  }
 }
 
 bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {
@@ -193,7 +201,24 @@ bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {
 std::vector<Silhouettes::Crossing> Silhouettes::Nearby::crossings(glm::dvec3 from, glm::dvec3 to) const {
   if (!listed_) return all_->crossings(from, to);
   std::vector<Crossing> at;
-  for (uint32_t index : edges_) all_->cross(index, from, to, at);
+  if (!all_->view_.rays().have_one_direction()) {
+    for (uint32_t index : edges_) all_->cross(index, from, to, at);
+  } else {
+    // Most edges lie on one side of the way, or before its begin, or behind its end. Along the way a margin of 2^-40 of
+    // the coordinates is far more than double's rounding of the place where cross() finds them to meet.
+    const glm::dvec2 begin(from), way(glm::dvec2(to) - begin);
+    const double length2 = glm::dot(way, way), most = std::max({farthest_m_, std::abs(from.x), std::abs(from.y)});
+    const double margin = 0x1p-40 * most * (std::abs(way.x) + std::abs(way.y));
+    for (size_t i = 0; i < edges_.size(); ++i) {
+      const glm::dvec2 to_a = ends_[i].a - begin, to_b = ends_[i].b - begin;
+      const double a = way.x * to_a.y - way.y * to_a.x, b = way.x * to_b.y - way.y * to_b.x;
+      if ((a > 0 && b > 0) || (a < 0 && b < 0)) continue;  // as LightRays::orientation has it
+      const double along_a = glm::dot(way, to_a), along_b = glm::dot(way, to_b);
+      if ((along_a < -margin && along_b < -margin) || (along_a > length2 + margin && along_b > length2 + margin))
+        continue;
+      all_->cross(edges_[i], from, to, at);
+    }
+  }
   if (at.size() > 1) put_in_order(at);
   return at;
 }

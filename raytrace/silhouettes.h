@@ -82,6 +82,12 @@ class Silhouettes {
     const Silhouettes* all_ = nullptr;
     bool listed_ = false;  // false: the places lie in several charts, and all silhouettes are asked
     std::vector<uint32_t> edges_;
+    // Of parallel rays: the ends of the edges in the light's plane, and the largest coordinate of them.
+    struct Ends {
+      glm::dvec2 a, b;
+    };
+    std::vector<Ends> ends_;
+    double farthest_m_ = 0;
   };
   // A rectangle of a chart. Of parallel rays, it is a rectangle of the light's plane.
   struct Rectangle {

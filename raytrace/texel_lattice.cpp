@@ -30,6 +30,14 @@ void TexelLattice::want(glm::ivec2 low, glm::ivec2 high) {
     }
 }
 
+void TexelLattice::want(const TexelLattice& other) {
+  for (const auto& [place, wanted] : other.tiles_) {
+    std::unique_ptr<Tile>& tile = tiles_[place];
+    if (!tile) tile = std::make_unique<Tile>();
+    for (size_t row = 0; row < side; ++row) tile->wanted[row] |= wanted->wanted[row];
+  }
+}
+
 void TexelLattice::want(const PlacedTaps& taps) {
   if (taps.low.x > taps.high.x) return;
   const size_t s = static_cast<size_t>(taps.side);
@@ -69,19 +77,9 @@ TexelLattice::Point TexelLattice::at(glm::ivec2 point) const {
   return found;
 }
 
-void TexelLattice::read(const PlacedTaps& taps, std::vector<Point>& points) const {
-  const glm::ivec2 size = taps.size(), first = tile_at(taps.low), last = tile_at(taps.high);
-  points.resize(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
-  if (!inside(taps.low) || !inside(taps.high)) {
-    const auto side_of_taps = static_cast<size_t>(taps.side);
-    for (size_t tap = 0; tap < taps.column.size(); tap += side_of_taps)
-      for (size_t j = 0; j < side_of_taps; ++j)
-        for (size_t i = 0; i < side_of_taps; ++i) {
-          const glm::ivec2 k(taps.column[tap + i], taps.row[tap + j]);
-          points[taps.index(k.x, k.y)] = at(k);
-        }
-    return;
-  }
+template <class Visit>
+void TexelLattice::each_row(const PlacedTaps& taps, const Visit& visit) const {
+  const glm::ivec2 first = tile_at(taps.low), last = tile_at(taps.high);
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x) {
       const auto found = tiles_.find(key({x, y}));
@@ -93,13 +91,48 @@ void TexelLattice::read(const PlacedTaps& taps, std::vector<Point>& points) cons
       const uint64_t columns = (~uint64_t{0} >> (side - 1 - end)) & (~uint64_t{0} << begin);
       for (int row = from.y; row <= to.y; ++row) {
         const uint64_t bits = tile.wanted[static_cast<size_t>(row & (side - 1))] & columns;
-        if (!bits) continue;
-        size_t index = tile.index({x * side + std::countr_zero(bits), row});
-        Point* const out = &points[taps.index(from.x, row)];
-        for (uint64_t rest = bits; rest; rest &= rest - 1, ++index)
-          out[std::countr_zero(rest) - begin] = {tile.hit[index], tile.clipped[index] != 0, tile.depth[index]};
+        if (bits)
+          visit(tile, bits >> begin, tile.index({x * side + std::countr_zero(bits), row}), taps.index(from.x, row));
       }
     }
+}
+
+void TexelLattice::read(const PlacedTaps& taps, std::vector<Point>& points) const {
+  const glm::ivec2 size = taps.size();
+  points.resize(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
+  if (!inside(taps.low) || !inside(taps.high)) {
+    const auto side_of_taps = static_cast<size_t>(taps.side);
+    for (size_t tap = 0; tap < taps.column.size(); tap += side_of_taps)
+      for (size_t j = 0; j < side_of_taps; ++j)
+        for (size_t i = 0; i < side_of_taps; ++i) {
+          const glm::ivec2 k(taps.column[tap + i], taps.row[tap + j]);
+          points[taps.index(k.x, k.y)] = at(k);
+        }
+    return;
+  }
+  each_row(taps, [&](const Tile& tile, uint64_t columns, size_t index, size_t in_box) {
+    for (; columns; columns &= columns - 1, ++index)
+      points[in_box + static_cast<size_t>(std::countr_zero(columns))] = {tile.hit[index], tile.clipped[index] != 0,
+                                                                         tile.depth[index]};
+  });
+}
+
+bool TexelLattice::read_depths(const PlacedTaps& taps, std::vector<float>& depths) const {
+  if (!inside(taps.low) || !inside(taps.high)) return false;
+  const glm::ivec2 size = taps.size();
+  depths.resize(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
+  bool clipped = false;
+  each_row(taps, [&](const Tile& tile, uint64_t columns, size_t index, size_t in_box) {
+    clipped |= tile.any_clipped;
+    while (columns) {  // run by run
+      const int from = std::countr_zero(columns), count = std::countr_one(columns >> from);
+      std::copy_n(&tile.depth[index], count, &depths[in_box + static_cast<size_t>(from)]);
+      index += static_cast<size_t>(count);
+      if (from + count == side) break;
+      columns &= ~uint64_t{0} << (from + count);
+    }
+  });
+  return !clipped;
 }
 
 void TexelLattice::trace(const OwnSurface* by_rays) {
@@ -139,6 +172,7 @@ void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, co
       const auto at_place = first + static_cast<size_t>(i);
       tile.clipped[at_place] = !depth_clamp_ && tile.hit[at_place] != no_primitive &&
                                view_.hit_depth(tile.hit[at_place], places[i]) < view_.near_depth(places[i]);
+      tile.any_clipped |= tile.clipped[at_place] != 0;
     }
     first += static_cast<size_t>(count);
     count = 0;

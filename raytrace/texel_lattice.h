@@ -37,6 +37,8 @@ class TexelLattice {
   // Asks for the points that these taps read; and, where a point's texel lies outside the map, for the point of the
   // texel that `wrap` reads in its stead.
   void want(const PlacedTaps& taps);
+  // Asks for all points that another lattice of the same map was asked for.
+  void want(const TexelLattice& other);
   // Finds the first hits of the points that were asked for: by scan conversion, or by rays (LatticeRaster::hits_by_rays)
   // if the surfaces of the lattice's frame are given.
   void trace(const OwnSurface* by_rays = nullptr);
@@ -53,6 +55,10 @@ class TexelLattice {
   // left as they are. Its memory is used again.
   void read(const PlacedTaps& taps, std::vector<Point>& points) const;
 
+  // The depths alone, in the same order, where all of these taps lie inside the map and the near plane clips none of the
+  // tiles that they read; false if not.
+  bool read_depths(const PlacedTaps& taps, std::vector<float>& depths) const;
+
   // The point that a lookup reads in the stead of this one; no value for the border.
   std::optional<glm::ivec2> read_at(glm::ivec2 point) const;
 
@@ -65,6 +71,7 @@ class TexelLattice {
     std::vector<uint32_t> hit;            // of the wanted points
     std::vector<float> depth;
     std::vector<uint8_t> clipped;  // 1: the near plane clips the first hit
+    bool any_clipped = false;
     size_t index(glm::ivec2 point) const {
       const auto row = static_cast<size_t>(point.y & 63);
       const uint64_t before = wanted[row] & ((uint64_t{1} << (point.x & 63)) - 1);
@@ -76,6 +83,11 @@ class TexelLattice {
   static glm::ivec2 tile_at(glm::ivec2 point) { return {point.x >> 6, point.y >> 6}; }
   const Tile& tile_of(glm::ivec2 point) const { return *tiles_.at(key(tile_at(point))); }
   void want(glm::ivec2 low, glm::ivec2 high);  // inclusive
+  // Calls visit(tile, columns, index, box_index) for each row of each tile in the box of taps inside the map:
+  // columns has a bit for each point that somebody asked for, from the box's first column in the tile on; index is that
+  // of the first of them in the tile, box_index that of bit 0 in the box.
+  template <class Visit>
+  void each_row(const PlacedTaps& taps, const Visit& visit) const;
   bool inside(glm::ivec2 point) const { return inside_map(placements_.texel_of(point), size_); }
   void trace(glm::ivec2 at, std::span<const uint32_t> candidates, const OwnSurface* by_rays, Tile& tile) const;
 

@@ -50,8 +50,19 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
         Outside& outside = outside_keys.local();
         // Neighbouring pixels mostly ask for the same texels.
         std::vector<glm::ivec2> before(static_cast<size_t>(probe.taps()), glm::ivec2(std::numeric_limits<int>::min()));
+        const bool square = probe.cube_resolution == 0 && probe.pattern.square_side > 0;
+        std::vector<glm::ivec2> side, side_before;
         for (size_t i = range.begin(); i != range.end(); ++i) {
           if (!facing[i]) continue;
+          if (square) {
+            probe.square_at(probe.map_texels[i], i, side);
+            if (side == side_before) continue;
+            side_before = side;
+            if (inside_map(side.front(), size) && inside_map(side.back(), size)) {
+              wanted_->add_square(side);
+              continue;
+            }
+          }
           for (int tap = 0; tap < probe.taps(); ++tap) {
             const glm::ivec2 texel = probe.texel(i, tap);
             if (std::exchange(before[static_cast<size_t>(tap)], texel) == texel) continue;

@@ -37,8 +37,12 @@ void PlacedProbe::list(size_t pixel, int column, int side, int row, PlacedTaps& 
                        positions_[static_cast<size_t>(row + i)][pixel].y);
     taps.x[static_cast<size_t>(i)] = at.x;
     taps.y[static_cast<size_t>(i)] = at.y;
+    const int square = probe_.pattern.square_side;
+    if (square > 0) probe_.square_at(at, pixel, taps.square);
     for (int t = 0; t < count; ++t) {
-      const glm::ivec2 texel = probe_.texel_at(at, pixel, t);
+      const glm::ivec2 texel = square > 0 ? glm::ivec2(taps.square[static_cast<size_t>(t % square)].x,
+                                                       taps.square[static_cast<size_t>(t / square)].y)
+                                          : probe_.texel_at(at, pixel, t);
       const glm::ivec2 k(placements_.point(texel.x, column + i), placements_.point(texel.y, row + i));
       taps.column[static_cast<size_t>(t * side + i)] = k.x;
       taps.row[static_cast<size_t>(t * side + i)] = k.y;

@@ -64,7 +64,8 @@ struct PlacedTaps {
   std::array<float, Placements::most> x{}, y{};
   // [tap * side + i]: the lattice point that the tap reads, for each column and each row.
   std::vector<int> column, row;
-  glm::ivec2 low{0}, high{-1};  // all lattice points that the taps read; empty if the lookup asks nothing
+  std::vector<glm::ivec2> square;  // its memory is used again
+  glm::ivec2 low{0}, high{-1};     // all lattice points that the taps read; empty if the lookup asks nothing
 
   glm::ivec2 size() const { return high - low + 1; }
   // The index of a lattice point in the lists of the box's points (LatticeBox).
@@ -100,9 +101,10 @@ class PlacedProbe {
 
 // What rays say at the lattice points of one receiver's box (PlacedTaps::index).
 struct LatticeBox {
-  std::vector<uint8_t> bits;  // of TapBits: tap_texel_lit, tap_near_clipped, tap_texel_unsure; lattice_unknown
-  std::vector<float> depth;   // what the exact map of the placement holds at the texel that the lookup reads there
+  // Of TapBits: tap_texel_lit, tap_near_clipped, tap_texel_unsure. A point that no tap reads has any.
+  std::vector<uint8_t> bits;
+  std::vector<float> depth;  // what the exact map of the placement holds at the texel that the lookup reads there
 };
-inline constexpr uint8_t lattice_unknown = 128;  // no tap reads this point
+inline constexpr uint8_t lattice_unknown = 128;  // not judged
 
 }  // namespace noonmark

@@ -23,6 +23,10 @@ struct TapPattern {
   // is the tap: (-1/2, -1/2) to (1/2, 1/2) for one fetch.
   std::vector<glm::vec3> offsets;
 
+  // If the taps are a square of nearest texels (box, none), the taps along its side: tap row * square_side + column has the
+  // x of its column and the y of its row. So the taps on the diagonal name all columns and rows. 0: no such square.
+  int square_side = 0;
+
   // Bilinear taps: a comparison sampler blends this many texels along each axis, and the taps are the square of them. 0
   // means that all taps have the same weight.
   int blended_side = 0;

@@ -15,6 +15,7 @@
 #include <cassert>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace noonmark {
@@ -35,6 +36,20 @@ class TexelSet {
     const std::atomic_ref<uint64_t> row(rows_[row_of(texel)].texels);
     // Most texels are asked for many times, and a load costs less than a store that other threads must see.
     if (!(row.load(std::memory_order_relaxed) & bit_of(texel))) row.fetch_or(bit_of(texel), std::memory_order_relaxed);
+  }
+
+  // Adds the texels of all these columns in all these rows; ascending in both.
+  void add_square(std::span<const glm::ivec2> column_row) {
+    for (const glm::ivec2 row : column_row)
+      for (size_t from = 0; from < column_row.size();) {
+        const int tile = column_row[from].x / side;
+        uint64_t bits = 0;  // of the columns in one tile
+        glm::ivec2 texel(column_row[from].x, row.y);
+        for (; from < column_row.size() && column_row[from].x / side == tile; ++from)
+          bits |= bit_of({column_row[from].x, row.y});
+        const std::atomic_ref<uint64_t> of_row(rows_[row_of(texel)].texels);
+        if ((of_row.load(std::memory_order_relaxed) & bits) != bits) of_row.fetch_or(bits, std::memory_order_relaxed);
+      }
   }
 
   // Gives the texels their numbers. Called once, after the last add().
@@ -58,6 +73,20 @@ class TexelSet {
     assert(has(texel));
     const Row& row = rows_[row_of(texel)];
     return row.before + static_cast<size_t>(std::popcount(row.texels & (bit_of(texel) - 1)));
+  }
+
+  // Appends the numbers of these texels of one row; columns: ascending, each as often as one likes.
+  void indexes(int y, std::span<const glm::ivec2> columns, std::vector<uint32_t>& indexes) const {
+    int before = -2;
+    for (const glm::ivec2 column : columns) {
+      const int x = column.x;
+      // The number of the next texel in the row of a tile is the next number.
+      if (!indexes.empty() && x == before + 1 && x % side != 0)
+        indexes.push_back(indexes.back() + 1);
+      else
+        indexes.push_back(static_cast<uint32_t>(index({x, y})));
+      before = x;
+    }
   }
 
   // Tile n holds the texels from origin(n) on. Its texels have consecutive numbers, row by row: `first` is the least.

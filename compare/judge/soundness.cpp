@@ -33,8 +33,11 @@ double quantum(DepthFormat format, float depth) {
 bool holds(const LookupEvidence& e, const ReceiverTaps& taps, float bias, const MapDepths& map, DepthFormat format,
            size_t i, float visibility) {
   if (!e.probe.pattern.bilinear()) {
-    int lit = 0;
-    for (size_t t = 0; t < taps.size(); ++t) lit += taps.on(map, format, t).lit(bias);
+    size_t lit = 0;
+    if (taps.by_depth())
+      lit = taps.lit_on(map, bias);
+    else
+      for (size_t t = 0; t < taps.size(); ++t) lit += taps.on(map, format, t).lit(bias);
     return visibility == static_cast<float>(lit) / static_cast<float>(taps.size());
   }
   // A sampler's comparison may round the reference to the map's fixed-point format. So within one step of the depth

@@ -45,8 +45,12 @@ void BiasCounts::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& part
   ++part.receivers;
   if (e_.truth.soft[i] != static_cast<float>(e_.truth.lit[i])) soft_receiver(i, taps, part);
   float least = infinity_f, most = 0;
+  // Taps that should be lit and are lit without a bias have thresholds of 0, and are never wrong.
+  if (should_be_lit && taps.alike() && taps[0].moved_sure && taps[0].moved_lit &&
+      taps.lit_on(e_.exact_map, 0) == taps.size() && taps.lit_on(stored_map_, 0) == taps.size())
+    return;
   for (size_t t = 0; t < taps.size(); ++t) {
-    const Tap& exact = taps[t];
+    const Tap exact = taps[t];
     if (exact.weight == 0) continue;  // P lies exactly on a texel's centre: the sampler reads no other texel
     const Tap stored = taps.on(stored_map_, e_.map.format, t);
     // A tap is wrong on one side of its threshold only: if it should be lit, it is wrong while it is dark, and the

@@ -131,21 +131,29 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
   // there to R4. They are signed.
   double before_exact = 0, before_moved = 0, before_r4 = 0;
   std::array<double, cause_count> booked{};
-  for (size_t t = 0; t < taps.size(); ++t) {
-    const Tap& tap = taps[t];
-    const bool lit = tap.lit(bias);
-    if (tap.exact_lit) exact_lit += tap.weight;
-    if (tap.moved_lit) moved_lit += tap.weight;
-    if (tap.texel_lit) texel_lit += tap.weight;
-    if (lit) all_lit += tap.weight;
+  const auto book = [&](const Tap& tap, bool lit, double weight) {
+    if (tap.exact_lit) exact_lit += weight;
+    if (tap.moved_lit) moved_lit += weight;
+    if (tap.texel_lit) texel_lit += weight;
+    if (lit) all_lit += weight;
     const Cause cause = tap_cause(tap, lit);
-    booked[static_cast<size_t>(cause)] += tap.weight;
-    if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
-    unsure += tap.weight;
-    const auto step = [&](bool from, bool to) { return tap.weight * (static_cast<int>(to) - static_cast<int>(from)); };
+    booked[static_cast<size_t>(cause)] += weight;
+    if (tap.exact_sure && tap.moved_sure && tap.texel_sure) return;
+    unsure += weight;
+    const auto step = [&](bool from, bool to) { return weight * (static_cast<int>(to) - static_cast<int>(from)); };
     if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
     if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
     if (cause == Cause::undecided) before_r4 += step(tap.moved_lit, lit);
+  };
+  if (taps.alike()) {  // those that are lit are booked at once, and so are those that are dark
+    const size_t lit = taps.lit_on(e.exact_map, bias);
+    if (lit > 0) book(taps[0], true, static_cast<double>(lit));
+    if (lit < taps.size()) book(taps[0], false, static_cast<double>(taps.size() - lit));
+  } else {
+    for (size_t t = 0; t < taps.size(); ++t) {
+      const Tap tap = taps[t];
+      book(tap, tap.lit(bias), tap.weight);
+    }
   }
   if (unsure > 0) ladder.flags[i] |= flag_undecided;
   // Computed in double and rounded once to float: the shader's own count / N is the same quotient in float.

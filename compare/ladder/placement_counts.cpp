@@ -27,8 +27,8 @@ double depth_step(DepthFormat format) { return format == DepthFormat::d32f ? 0 :
 float stored_depth(float depth, DepthFormat format) {
   if (format == DepthFormat::d32f) return depth;
   const double steps = depth_steps(format);
-  // std::round would be a call for every tap. The product has at most 48 bits, so the sum is exact.
-  return static_cast<float>(static_cast<double>(static_cast<int64_t>(std::clamp<double>(depth, 0, 1) * steps + 0.5)) /
+  // std::round would be a call for every tap. The product has at most 48 bits, so the sum is exact. It is at most 2^24.
+  return static_cast<float>(static_cast<double>(static_cast<int32_t>(std::clamp<double>(depth, 0, 1) * steps + 0.5)) /
                             steps);
 }
 
@@ -141,12 +141,12 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
     book(j * side + i, truth, bias, threshold, exact, shown, e.map.format != DepthFormat::d32f, receiver);
   };
 
-  // Most taps should be lit, and nothing but their depth decides whether they are: neither the map's border, nor a plane,
-  // nor a weight. They have a short way, on which those that are lit at every bias are skipped at once.
-  const bool plain = truth && asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane &&
-                     !probe.pattern.bilinear() && inside_map(placements_.texel_of(taps.low), size) &&
-                     inside_map(placements_.texel_of(taps.high), size);
-  if (!plain) {
+  // Of most receivers nothing but a tap's depth decides whether it is lit: neither the map's border, nor a plane, nor a
+  // weight.
+  const bool by_depth = asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane &&
+                        !probe.pattern.bilinear() && inside_map(placements_.texel_of(taps.low), size) &&
+                        inside_map(placements_.texel_of(taps.high), size);
+  if (!by_depth) {
     for (size_t j = 0; j < side; ++j)
       for (size_t i = 0; i < side; ++i) {
         OfReceiver receiver;
@@ -158,44 +158,63 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   // The weights are whole numbers, so their order changes no sum.
   thread_local std::vector<OfReceiver> receivers;
   receivers.assign(count_, {});
-  const float reference = probe.reference[pixel];
-  // Two steps of the format: a depth is rounded by half a step, and both sums here to float.
-  const float lit_from = static_cast<float>(reference + 2 * depth_step(e.map.format));
-  for (int t = 0; t < tap_count; ++t) {
-    const bool lit = (e.taps.bits(pixel, t) & ~of_texel) == tap_exact_lit;
+  const auto other = [&](int t, size_t i, size_t j) { add_tap(t, i, j, receivers[j * side + i]); };
+  if (truth)
+    book_by_depth<true>(e, pixel, taps, box, bias, threshold, receivers, other);
+  else
+    book_by_depth<false>(e, pixel, taps, box, bias, threshold, receivers, other);
+  for (size_t placement = 0; placement < count_; ++placement) book(placement, receivers[placement]);
+}
+
+// A tap that should be lit is acne where it is dark, and one that should be dark is Peter Panning where it is lit.
+template <bool lit, class Other>
+void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, const PlacedTaps& taps,
+                                    const LatticeBox& box, float bias, const std::optional<TapThreshold>& threshold,
+                                    std::vector<OfReceiver>& receivers, const Other& other) {
+  constexpr Kind cause = lit ? acne : peter_panning, error = lit ? error_dark : error_light;
+  constexpr uint8_t exact_bits = lit ? tap_exact_lit : 0, texel_bits = lit ? tap_texel_lit : 0;
+  const size_t side = static_cast<size_t>(placements_.side());
+  const float reference = e.probe.reference[pixel], biased = reference - bias;
+  const DepthFormat format = e.map.format;
+  // Two steps of the format: a depth is rounded by half a step, and both sums here to float. Such a tap is lit at every
+  // bias.
+  const float lit_from = static_cast<float>(reference + 2 * depth_step(format));
+  const float without_bias = threshold ? reference - threshold->bias_at(0) : 0;
+  std::optional<BinsByDepth> of_exact, of_shown;
+  float least = infinity_f;  // of the depths that should be lit
+  const float* const depth = box.depth.data();
+  for (int t = 0; t < e.probe.taps(); ++t) {
+    const bool as_receiver = (e.taps.bits(pixel, t) & ~of_texel) == exact_bits;
     const int* const column = &taps.column[static_cast<size_t>(t) * side];
     const int* const row = &taps.row[static_cast<size_t>(t) * side];
     for (size_t j = 0; j < side; ++j)
       for (size_t i = 0; i < side; ++i) {
         const size_t n = taps.index(column[i], row[j]), placement = j * side + i;
-        if (!lit || box.bits[n] != tap_texel_lit)
-          add_tap(t, i, j, receivers[placement]);
-        else if (!(box.depth[n] >= lit_from))
-          book_plain(placement, reference, bias, threshold, box.depth[n], e.map.format, receivers[placement]);
+        if (!as_receiver || box.bits[n] != texel_bits) {
+          other(t, i, j);
+          continue;
+        }
+        const float exact = depth[n];
+        if (lit && exact >= lit_from) continue;
+        const float shown = stored_depth(exact, format);
+        if ((biased > exact) == lit) ++own_[cause][placement];
+        if ((biased > shown) == lit) {
+          ++own_[error][placement];
+          ++receivers[placement].wrong_weight;
+        }
+        if (!threshold) continue;
+        if (!lit || without_bias > exact) {
+          if (!of_exact) of_exact.emplace(*threshold, bins_, reference, exact);
+          ++cell(cause, placement, of_exact->of(exact));
+          least = std::min(least, exact);
+        }
+        if (!lit || without_bias > shown) {
+          if (!of_shown) of_shown.emplace(*threshold, bins_, reference, shown);
+          ++cell(error, placement, of_shown->of(shown));
+        }
       }
   }
-  for (size_t placement = 0; placement < count_; ++placement) book(placement, receivers[placement]);
-}
-
-// What book() does of a tap of weight 1 that should be lit, for sure, and that neither the map's border nor a plane
-// decides: where it is dark it is acne.
-void PlacementCounts::book_plain(size_t placement, float reference, float bias,
-                                 const std::optional<TapThreshold>& threshold, float depth, DepthFormat format,
-                                 OfReceiver& receiver) {
-  const float shown = stored_depth(depth, format);
-  if (reference - bias > depth) ++own_[acne][placement];
-  if (reference - bias > shown) {
-    ++own_[error_dark][placement];
-    ++receiver.wrong_weight;
-  }
-  if (!threshold) return;
-  const float needed = threshold->at(reference, depth),
-              shown_at = shown == depth ? needed : threshold->at(reference, shown);
-  if (needed > 0) {
-    ++cell(acne, static_cast<int>(placement), bins_.of(needed));
-    acne_free_from_ = std::max(acne_free_from_, needed);
-  }
-  if (shown_at > 0) ++cell(error_dark, static_cast<int>(placement), bins_.of(shown_at));
+  if (lit && least < infinity_f) acne_free_from_ = std::max(acne_free_from_, threshold->at(reference, least));
 }
 
 void PlacementCounts::add(const LookupEvidence& e, size_t pixel) {
@@ -210,7 +229,7 @@ void PlacementCounts::add(const LookupEvidence& e, size_t pixel) {
   ReceiverTaps taps;
   taps.read(e, pixel);
   for (size_t t = 0; t < taps.size(); ++t) {
-    const Tap& exact = taps[t];
+    const Tap exact = taps[t];
     if (exact.weight == 0) continue;
     const Tap shown = rounded ? taps.at_depth(stored_depth(exact.depth, e.map.format), e.map.format, t) : exact;
     book(0, truth, bias, threshold, exact, shown, rounded, receiver);
@@ -238,12 +257,11 @@ void PlacementCounts::book(size_t placement, bool truth, float bias, const std::
   const bool right = exact.moved_sure ? exact.moved_lit : truth;
   if (!right || needed > 0) {
     const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
-    cell(kind_of(cause, right), static_cast<int>(placement), bins_.of(needed)) += exact.weight;
+    cell(kind_of(cause, right), placement, bins_.of(needed)) += exact.weight;
     if (cause == Cause::acne) acne_free_from_ = std::max(acne_free_from_, needed);
   }
   const float shown_at = rounded ? (*threshold)(shown) : needed;
-  if (!truth || shown_at > 0)
-    cell(truth ? error_dark : error_light, static_cast<int>(placement), bins_.of(shown_at)) += exact.weight;
+  if (!truth || shown_at > 0) cell(truth ? error_dark : error_light, placement, bins_.of(shown_at)) += exact.weight;
 }
 
 void PlacementCounts::book(size_t placement, const OfReceiver& receiver) {
@@ -269,9 +287,7 @@ void PlacementCounts::put(int placement, const PlacementCounts& one) {
   const auto p = static_cast<size_t>(placement);
   const size_t row = edges().size() + 1;
   if (varied_)
-    for (size_t kind = 0; kind < kinds; ++kind)
-      std::copy_n(one.histogram_.begin() + static_cast<std::ptrdiff_t>(kind * row), row,
-                  histogram_.begin() + static_cast<std::ptrdiff_t>((kind * count_ + p) * row));
+    for (size_t at = 0; at < kinds * row; ++at) histogram_[at * count_ + p] = one.histogram_[at];
   for (size_t kind = 0; kind < own_.size(); ++kind) own_[kind][p] = one.own_[kind][0];
   wrong_receivers_[p] = one.wrong_receivers_[0];
   aliasing_squares_[p] = one.aliasing_squares_[0];
@@ -287,13 +303,10 @@ uint64_t PlacementCounts::disagreements(int placement, const PlacementCounts& on
 // A tap that should be lit is wrong while the amount is below its threshold, and a tap that should be dark from its
 // threshold on.
 double PlacementCounts::wrong(Kind kind, int placement, size_t edge) const {
-  const size_t row = edges().size() + 1;
-  const auto bins =
-      histogram_.begin() +
-      static_cast<std::ptrdiff_t>((static_cast<size_t>(kind) * count_ + static_cast<size_t>(placement)) * row);
-  const auto middle = bins + static_cast<std::ptrdiff_t>(edge) + 1;
-  return darkens(kind) ? std::accumulate(middle, bins + static_cast<std::ptrdiff_t>(row), 0.0)
-                       : std::accumulate(bins, middle, 0.0);
+  const size_t bins = edges().size() + 1, from = darkens(kind) ? edge + 1 : 0, to = darkens(kind) ? bins : edge + 1;
+  double sum = 0;
+  for (size_t bin = from; bin < to; ++bin) sum += histogram_[cell_of(kind, static_cast<size_t>(placement), bin)];
+  return sum;
 }
 
 double PlacementCounts::caused(Cause cause, int placement, size_t edge) const {

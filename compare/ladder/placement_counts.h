@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/numbers.h"
 #include "compare/ladder/tap_threshold.h"
 #include "compare/results/records.h"
 #include "technique/placements.h"
@@ -45,6 +46,42 @@ class ThresholdBins {
  private:
   std::vector<float> edges_;
   std::vector<uint32_t> first_;  // for the leading bits of a float
+};
+
+// The bins of the thresholds of one receiver's taps, from their depths alone: the bin is the first edge at which the tap is
+// lit. The search begins at the last answer, because neighbouring taps have neighbouring depths.
+class BinsByDepth {
+ public:
+  // reference: of the taps. depth: of the first tap. threshold and bins must outlive it.
+  BinsByDepth(const TapThreshold& threshold, const ThresholdBins& bins, float reference, float depth)
+      : threshold_(threshold), edges_(bins.edges()), reference_(reference) {
+    at_ = bins.of(threshold.at(reference, depth));
+    before_ = at_ == 0 ? -infinity_f : compared_at(at_ - 1);
+    here_ = compared_at(at_);
+  }
+  // ThresholdBins::of(TapThreshold::at(reference, depth)).
+  size_t of(float depth) {
+    while (here_ > depth) {
+      before_ = here_;
+      here_ = compared_at(++at_);
+    }
+    while (at_ > 0 && !(before_ > depth)) {
+      here_ = before_;
+      before_ = --at_ == 0 ? -infinity_f : compared_at(at_ - 1);
+    }
+    return at_;
+  }
+
+ private:
+  // What is compared with a depth at this edge. Beyond the last edge every tap counts as lit.
+  float compared_at(size_t edge) const {
+    return edge < edges_.size() ? reference_ - threshold_.bias_at(edges_[edge]) : -infinity_f;
+  }
+  const TapThreshold& threshold_;
+  const std::vector<float>& edges_;
+  float reference_;
+  size_t at_ = 0;
+  float before_ = 0, here_ = 0;  // what is compared at the edge before, and at this one
 };
 
 // The edges for a curve over these biases (in window depth, ascending, from 0): its own, and others between them, so
@@ -119,15 +156,19 @@ class PlacementCounts {
   // Books a tap. threshold: empty if no part is varied. shown: the tap with the depth as the map's format stores it.
   void book(size_t placement, bool truth, float bias, const std::optional<TapThreshold>& threshold, const Tap& exact,
             const Tap& shown, bool rounded, OfReceiver& receiver);
-  void book_plain(size_t placement, float reference, float bias, const std::optional<TapThreshold>& threshold,
-                  float depth, DepthFormat format, OfReceiver& receiver);
+  // Books the taps of a receiver whose truth is `lit`, if nothing but their depth decides whether they are. Calls
+  // other(tap, column, row) for each tap whose own truth differs from the receiver's, or is not sure.
+  template <bool lit, class Other>
+  void book_by_depth(const PlacementEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
+                     float bias, const std::optional<TapThreshold>& threshold, std::vector<OfReceiver>& receivers,
+                     const Other& other);
   void book(size_t placement, const OfReceiver& receiver);
   static Kind kind_of(Cause cause, bool darkens);
   static bool darkens(Kind kind);
-  double& cell(Kind kind, int placement, size_t bin) {
-    return histogram_[(static_cast<size_t>(kind) * count_ + static_cast<size_t>(placement)) * (edges().size() + 1) +
-                      bin];
+  size_t cell_of(Kind kind, size_t placement, size_t bin) const {
+    return (static_cast<size_t>(kind) * (edges().size() + 1) + bin) * count_ + placement;
   }
+  double& cell(Kind kind, size_t placement, size_t bin) { return histogram_[cell_of(kind, placement, bin)]; }
   double wrong(Kind kind, int placement, size_t edge) const;
 
   Placements placements_;
@@ -137,7 +178,8 @@ class PlacementCounts {
   double whole_ = 1;
   uint64_t receivers_ = 0;
   float acne_free_from_ = 0;
-  std::vector<double> histogram_;                           // [kind][placement][bin]: weight of the thresholds
+  // [kind][bin][placement]: weight of the thresholds. The taps of a receiver have neighbouring bins at all placements.
+  std::vector<double> histogram_;
   std::array<std::vector<double>, kinds> own_;              // [placement]: weight at the point's own bias
   std::vector<double> wrong_receivers_, aliasing_squares_;  // [placement]
 };

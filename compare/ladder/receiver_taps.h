@@ -24,51 +24,123 @@ namespace noonmark {
 class ReceiverTaps {
  public:
   void read(const LookupEvidence& e, size_t i) { read(e.probe, e.taps, e.map, e.exact_map, i); }
+  // The map must outlive the reading: the depths of taps that are alike are read when they are asked for.
   void read(const LookupProbe& probe, const TapTruth& truth, const MapSettings& settings, const MapDepths& map,
             size_t i) {
     const auto count = static_cast<size_t>(truth.taps_per_receiver);
+    map_ = &map;
+    size_ = count;
+    reference_ = probe.reference[i];
+    asks_ = probe.asks(i);
+    lit_beyond_far_ = reference_ > 1.0f && settings.lit_beyond_far;
+    blended_ = probe.pattern.bilinear();
+    const uint8_t* const bits = &truth.taps[(i - truth.first) * count];
+    const bool inside = list_texels(probe, settings, i);
+    by_depth_ = inside && asks_ && reference_ <= 1.0f && !blended_ && !probe.tap_reference->plane;
+    alike_ = by_depth_ && std::equal(bits + 1, bits + count, bits);
+    if (alike_) {
+      same_ = tap_of(probe, bits[0], settings, map.size(), i, 0, read_by(probe, i, 0));
+      return;
+    }
     taps_.resize(count);
-    index_.resize(count);
-    const TexelSet& texels = *map.texels;
-    const glm::ivec2 size = texels.size();
-    TapRead read;
-    if (probe.cube_resolution == 0) read.position = probe.map_texels[i];
     for (size_t t = 0; t < count; ++t) {
       const int tap = static_cast<int>(t);
-      read.texel = probe.texel(i, tap);
-      const glm::ivec2 at = wrapped(read.texel, size, settings.wrap);
-      index_[t] = at.x < 0 ? on_border : texels.index(at);
-      read.depth = depth_in(map, t);
-      taps_[t] = tap_of(probe, truth.bits(i, tap), settings, size, i, tap, read);
+      taps_[t] = tap_of(probe, bits[t], settings, map.size(), i, tap, read_by(probe, i, tap));
     }
-    asks_ = probe.asks(i);
-    lit_beyond_far_ = probe.reference[i] > 1.0f && settings.lit_beyond_far;
-    blended_ = probe.pattern.bilinear();
   }
 
-  size_t size() const { return taps_.size(); }
+  size_t size() const { return size_; }
   // A tap as it reads the exact map.
-  const Tap& operator[](size_t t) const { return taps_[t]; }
+  Tap operator[](size_t t) const {
+    if (!alike_) return taps_[t];
+    Tap tap = same_;
+    tap.depth = depth_in(*map_, t);
+    return tap;
+  }
   // The same tap as it reads another map at the same texels.
   Tap on(const MapDepths& map, DepthFormat format, size_t t) const { return at_depth(depth_in(map, t), format, t); }
   // The same tap if it reads this depth.
   Tap at_depth(float depth, DepthFormat format, size_t t) const {
-    Tap tap = taps_[t];
+    Tap tap = alike_ ? same_ : taps_[t];
     if (!asks_) return tap;
     tap.depth = depth;
     tap.always_lit = lit_beyond_far_ || compares_clamped(blended_, format, tap.depth);
     return tap;
   }
 
+  // True if nothing but the depth that a tap reads decides whether it is lit, and each tap weighs 1: neither the map's
+  // border, nor far, nor a plane, nor a sampler.
+  bool by_depth() const { return by_depth_; }
+  // True if the taps differ in that depth only, so that they are judged together.
+  bool alike() const { return alike_; }
+  // Of taps by_depth(): how many are lit at this bias on a map with the same texels.
+  size_t lit_on(const MapDepths& map, float bias) const {
+    const float biased = reference_ - bias;  // as Tap::lit()
+    int lit = 0;
+    for (const Run& run : runs_) {
+      const float* const depth = &map.depth[run.first];
+      for (uint32_t k = 0; k < run.length; ++k) lit += !(biased > depth[k]);
+    }
+    return static_cast<size_t>(lit);
+  }
+
  private:
-  static constexpr size_t on_border = ~size_t{0};
+  static constexpr uint32_t on_border = ~uint32_t{0};
+  // Texels that follow each other in the lists of the maps.
+  struct Run {
+    uint32_t first, length;
+  };
+
+  // Lists the texels that the taps read. Returns whether all of them lie inside the map.
+  bool list_texels(const LookupProbe& probe, const MapSettings& settings, size_t i) {
+    const TexelSet& texels = *map_->texels;
+    const glm::ivec2 map_size = texels.size();
+    index_.clear();
+    runs_.clear();
+    if (probe.cube_resolution == 0 && probe.pattern.square_side > 0) {
+      probe.square_at(probe.map_texels[i], i, square_);
+      if (inside_map(square_.front(), map_size) && inside_map(square_.back(), map_size)) {
+        for (const glm::ivec2 row : square_) texels.indexes(row.y, square_, index_);
+        list_runs();
+        return true;
+      }
+    }
+    bool inside = true;
+    for (int tap = 0; tap < static_cast<int>(size_); ++tap) {
+      const glm::ivec2 texel = probe.texel(i, tap), at = wrapped(texel, map_size, settings.wrap);
+      inside = inside && inside_map(texel, map_size);
+      index_.push_back(at.x < 0 ? on_border : static_cast<uint32_t>(texels.index(at)));
+    }
+    if (inside) list_runs();
+    return inside;
+  }
+  void list_runs() {
+    for (const uint32_t index : index_)
+      if (!runs_.empty() && index == runs_.back().first + runs_.back().length)
+        ++runs_.back().length;
+      else
+        runs_.push_back({index, 1});
+  }
+  TapRead read_by(const LookupProbe& probe, size_t i, int tap) const {
+    TapRead read;
+    if (probe.cube_resolution == 0) read.position = probe.map_texels[i];
+    read.texel = probe.texel(i, tap);
+    read.depth = depth_in(*map_, static_cast<size_t>(tap));
+    return read;
+  }
   float depth_in(const MapDepths& map, size_t t) const {
     return index_[t] == on_border ? border_depth : map[index_[t]];
   }
 
-  std::vector<Tap> taps_;
-  std::vector<size_t> index_;  // TexelSet::index of the texel that it reads
-  bool asks_ = true, lit_beyond_far_ = false, blended_ = false;
+  const MapDepths* map_ = nullptr;  // the exact map
+  size_t size_ = 0;
+  std::vector<uint32_t> index_;  // TexelSet::index of the texel that a tap reads
+  std::vector<Run> runs_;        // the same, if all lie inside the map
+  std::vector<Tap> taps_;        // empty if the taps are alike
+  Tap same_;                     // each of them then, but for its depth
+  float reference_ = 0;
+  bool asks_ = true, lit_beyond_far_ = false, blended_ = false, by_depth_ = false, alike_ = false;
+  std::vector<glm::ivec2> square_;  // its memory is used again
 };
 
 // At most this many taps are read before the judges join what the threads have found. It bounds the memory of a curve's

@@ -35,6 +35,15 @@ class TapThreshold {
       return std::numeric_limits<float>::infinity();  // dark at any bias
     return at(tap.reference, tap.depth);
   }
+  // The bias at an amount of the varied part, with the shader's arithmetic (Bias::at). A tap is lit at the amount exactly
+  // if its threshold is at most the amount.
+  float bias_at(float amount) const {
+    ActivePart varied = varied_;
+    varied.amount = amount;
+    float sum = before_ + varied.held(factor_);
+    for (const float part : after_) sum += part;
+    return sum * unit_;
+  }
   // Of a tap that compares these finite depths.
   float at(float reference, float depth) const {
     const float needed = lit_threshold(reference, depth);

@@ -41,6 +41,28 @@ TEST(TapPattern, HasAsManyTapsAsTheFilterSays) {
   expect(filter("cube_disk"), 20, 1, true, false);
 }
 
+// Who reads a square's columns and rows off its diagonal must find those of all taps.
+TEST(TapPattern, OfASquareHasTheColumnsAndRowsOfItsDiagonal) {
+  FilterSettings wide = filter("box", 5);
+  wide["step_texels"] = 1.3;
+  int squares = 0;
+  for (const FilterSettings& f : {filter("none"), filter("box", 1), filter("box", 3), filter("box", 31), wide,
+                                  filter("hardware"), filter("gaussian", 5), filter("poisson"), filter("cube_grid")}) {
+    const TapPattern p = tap_pattern(f);
+    const int side = p.square_side;
+    squares += side > 0;
+    if (side == 0) continue;
+    ASSERT_EQ(p.taps, side * side) << f.kind;
+    ASSERT_EQ(p.variants, 1);
+    ASSERT_FALSE(p.bilinear() || p.in_world || p.scaled_by_view);
+    for (int row = 0; row < side; ++row)
+      for (int column = 0; column < side; ++column)
+        ASSERT_EQ(p.offset(0, row * side + column),
+                  glm::vec3(p.offset(0, column * (side + 1)).x, p.offset(0, row * (side + 1)).y, 0));
+  }
+  EXPECT_EQ(squares, 5);
+}
+
 TEST(TapPattern, OfABoxHasItsStepAndItsMiddle) {
   FilterSettings f = filter("box", 5);
   f["step_texels"] = 1.5;

@@ -56,6 +56,40 @@ RC_GTEST_PROP(TexelSet, NumbersItsTexelsOnce, ()) {
   RC_ASSERT(without_gaps);
 }
 
+// Squares of texels, as the taps of a box read them: with steps of more than a texel, and with columns twice.
+RC_GTEST_PROP(TexelSet, AddsAndNumbersSquaresAsTheirTexels, ()) {
+  const int width = *rc::gen::inRange(1, 150), height = *rc::gen::inRange(1, 200);
+  std::mt19937 random(*rc::gen::arbitrary<uint32_t>());
+  const auto below = [&](int most) { return static_cast<int>(random() % static_cast<unsigned>(most)); };
+  TexelSet squares({width, height}), plain({width, height});
+  std::vector<std::vector<glm::ivec2>> asked;
+  for (int i = below(20); i >= 0; --i) {
+    std::vector<glm::ivec2>& square = asked.emplace_back();
+    const int step = 1 + below(3) / 2 * below(9);
+    for (glm::ivec2 at(below(width), below(height)); at.x < width && at.y < height && square.size() < 70;
+         at += step - (below(10) == 0))
+      square.push_back(at);
+    squares.add_square(square);
+    for (const glm::ivec2 row : square)
+      for (const glm::ivec2 column : square) plain.add({column.x, row.y});
+  }
+  squares.close();
+  plain.close();
+  int wrong = squares.count() != plain.count();
+  for (const std::vector<glm::ivec2>& square : asked) {
+    std::vector<uint32_t> numbers, expected;
+    for (const glm::ivec2 row : square) {
+      squares.indexes(row.y, square, numbers);
+      for (const glm::ivec2 column : square) {
+        wrong += !squares.has({column.x, row.y});
+        expected.push_back(static_cast<uint32_t>(plain.index({column.x, row.y})));
+      }
+    }
+    wrong += numbers != expected;
+  }
+  RC_ASSERT(wrong == 0);
+}
+
 RC_GTEST_PROP(TexelSet, VisitsRowsAndTilesInTheOrderOfTheNumbers, ()) {
   const Sample sample = random_sample();
   const TexelSet& set = *sample.set;

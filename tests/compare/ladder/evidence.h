@@ -1,6 +1,7 @@
 // Random evidence for the tests of the ladder and of the bias curves, and a plain, slow evaluation of it, with which
 // the results are compared. Nothing here calls the code under test.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -87,6 +88,7 @@ inline TapPattern pattern_of(const Shape& shape) {
     pattern.blended_side = side;
     pattern.kernel = fetch_weights(shape.kernel);
   }
+  if (shape.lookup == Lookup::box) pattern.square_side = side;
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)
       pattern.offsets.emplace_back(static_cast<float>(2 * x + 1 - side) / 2, static_cast<float>(2 * y + 1 - side) / 2,
@@ -172,6 +174,10 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
       if (taps > 1 && chance(5)) bits |= moves ? tap_exact_unsure : tap_exact_unsure | tap_moved_unsure;
       if (moves && chance(5)) bits |= tap_moved_unsure;
       s.taps.taps[i * static_cast<size_t>(taps) + static_cast<size_t>(t)] = bits;
+    }
+    if (i % 3 == 0) {  // the taps of many receivers have the same truth
+      const auto first = s.taps.taps.begin() + static_cast<std::ptrdiff_t>(i) * taps;
+      std::fill_n(first, taps, *first);
     }
   }
   return s;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -51,15 +52,24 @@ TEST(TapCause, IsTheRuleOfTheHead) {
 }
 
 TEST(TapOf, ReadsWhatOpenGLWould) {
+  int alike = 0;
   for (uint64_t seed = 1; seed <= 60; ++seed) {
     const Synthetic s = any_evidence(seed, static_cast<int>(seed % 3) * 2 + 1, static_cast<Lookup>(seed / 3 % 3));
+    const MapDepths stored = s.stored_map();
     for (size_t i = 0; i < s.r4.size(); ++i) {
       if (!s.truth.facing[i]) continue;
       const std::vector<naive::Tap> expected = naive::taps_of(s, s.stored, i);
       ReceiverTaps taps;
-      taps.read(s.probe, s.taps, s.map, s.stored_map(), i);
+      taps.read(s.probe, s.taps, s.map, stored, i);
+      for (float bias : {0.0f, 0.0625f, 0.5f, 3.0f}) {
+        if (!taps.by_depth()) break;
+        const auto lit = std::count_if(expected.begin(), expected.end(),
+                                       [&](const naive::Tap& tap) { return naive::verdict(s, tap, bias); });
+        ASSERT_EQ(taps.lit_on(stored, bias), static_cast<size_t>(lit)) << "seed " << seed;
+      }
+      alike += taps.alike() && taps.size() > 1;
       for (size_t t = 0; t < expected.size(); ++t) {
-        const Tap& tap = taps[t];
+        const Tap tap = taps[t];
         ASSERT_EQ(tap.exact_lit, expected[t].exact_lit);
         ASSERT_EQ(tap.moved_lit, expected[t].moved_lit);
         ASSERT_EQ(tap.texel_lit, expected[t].texel_lit);
@@ -72,6 +82,7 @@ TEST(TapOf, ReadsWhatOpenGLWould) {
       }
     }
   }
+  EXPECT_GT(alike, 100);
 }
 
 class Climb : public testing::TestWithParam<std::pair<Lookup, int>> {};
