@@ -44,6 +44,8 @@ class Reader : private SettingsReader {
         experiment_.title = string(*item.node, "title");
       else if (!in_part_ && item.key == "pictures")
         experiment_.pictures = one_of(*item.node, "pictures", key_choices("root", "pictures"));
+      else if (!in_part_ && item.key == "exr")
+        experiment_.exr = boolean(*item.node, "exr");
       else if (!in_part_ && item.key == "times")
         times_ = item.node;
       else if (!in_part_ && item.key == "plot")

@@ -46,6 +46,8 @@ const std::vector<ExperimentKey>& root_keys() {
       of_file("title", Kind::text, "The heading of the report."),
       of_file("pictures", Kind::choice, "Which points get pictures.",
               {"first", "all", "none", "worst", "extremes", "answers"}),
+      of_file("exr", Kind::flag,
+              "Whether points with pictures also have their numbers as OpenEXR files; those with a broken bound have."),
       of_file("times", Kind::flag, "Whether map and lookup are timed."),
       of_file("plot", Kind::table, "Which metrics stand at the top of the report's list."),
       of_file("answer", Kind::table, "What the answer makes small, and what it counts as cost."),

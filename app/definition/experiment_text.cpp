@@ -45,6 +45,7 @@ class Writer {
                         printable(e.path));
     line("title", toml_string(e.title));
     line("pictures", toml_string(e.pictures));
+    if (e.frames.empty()) line("exr", e.exr ? "true" : "false");
     if (e.lights) line("lights", toml_string("parts"));
     if (e.frames.empty()) line("times", times_measured(e) ? "true" : "false");
     if (!e.plot.empty()) {

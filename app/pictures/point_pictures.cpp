@@ -130,18 +130,24 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
   return ids;
 }
 
-PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out) {
+bool has_exr(const PointPictures& point) {
+  return std::any_of(point.images.begin(), point.images.end(),
+                     [](const ImageRecord& image) { return image.path.ends_with(".exr"); });
+}
+
+PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out, PictureFormats formats) {
   const std::string folder = out + "/images";
   make_folder(folder);
   const std::string stem = fmt::format("p{:04}", id);
   PointPictures kept;
-  kept.images = write_images(m, folder, "images", stem + "-");
+  if (formats == PictureFormats::png_and_exr) kept.images = write_images(m, folder, "images", stem + "-");
   kept.pictures = write_pictures(m, folder, "images", stem);
   return kept;
 }
 
-PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out) {
-  PointPictures kept = keep_pictures(m, id, out);
+PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out,
+                                         PictureFormats formats) {
+  PointPictures kept = keep_pictures(m, id, out, formats);
   const std::vector<glm::ivec2> pixels = section_pixels(m.record, m.ladder, m.probe);
   if (pixels.empty()) return kept;  // no taps are traced again for nothing
   for (const ReceiverSection& section : bench.sections(m, pixels)) {

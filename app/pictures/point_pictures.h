@@ -40,12 +40,20 @@ Instant worst_instant(const std::vector<PointRecord>& points);
 inline constexpr const char* motion_picture = "motion";
 PictureRecord keep_motion(const std::vector<Image<Color>>& frames, int64_t id, const std::string& out);
 
+// Which files a point's pictures are: PNG for people, or also OpenEXR with every number behind them (write_images()), which is
+// several times as large.
+enum class PictureFormats { png, png_and_exr };
+
+// Whether the point has the files with the numbers.
+bool has_exr(const PointPictures& point);
+
 // Writes the point's files below out/images. The record must be in the store.
-PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out);
+PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out, PictureFormats formats);
 
 // The same, and sections through its worst pixels (section_pixels()) as out/images/p0003-section-312-175.svg. m: the
 // bench's last measurement.
-PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out);
+PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out,
+                                         PictureFormats formats);
 
 // Draws the point's live picture and writes it as out/images/p0003-live.bin: at every bias, or, if its settings have no such
 // picture, a stack of pictures at a few values (compare/ladder/picture_stack.h). marks: of the stack. The images of the bench's last

@@ -193,13 +193,13 @@ class TemporaryFolder {
 };
 
 // The files of each point's pictures, without its measurement. They grow with the pixels and with the map's texels.
-std::vector<double> picture_times(Workbench& bench, const std::vector<Settings>& planned) {
+std::vector<double> picture_times(Workbench& bench, const std::vector<Settings>& planned, PictureFormats formats) {
   const TemporaryFolder folder;
   if (folder.path().empty()) return std::vector<double>(planned.size(), 0.0);
   const auto write = [&](const Settings& settings) {
     const Measurement m = bench.measure(settings, std::nullopt);
     const Clock before = now();
-    keep_pictures_and_sections(bench, m, 0, folder.path());
+    keep_pictures_and_sections(bench, m, 0, folder.path(), formats);
     return now().cpu_s - before.cpu_s;
   };
   const auto texels = [](const Settings& s) { return static_cast<double>(s.map.resolution) * s.map.rows(); };
@@ -265,7 +265,8 @@ TimeEstimate estimate_time(Workbench& bench, const Experiment& experiment, const
   for (double s : seconds) estimate.cpu_s += s;
   estimate.measured = calibration.measured();
   if (experiment.pictures != "none") {
-    const std::vector<double> files = picture_times(bench, planned);
+    const std::vector<double> files =
+        picture_times(bench, planned, experiment.exr ? PictureFormats::png_and_exr : PictureFormats::png);
     const auto mean_of = [](const std::vector<double>& all) {
       return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
     };

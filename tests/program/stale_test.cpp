@@ -339,9 +339,9 @@ TEST_F(Stale, TheReportReadsItsOwnPicturesOnly) {
 TEST_F(Stale, PicturesThatAreLostOrAnothersAreMadeAgain) {
   for (const char* which : {"first", "extremes", "all"}) {
     SCOPED_TRACE(which);
-    const std::string experiment =
-        write("x.toml", "scene = \"plate\"\npictures = \"" + std::string(which) +
-                            "\"\n[view]\nwidth_px = 48\nheight_px = 27\n[sweep]\nmap.resolution = [16, 32]\n");
+    const std::string experiment = write(
+        "x.toml", "scene = \"plate\"\npictures = \"" + std::string(which) +
+                      "\"\nexr = true\n[view]\nwidth_px = 48\nheight_px = 27\n[sweep]\nmap.resolution = [16, 32]\n");
     ASSERT_EQ(run({"run", experiment, "--out", "out", "--overwrite"}), 0) << output_;
     const std::string report = text("out/report.html");
     std::vector<std::string> files;
@@ -365,6 +365,33 @@ TEST_F(Stale, PicturesThatAreLostOrAnothersAreMadeAgain) {
     EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0);
     EXPECT_FALSE(says("made again")) << output_;
   }
+}
+
+// OpenEXR files are large, so a run writes them only where a bound is broken, or where the experiment asks.
+TEST_F(Stale, NumbersBehindPicturesAreWrittenWhereTheyAreAskedFor) {
+  const auto experiment = [&](const std::string& key, double most) {
+    return write("x.toml", key + "scene = \"plate\"\npictures = \"all\"\n[view]\nwidth_px = 48\nheight_px = 27\n" +
+                               "[sweep]\nmap.resolution = [16, 32]\n[[bound]]\nmetric = \"error\"\nmax = " +
+                               std::to_string(most) + "\nwhere = {\"map.resolution\" = 16}\n");
+  };
+  const auto exr = [&] {
+    std::set<std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/images"))
+      if (entry.path().extension() == ".exr") files.insert(entry.path().filename().string());
+    return files;
+  };
+  const std::set<std::string> first = {"p0000-ladder.exr", "p0000-map.exr"}, none;
+  std::set<std::string> both = first;
+  both.insert({"p0001-ladder.exr", "p0001-map.exr"});
+  ASSERT_EQ(run({"check", experiment("", 1), "--out", "out"}), 0) << output_;
+  EXPECT_EQ(exr(), none);
+  // A bound of the same points that is broken now: they are not measured again for it, but drawn.
+  ASSERT_EQ(run({"check", experiment("", 1e-9), "--out", "out"}), 1) << output_;
+  EXPECT_EQ(exr(), first);
+  ASSERT_EQ(run({"run", experiment("exr = true\n", 1), "--out", "out"}), 0) << output_;
+  EXPECT_EQ(exr(), both);
+  ASSERT_EQ(run({"check", experiment("exr = true\n", 1), "--out", "new"}), 0) << output_;
+  EXPECT_TRUE(there("new/images/p0001-ladder.exr"));
 }
 
 TEST_F(Stale, TheAnimationOfAMotionIsOfItsWorstInstant) {

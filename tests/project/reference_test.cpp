@@ -70,9 +70,12 @@ TableLines quantities_table_lines() {
 }
 
 TableLines scenes_table_lines() {
-  TableLines lines = {"| scene | what it provokes |", "|---|---|"};
+  TableLines lines = {"| scene | what it provokes | as its map shows it | what is wrong |", "|---|---|---|---|"};
   for (const BuiltinScene& row : builtin_scenes())
-    lines.push_back(fmt::format("| `{}` | {} |", row.name, cell(row.provokes)));
+    lines.push_back(
+        fmt::format("| `{0}` | {1} | ![{0} with its shadow map](../images/scenes/{0}.png) | "
+                    "![the causes of the wrong pixels](../images/scenes/{0}-causes.png) |",
+                    row.name, cell(row.provokes)));
   return lines;
 }
 
@@ -109,7 +112,8 @@ TableLines frame_keys_table_lines() {
     constexpr std::string_view takes[] = {
         // in the order of FrameKeyKind
         "object",  "text",          "",           "number from 0 on", "number above 0",
-        "boolean", "three numbers", "three axes", "16 numbers",       "settings by name", "1"};
+        "boolean", "three numbers", "three axes", "16 numbers",       "settings by name",
+        "1"};
     const std::string_view choices = key.choices;
     std::string kind(takes[static_cast<size_t>(key.kind)]);
     for (const char c : choices) kind += c == '|' ? " | " : std::string(1, c);

@@ -235,7 +235,7 @@ TEST(CubeFaces, AreOpenGLs) {
     ASSERT_EQ(cube_face_of(r), face);
     LightFrame f;
     f.kind = LightKind::point;
-    f.resolution = 100;
+    f.resolution = f.rows = 100;
     const glm::dvec2 texels = f.map_texels(r);
     ASSERT_NEAR(texels.x, 100 * (sc / std::abs(ma) + 1) / 2, kind_rounding * 100);
     ASSERT_NEAR(texels.y, 100 * (tc / std::abs(ma) + 1) / 2 + 100 * face, kind_rounding * 1000);

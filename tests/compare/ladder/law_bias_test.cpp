@@ -41,7 +41,7 @@ LightFrame random_frame(std::mt19937& random, LightKind kind) {
     f.tan_half_fov = random_in(random, 0.2, 1.5);
     f.shift_texels = {random_in(random, -1, 1), random_in(random, -1, 1)};
   }
-  f.resolution = 16 + static_cast<int>(random() % 1000);
+  f.resolution = f.rows = 16 + static_cast<int>(random() % 1000);
   return f;
 }
 
@@ -194,7 +194,8 @@ TEST(AcneLaw, OfACubeIsTheNearestOfTheSquareAroundEachTap) {
   for (const LookupProbe& probe : cube_probes()) {
     for (int i = 0; i < 20; ++i) {
       LightFrame f = random_frame(random, LightKind::point);
-      if (i % 2) f.resolution = 4 + i;  // the squares are so wide that the nearest place is on a side or inside
+      if (i % 2)
+        f.resolution = f.rows = 4 + i;  // the squares are so wide that the nearest place is on a side or inside
       if (i % 4 > 1) f = Placements(3).frame(f, 1 + i % 8);
       Plane plane = random_plane(random, f);
       if (i % 4 == 1) plane.normal = f.direction_to_light(plane.point);
@@ -284,7 +285,7 @@ TEST(LawMetrics, UnderASpotLightAreTheWorstReceivers) {
   f.far_m = 20;
   f.tan_half_fov = 0.5;
   f.cos_half_cone = 0.9;
-  f.resolution = 100;
+  f.resolution = f.rows = 100;
   const glm::dvec3 normal(0.6, 0, 0.8);
   Ladder ladder;
   ladder = empty_ladder(3, 1);
