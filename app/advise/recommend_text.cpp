@@ -31,7 +31,9 @@ std::string length_text(double metres) {
 // extent_m: of a directional light's map, to say how wide it and its texels are; 0: that is not said.
 std::string settings_text(const Tried& tried, const AdviceRequest& request, double extent_m = 0) {
   const MapPlace& place = request.places[tried.place];
-  std::string text = fmt::format("a map of {0} x {0} texels", tried.settings.map.resolution);
+  const MapSettings& map = tried.settings.map;
+  std::string text = map.aspect ? fmt::format("a map of {} x {} texels", map.resolution, map.rows())
+                                : fmt::format("a map of {} texels' width and as many rows as it needs", map.resolution);
   if (!place.covers.empty()) text += fmt::format(" over {}, {:.4g} m wide", place.covers, place.extent_m);
   if (extent_m > 0)
     text += fmt::format("{} ({} a texel)", place.covers.empty() ? fmt::format(", {:.4g} m wide", extent_m) : "",

@@ -159,7 +159,9 @@ std::string report_text(const ModelReport& r) {
   line("light",
        fmt::format("{}{}, {}", c.gives_light ? "of the file" : "fitted, because the file shows none",
                    kinds({{c.directional_lights, "directional"}, {c.spot_lights, "spot"}, {c.point_lights, "point"}}),
-                   "measured as a " + r.light + " light"));
+                   r.scene.lights.size() > 1
+                       ? "measured as a " + r.light + " light; lights = \"all\" in an experiment measures all"
+                       : "measured as a " + r.light + " light"));
   for (size_t i = 0; i < r.scene.lights.size(); ++i)
     line(fmt::format("light {}", i).c_str(), text_of(r.scene.lights[i]));
   line("animations", fmt::format("{}, {}, {} meshes with morph targets", counted(c.animations, "animation"),

@@ -44,9 +44,12 @@ void print_lines(const std::vector<EngineAdvice>& engines, std::span<const std::
 }  // namespace
 
 void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines, std::span<const std::string> shown,
-                  Workbench& bench, const std::string& out) {
+                  const std::string& no_lines, Workbench& bench, const std::string& out) {
   const AdviceRequest& request = advice.request;
-  print_lines(engines, shown, out);
+  if (no_lines.empty())
+    print_lines(engines, shown, out);
+  else
+    fmt::print("\n{}.\n", printable(no_lines));
   if (const std::string note = notes_line(bench.scene(request.conditions.front().scene)); !note.empty())
     fmt::print("note: {}\n", printable(note));
   std::set<std::string> of_lights;  // conditions may be lights that stand elsewhere
@@ -55,8 +58,8 @@ void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines
   for (const std::string& note : of_lights) fmt::print("note: {}\n", printable(note));
   fmt::print(
       "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.txt (also why simpler "
-      "settings do not do), {0}/recommended.json, {0}/engines.txt and {0}/recommended-*.png are written\n",
-      printable(out));
+      "settings do not do), {0}/recommended.json{1} and {0}/recommended-*.png are written\n",
+      printable(out), no_lines.empty() ? fmt::format(", {}/engines.txt", printable(out)) : "");
   for (const Answer& answer : advice.answers)
     if (&answer != advice.answer())
       fmt::print(

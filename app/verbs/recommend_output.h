@@ -13,8 +13,9 @@ namespace noonmark {
 std::string whole_text(const Advice& advice);
 
 // Prints what to type into the engines that are shown, each with what it gave in the engine itself, if it was tried there; where the
-// lines of the others are; what to know of the scenes; and which files are written. shown: engine_word().
+// lines of the others are; what to know of the scenes; and which files are written. shown: engine_word(). no_lines: why there are
+// no lines; empty: there are.
 void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines, std::span<const std::string> shown,
-                  Workbench& bench, const std::string& out);
+                  const std::string& no_lines, Workbench& bench, const std::string& out);
 
 }  // namespace noonmark

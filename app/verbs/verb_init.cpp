@@ -53,6 +53,9 @@ int write_first_experiment(const InitOptions& options) {
   const std::string word = shell_quoted(file);
   fmt::print("{} is written; each line says what to change\n", printable(file));
   if (const std::string note = notes_line(loaded.scene); !note.empty()) fmt::print("note: {}\n", printable(note));
+  if (loaded.scene.lights.size() > 1)
+    fmt::print("note: the file has {} lights, and this experiment measures one; lights = \"all\" in it measures all\n",
+               loaded.scene.lights.size());
   fmt::print(
       "\nNext:\n  noonmark run {}\n  open {}/report.html\n"
       "or, for the cheapest settings that hold the bounds:\n  noonmark recommend {}\n  noonmark check {}\n",

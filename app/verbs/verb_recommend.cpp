@@ -262,6 +262,17 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
   return request;
 }
 
+// The lines of an engine lay a square map along the light's own axes. Empty: so do the settings.
+std::string why_no_engine_lines(std::span<const Settings> conditions) {
+  for (const Settings& condition : conditions)
+    for (const char* name : {"map.aspect", "map.roll_deg"})
+      if (const Setting& row = find_setting(name); row.get(condition) != row.get(Settings()))
+        return fmt::format(
+            "no engine's lines can be given with {} = {}: they lay a square map along the light's own axes", name,
+            row.get(condition));
+  return "";
+}
+
 // The engines whose lines are printed.
 std::vector<std::string> shown_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan) {
   std::vector<std::string> words;
@@ -291,6 +302,9 @@ int recommend(const RecommendOptions& options) {
   require_image_files();
   AdviceRequest request = request_of(experiment, options, bench);
   if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
+  const std::string no_lines = why_no_engine_lines(request.conditions);
+  if (!no_lines.empty() && (options.lines || !options.engines.empty()))
+    throw Error(ErrorKind::usage, fmt::format("{}; leave it out, or leave out --lines and --engine", no_lines));
   std::optional<TrialPlan> plan;
   if (!options.engines.empty()) {
     plan = plan_trial(bench, request.conditions, options.engines, options.adapters);
@@ -311,7 +325,7 @@ int recommend(const RecommendOptions& options) {
     advice.around = settings_around(bench, under_conditions(advice.answer()->tried, request),
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
   std::vector<EngineAdvice> engines;
-  if (advice.answer()) engines = measured_engines(bench, advice.answer()->tried, request, say);
+  if (advice.answer() && no_lines.empty()) engines = measured_engines(bench, advice.answer()->tried, request, say);
   if (advice.answer() && plan) {
     for (Settings& view : plan->views) request.places[advice.answer()->tried.place].apply(view);
     try_engines(bench, *plan, engines, {request.curve, request.error, request.accuracy}, out, say);
@@ -329,12 +343,12 @@ int recommend(const RecommendOptions& options) {
     write_file_atomically(out + "/" + stem + ".toml", advice_experiment(answer, advice, out));
     write_pictures(bench.measure(answer.tried.settings, std::nullopt), out, ".", stem);
   }
-  write_file_atomically(out + "/engines.txt", advice_engines(engines));
+  if (no_lines.empty()) write_file_atomically(out + "/engines.txt", advice_engines(engines));
   write_file_atomically(out + "/recommended.txt", whole_text(advice));
   if (advice.around)
     write_file_atomically(out + "/recommended.html",
                           to_tornado_page(*advice.around, std::string(build_facts().version)));
-  if (!arguments.json) print_advice(advice, engines, shown_engines(options, plan), bench, out);
+  if (!arguments.json) print_advice(advice, engines, shown_engines(options, plan), no_lines, bench, out);
   require_frames(engines);
   return broken_in_engine(engines) ? 1 : 0;
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "app/pictures/pictures.h"
@@ -25,6 +26,8 @@
 #include "scenes/library.h"
 #include "technique/bias.h"
 #include "technique/casters.h"
+#include "technique/light_frame.h"
+#include "technique/light_kind.h"
 #include "technique/placements.h"
 #include "technique/setting_rules.h"
 
@@ -64,6 +67,17 @@ void print_flicker(const Measurement& m) {
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * found->second);
 }
 
+// What an automatic shape and rotation of the map became.
+void print_fitted_map(const Measurement& m) {
+  const MapSettings& map = m.technique.settings.map;
+  const LightFrame& frame = m.technique.frame;
+  if ((map.aspect && map.roll_deg) || !frame.light().rays().have_one_direction()) return;
+  const LightFrame unrolled = frame.light().axes(effective_light(m.scene, m.technique.settings));
+  const double roll = std::atan2(glm::dot(frame.right, unrolled.up), glm::dot(frame.right, unrolled.right));
+  fmt::print("  the map: {} x {} texels, {:.4g} x {:.4g} m, map.roll_deg = {:.4g}\n\n", frame.resolution, frame.rows,
+             frame.extent_m, frame.extent_m * frame.rows / frame.resolution, glm::degrees(roll));
+}
+
 // clock: what the times come from.
 void print_ladder(const Measurement& m, const char* clock) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
@@ -81,6 +95,7 @@ void print_ladder(const Measurement& m, const char* clock) {
   print_placements(m);
   print_flicker(m);
   fmt::print("\n");
+  print_fitted_map(m);
   if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
   for (const char* name :
        {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "edge_displacement_mean_pixels",

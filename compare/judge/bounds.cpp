@@ -14,6 +14,7 @@
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
 #include "compare/ladder/numbers.h"
+#include "compare/results/metrics.h"
 #include "compare/results/number_text.h"
 #include "technique/settings.h"
 
@@ -338,7 +339,10 @@ std::string found_text(const BoundResult& bound) {
 
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
   std::string text = fmt::format("{}: {}", verdict_of(bound), printable(words_of(bound, bound.at_given_view)));
-  if (!bound.part.empty()) text += fmt::format(" in part {}", printable(bound.part));
+  if (is_of_lights(bound.metric))
+    text += " of the frame of lights";
+  else if (!bound.part.empty())
+    text += fmt::format(" in part {}", printable(bound.part));
   if (bound.points == 0)
     return text +
            "\n  no finished point matches it; change its where, or the swept values (a refused frame matches "

@@ -197,7 +197,8 @@ std::string last_run_or_new(const BoundResult& bound, const Results& results) {
 
 // since: of the last column; empty: the table has none.
 Markup bound_row(const BoundResult& bound, std::string_view unit, const std::string& since) {
-  std::string where;
+  const bool of_frame = is_of_lights(bound.metric);
+  std::string where = of_frame ? "" : bound.part;
   for (const auto& [name, values] : bound.where)
     where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", name, fmt::join(values, " | "));
   std::string limit;
@@ -205,7 +206,7 @@ Markup bound_row(const BoundResult& bound, std::string_view unit, const std::str
   if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit, digits));
   if (bound.min) limit += fmt::format("{}at least {}", limit.empty() ? "" : ", ", quantity(*bound.min, unit, digits));
   Markup found = bound.points == 0 ? "no point matches" : quantity(bound.found, unit, digits);
-  if (bound.point >= 0) {
+  if (bound.point >= 0 && !of_frame) {
     const std::string name = fmt::format("point {}", bound.point);
     found += " at " + (bound.held ? point_link(bound.point, name) : failure_link(bound, name));
   }

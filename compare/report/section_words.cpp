@@ -70,7 +70,8 @@ std::string aliasing_text(const ReceiverSection& section, const SectionTap& tap)
       "is {}. A shadow's edge runs between them, and a texel has one answer for both. {}.",
       texel_text(section, tap), away_text(section, tap), dark ? "in shadow" : "lit",
       nearer_text(tap.exact_m, tap.compared_m), dark ? "lit" : "in shadow",
-      "A finer map or a smaller extent brings the centre nearer; no bias does");
+      section.light == "directional" ? "A finer map or a smaller extent brings the centre nearer; no bias does"
+                                     : "A finer map brings the centre nearer; no bias does");
 }
 
 std::string coverage_text(const ReceiverSection& section, const SectionTap& tap) {

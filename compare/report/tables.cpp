@@ -301,14 +301,16 @@ Markup truth_in_words(const Results& results) {
   if (points == 0) return {};
   if (all_by_rays)
     return paragraph(css("note"), prose("Embree's rays answered all of the truth ({}).", code("truth.method = rays")));
+  // As of a point light, whose cubes have no certified squares and are not scanned.
+  if (!(cells + scan > 0)) return paragraph(css("note"), prose("Embree's rays answered all of the truth."));
+  const auto share = [&](double sum) { return fmt::format("{:.3g}%", 100 * sum / points); };
   return paragraph(
       css("note"),
       prose(
           "{} of the truth needed no ray: certified squares of the light's plane and the lack of silhouettes answered "
           "{}, scan conversion of the exact map in double answered {}; Embree's rays answered {}. {} asks a ray for "
           "everything and gives the same verdicts.",
-          cell((cells + scan) / points, "fraction"), cell(cells / points, "fraction"), cell(scan / points, "fraction"),
-          cell(rays / points, "fraction"), code("truth.method = rays")));
+          share(cells + scan), share(cells), share(scan), share(rays), code("truth.method = rays")));
 }
 
 // What the results were made with and from.

@@ -32,6 +32,25 @@ class CommandLine : public Program {
   }
 };
 
+// An engine's lines lay a square map along the light's own axes, so for another map there are none.
+TEST_F(CommandLine, EnginesLinesAreRefusedForAMapThatTheyCannotLay) {
+  for (const char* setting : {"map.aspect=2", "map.roll_deg=30"}) {
+    EXPECT_EQ(run({"recommend", "plane", "--set", setting, "--lines", "bevy"}), 2) << setting;
+    EXPECT_TRUE(says("no engine's lines can be given with map.")) << output_;
+  }
+}
+
+// A metric of the whole picture has no worst pixel.
+TEST_F(CommandLine, ASectionIsThroughAPixelOfAMetricThatHasPixels) {
+  for (const char* metric : {"flip", "undersampled", "map_used"}) {
+    EXPECT_EQ(run({"section", "--set", "scene.name=plate", "--set", "view.width_px=48", "--set", "view.height_px=27",
+                   "--worst", metric, "--out", "s.svg"}),
+              2)
+        << metric;
+    EXPECT_TRUE(says("is a number of the whole picture, of no pixel")) << output_;
+  }
+}
+
 TEST_F(CommandLine, AnUnknownOptionOfEachVerbNamesTheNearest) {
   const std::map<std::string, std::pair<std::string, std::string>> cases = {
       {"run", {"--overwite", "--overwrite"}}, {"check", {"--basline", "--baseline"}},
