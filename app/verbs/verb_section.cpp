@@ -94,7 +94,9 @@ int draw_section(const SectionOptions& options) {
   require_memory(memory, bench.memory_of_program(false), "this point");
   const Measurement m = bench.measure(settings, std::nullopt, MetricSet::searched);
   const ChosenPixel pixel = chosen_pixel(options, m.record);
-  const ReceiverSection section = bench.sections(m, std::array{pixel.at}).front();
+  ReceiverSection section = bench.sections(m, std::array{pixel.at}).front();
+  for (int cause = 1; cause < cause_count; ++cause)
+    if (cause_name(static_cast<Cause>(cause)) == options.worst) explain(section, static_cast<Cause>(cause));
   const auto theme = static_cast<report::SectionTheme>(
       std::find(report::section_themes.begin(), report::section_themes.end(), options.theme) -
       report::section_themes.begin());

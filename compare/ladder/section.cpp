@@ -332,6 +332,7 @@ ReceiverSection section_of(const SectionInput& in, glm::ivec2 pixel) {
   section.on_exact_map = in.ladder[Rung::on_exact_map][i];
   section.shown = in.ladder[Rung::shown][i];
   if (in.ladder.cause[i] < cause_count) section.cause = static_cast<Cause>(in.ladder.cause[i]);
+  section.largest = section.cause;
 
   section.taps = taps_of(in, tile, section, i, bias);
   section.key_tap = key_tap_of(section, probe.middle_tap());
@@ -350,6 +351,14 @@ ReceiverSection section_of(const SectionInput& in, glm::ivec2 pixel) {
       section.blocker_m = std::max(section.blocker_m.value_or(*depth), *depth);
   require_finite(section);
   return section;
+}
+
+void explain(ReceiverSection& section, Cause cause) {
+  const bool has =
+      std::any_of(section.taps.begin(), section.taps.end(), [&](const SectionTap& tap) { return tap.cause == cause; });
+  if (!has) return;
+  section.cause = cause;
+  section.key_tap = key_tap_of(section, static_cast<int>(section.key_tap));
 }
 
 }  // namespace noonmark

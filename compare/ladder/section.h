@@ -91,6 +91,7 @@ struct ReceiverSection {
   Cause cause = Cause::none;                                     // of the pixel, as the ladder names it
   std::vector<SectionColumn> columns;                            // by s
   std::vector<SectionTap> taps;                                  // in the order of the pattern
+  Cause largest = Cause::none;                                   // the same, unless explain() made `cause` another one
   size_t key_tap = 0;                                            // the tap that explains the pixel
   std::vector<SectionLine> surfaces;
   std::optional<double>
@@ -114,5 +115,8 @@ std::vector<glm::ivec2> section_pixels(const PointRecord& record, const Ladder& 
 // Throws Error(usage) if the pixel lies outside the picture, shows no surface, or shows one that faces away from the
 // light, and if the lookup reads no map there. Throws Error(defect) if a number of it is not finite.
 ReceiverSection section_of(const SectionInput& input, glm::ivec2 pixel);
+
+// Makes the section explain this cause, if one of its taps has it, in place of the cause of the pixel's largest part.
+void explain(ReceiverSection& section, Cause cause);
 
 }  // namespace noonmark

@@ -214,17 +214,23 @@ std::string left_out_text(const ReceiverSection& section) {
   return text;
 }
 
+std::string label_of(Cause cause) {
+  const CauseColor* const color = find_color(cause_name(cause));
+  return std::string(color ? color->label : cause_name(cause));
+}
+
 }  // namespace
 
 std::string section_title(const ReceiverSection& section) {
   if (section.cause == Cause::none) return section.truth > 0 ? "Right, lit" : "Right, shadowed";
-  const CauseColor* const color = find_color(cause_name(section.cause));
-  return std::string(color ? color->label : cause_name(section.cause));
+  return label_of(section.cause);
 }
 
 std::vector<std::string> section_words(const ReceiverSection& section) {
   std::vector<std::string> words{cause_text(section), bias_text(section)};
   if (section.taps.size() > 1) words.push_back(taps_text(section));
+  if (section.largest != section.cause)
+    words.push_back(fmt::format("The largest part of this pixel's error is another: {}.", label_of(section.largest)));
   if (std::string left_out = left_out_text(section); !left_out.empty()) words.push_back(std::move(left_out));
   return words;
 }

@@ -350,6 +350,31 @@ TEST(SectionPicture, ExplainsTheRingsOfAllCauses) {
   EXPECT_EQ(report::section_svg(section, report::SectionTheme::light).find("a wrong tap"), std::string::npos);
 }
 
+// Who asks for a cause gets that cause explained, also where another makes the larger part of the pixel's error.
+TEST(SectionWords, AreAboutTheCauseThatIsAskedFor) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement m = bench.measure(
+      with({{"map.fit", "view"}, {"filter.kind", "box"}, {"bias.constant", "0.001"}}, small("facade", 320, 180)),
+      std::nullopt);
+  int explained = 0;
+  for (int y = 0; y < 180 && explained < 3; ++y)
+    for (int x = 0; x < 320 && explained < 3; ++x) {
+      const size_t i = m.ladder.truth().index(x, y);
+      if (m.ladder.cause[i] != static_cast<uint8_t>(Cause::filter) || !(m.ladder[Cause::peter_panning][i] != 0))
+        continue;
+      ReceiverSection section = bench.sections(m, std::array{glm::ivec2(x, y)}).front();
+      explain(section, Cause::acne);  // no tap has it
+      ASSERT_EQ(report::section_title(section), "Filter (blur by design)");
+      explain(section, Cause::peter_panning);
+      EXPECT_EQ(section.taps[section.key_tap].cause, Cause::peter_panning);
+      EXPECT_EQ(report::section_title(section), "Peter Panning (too light)");
+      EXPECT_EQ(report::section_words(section).back(),
+                "The largest part of this pixel's error is another: Filter (blur by design).");
+      ++explained;
+    }
+  EXPECT_EQ(explained, 3);
+}
+
 // For a paper the colours are written out; for a screen the reader's scheme decides.
 TEST(SectionPicture, HasTheColoursOfItsTheme) {
   Workbench bench(gl::DebugMode::fatal);
