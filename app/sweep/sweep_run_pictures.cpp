@@ -12,6 +12,7 @@
 #include "app/sweep/sweep_run.h"
 #include "base/text.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/report/opening.h"
 
 namespace noonmark {
 namespace {
@@ -22,12 +23,14 @@ bool has_motion(const PointPictures& point) {
   return std::any_of(point.pictures.begin(), point.pictures.end(), is_motion);
 }
 
-// Another point may have the animation now.
-void remove_motion(PointPictures& point, const std::string& out) {
+bool is_at_recommended_bias(const PictureRecord& picture) { return report::bias_in_name(picture.name).has_value(); }
+
+template <class Which>
+void remove_those(PointPictures& point, const Which& which, const std::string& out) {
   PointPictures old;
-  std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), is_motion);
+  std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), which);
   remove_pictures(old, out);
-  std::erase_if(point.pictures, is_motion);
+  std::erase_if(point.pictures, which);
 }
 
 // The biases that the point's own curve names, in the parameter's unit: the best one and the ends of the usable window. Those
@@ -102,11 +105,13 @@ void SweepRun::draw_pictures_of(const PointRecord& point, const Instant& instant
   if (whole && moves == has_motion(point)) return;
   PointPictures kept = point;
   if (!whole) {
+    remove_those(kept, is_at_recommended_bias,
+                 folder_.path());  // show_recommended() draws them anew where they are shown
     progress_->shown.say(fmt::format("pictures of point {}", point.id));
     kept = pictures_of(measured(point.id, std::nullopt), point);
     progress_->shown.finished(progress_->pictures, fmt::format("pictures of point {} are drawn", point.id));
   }
-  remove_motion(kept, folder_.path());
+  remove_those(kept, is_motion, folder_.path());  // another point may have the animation now
   if (moves) kept.pictures.push_back(animation(point.id, instant));
   store_->set_pictures(point.id, kept);
 }

@@ -218,7 +218,7 @@ void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }
     set('bias_unit', '1i', data.bias.unit);
     set('light_bias_unit', '1f', perUnit);
     set('light_far_m', '1f', frame.far);
-    set('resolution', '1i', frame.resolution);
+    set('map_size', '2fv', [frame.resolution, frame.resolution]);
     set('snapped_step', '1f', 0);
     set('direction_to_light', '3fv', times(-1, frame.forward));
     set('light_right', '3fv', frame.right);
