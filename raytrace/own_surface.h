@@ -59,8 +59,8 @@ class OwnSurface {
     uint32_t own = no_primitive, front = no_primitive;
     bool apart = false;
   };
-  // Whether V(P, x) is dark, for sure, at every place of a rectangle of the light's plane; false if that is not known. P is
-  // dark, on this triangle. reader: of this surface's cells. The first hit is known there without a ray.
+  // Whether V(P, x) is surely dark at every place x of a rectangle of the light's plane; false if that is not known. P lies on
+  // this triangle and is dark itself. reader: reads this surface's cells, which know the first hit of a ray without tracing it.
   bool dark_in(uint32_t triangle, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader, Pair& last) const;
 
   // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found

@@ -136,7 +136,7 @@ class ReceiverTaps {
   size_t size_ = 0;
   std::vector<uint32_t> index_;  // TexelSet::index of the texel that a tap reads
   std::vector<Run> runs_;        // the same, if all lie inside the map
-  std::vector<Tap> taps_;        // empty if the taps are alike
+  std::vector<Tap> taps_;        // empty if the taps differ in nothing but their depth
   Tap same_;                     // each of them then, but for its depth
   float reference_ = 0;
   bool asks_ = true, lit_beyond_far_ = false, blended_ = false, by_depth_ = false, alike_ = false;

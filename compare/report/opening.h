@@ -24,9 +24,11 @@ bool opens_as_set(const Results& results);
 const ImageRecord* live_image(const PointRecord& point);
 
 struct Opening {
-  // The point that the head of the page speaks of, if it has a live picture: that of the first broken bound that is not one of a
-  // whole frame of several lights; or else, of such a frame, largest_light() (compare/report/lights_section.h); or else the
-  // recommended one; or else the first with a live picture. Null if no point has one.
+  // The point that the head of the page speaks of. It must have a live picture. The first of these that has one:
+  // 1. the point of the first broken bound (not of a bound on a whole frame of lights);
+  // 2. in a frame of lights, largest_light() (compare/report/lights_section.h);
+  // 3. the recommended point;
+  // 4. any point. Null if no point has a live picture.
   const PointRecord* point = nullptr;
   std::optional<double> bias;  // at which it opens, in bias.unit; empty: as set
 };

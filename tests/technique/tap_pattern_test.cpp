@@ -41,7 +41,7 @@ TEST(TapPattern, HasAsManyTapsAsTheFilterSays) {
   expect(filter("cube_disk"), 20, 1, true, false);
 }
 
-// Who reads a square's columns and rows off its diagonal must find those of all taps.
+// The taps on a square's diagonal give all its columns and rows, and so the texels of all other taps.
 TEST(TapPattern, OfASquareHasTheColumnsAndRowsOfItsDiagonal) {
   FilterSettings wide = filter("box", 5);
   wide["step_texels"] = 1.3;

@@ -56,7 +56,7 @@ RC_GTEST_PROP(TexelSet, NumbersItsTexelsOnce, ()) {
   RC_ASSERT(without_gaps);
 }
 
-// Squares of texels, as the taps of a box read them: with steps of more than a texel, and with columns twice.
+// The texels that a box filter reads: also where its step is more than a texel, and where two taps read one column.
 RC_GTEST_PROP(TexelSet, AddsAndNumbersSquaresAsTheirTexels, ()) {
   const int width = *rc::gen::inRange(1, 150), height = *rc::gen::inRange(1, 200);
   std::mt19937 random(*rc::gen::arbitrary<uint32_t>());
