@@ -134,6 +134,7 @@ bool PlacementTracer::on_edge(glm::ivec2 point) const {
 
 void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const {
   const Impl& l = *impl_;
+  box.alike = false;
   if (taps.low.x > taps.high.x) return;
   const size_t side = static_cast<size_t>(taps.side);
   const size_t points = static_cast<size_t>(taps.size().x) * static_cast<size_t>(taps.size().y);
@@ -154,7 +155,8 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
     return static_cast<uint8_t>((v.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                 (v.sure ? 0 : tap_texel_unsure));
   };
-  if ((all_lit || all_dark) && l.lattice->read_depths(taps, box.depth)) {
+  box.alike = (all_lit || all_dark) && l.lattice->read_depths(taps, box.depth);
+  if (box.alike) {
     box.bits.assign(points, bits_of(everywhere, false));
     return;
   }
