@@ -77,14 +77,15 @@ class TexelSet {
 
   // Appends the numbers of these texels of one row; columns: ascending, each as often as one likes.
   void indexes(int y, std::span<const glm::ivec2> columns, std::vector<uint32_t>& indexes) const {
+    size_t at = indexes.size();
+    indexes.resize(at + columns.size());
     int before = -2;
+    uint32_t last = 0;
     for (const glm::ivec2 column : columns) {
       const int x = column.x;
       // The number of the next texel in the row of a tile is the next number.
-      if (!indexes.empty() && x == before + 1 && x % side != 0)
-        indexes.push_back(indexes.back() + 1);
-      else
-        indexes.push_back(static_cast<uint32_t>(index({x, y})));
+      last = x == before + 1 && x % side != 0 ? last + 1 : static_cast<uint32_t>(index({x, y}));
+      indexes[at++] = last;
       before = x;
     }
   }

@@ -180,10 +180,9 @@ class Evaluator {
   }
   int margin() const { return margin_; }
 
-  // Sets the errors of the tile that begins at (left, top).
-  void evaluate(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test, int left, int top,
-                Image<float>& error) const {
-    const int width = std::min(tile_side, error.width - left), height = std::min(tile_side, error.height - top);
+  // Sets the errors of width x height pixels from (left, top) on.
+  void evaluate(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test, int left, int top, int width,
+                int height, Image<float>& error) const {
     const Seen a = see(reference, left, top, width, height), b = see(test, left, top, width, height);
     for (size_t i = 0; i < a.edge.size(); ++i) {
       const auto lab = [&](const Seen& seen) {
@@ -244,14 +243,20 @@ Flip flip(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test, d
   tbb::parallel_for(tbb::blocked_range<int>(0, across * down, 1), [&](const tbb::blocked_range<int>& range) {
     for (int tile = range.begin(); tile != range.end(); ++tile) {
       const int left = tile % across * tile_side, top = tile / across * tile_side;
-      // Whether anything differs that a filter reads.
-      bool differs = false;
-      const int last_x = std::min(left + tile_side + evaluator.margin(), test.width);
-      const int last_y = std::min(top + tile_side + evaluator.margin(), test.height);
-      for (int y = std::max(0, top - evaluator.margin()); y < last_y && !differs; ++y)
-        for (int x = std::max(0, left - evaluator.margin()); x < last_x && !differs; ++x)
-          differs = reference.at(x, y) != test.at(x, y);
-      if (differs) evaluator.evaluate(reference, test, left, top, result.error);
+      const int right = std::min(left + tile_side, test.width), bottom = std::min(top + tile_side, test.height);
+      // A pixel whose filters read nothing that differs has no error. Those of the tile that have one lie in a rectangle.
+      const int margin = evaluator.margin();
+      glm::ivec2 low(std::numeric_limits<int>::max()), high(std::numeric_limits<int>::min());
+      for (int y = std::max(0, top - margin); y < std::min(bottom + margin, test.height); ++y)
+        for (int x = std::max(0, left - margin); x < std::min(right + margin, test.width); ++x)
+          if (reference.at(x, y) != test.at(x, y)) {
+            low = glm::min(low, glm::ivec2(x, y));
+            high = glm::max(high, glm::ivec2(x, y));
+          }
+      if (low.x > high.x) continue;
+      low = glm::max(low - margin, glm::ivec2(left, top));
+      high = glm::min(high + margin + 1, glm::ivec2(right, bottom));
+      evaluator.evaluate(reference, test, low.x, low.y, high.x - low.x, high.y - low.y, result.error);
     }
   });
   double sum = 0;  // in the pixels' order, so that it is the same on every machine

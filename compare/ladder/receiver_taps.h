@@ -74,6 +74,10 @@ class ReceiverTaps {
   bool by_depth() const { return by_depth_; }
   // True if the taps differ in that depth only, so that they are judged together.
   bool alike() const { return alike_; }
+  // Of tap t: the depth that it reads in a map with the same texels.
+  float depth_in(const MapDepths& map, size_t t) const {
+    return index_[t] == on_border ? border_depth : map[index_[t]];
+  }
   // Of taps by_depth(): how many are lit at this bias on a map with the same texels.
   size_t lit_on(const MapDepths& map, float bias) const {
     if (lit_beyond_far_) return size_;
@@ -140,9 +144,6 @@ class ReceiverTaps {
     read.texel = probe.texel(i, tap);
     read.depth = depth_in(*map_, static_cast<size_t>(tap));
     return read;
-  }
-  float depth_in(const MapDepths& map, size_t t) const {
-    return index_[t] == on_border ? border_depth : map[index_[t]];
   }
 
   const MapDepths* map_ = nullptr;  // the exact map
