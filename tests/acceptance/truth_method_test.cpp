@@ -37,6 +37,22 @@ TEST_P(OfABuiltinScene, BothMethodsOfTheTruthGiveTheSame) {
     }
 }
 
+// Blocks of a wide square of taps are answered at once.
+TEST_P(OfABuiltinScene, BothMethodsOfTheTruthGiveTheSameForManyTaps) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const char* size : {"5", "13"})
+    for (const char* step : {"1", "1.7"}) {
+      const Settings settings = with({{"light.kind", "directional"},
+                                      {"filter.kind", "box"},
+                                      {"filter.size", size},
+                                      {"filter.step_texels", step},
+                                      {"map.resolution", "200"},
+                                      {"bias.constant", "0.002"}},
+                                     small(std::string(GetParam()), 80, 48));
+      expect_same(bench, settings, fmt::format("{} x {} taps, {} texels apart", size, size, step));
+    }
+}
+
 std::vector<std::string_view> builtin_names() {
   std::vector<std::string_view> names;
   for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);

@@ -55,6 +55,26 @@ TEST(Flip, OfAlikePicturesIsZeroAndOfTwoTheSameBothWays) {
   EXPECT_THROW(flip(a, Picture8(90, 150)), std::logic_error);
 }
 
+// The picture is cut into tiles, and of a tile only a part is evaluated. Neither may show.
+TEST(Flip, OfAPointIsTheSameWhereverItLies) {
+  constexpr int reach = 12;  // more than that of the filters
+  const auto around = [&](int x, int y) {
+    const Picture8 grey = painted(200, 150, [](int, int) { return glm::ivec3(90); });
+    Picture8 other = grey;
+    other.at(x, y) = {255, 30, 0};
+    other.at(x + 2, y - 1) = {0, 30, 255};
+    const Flip found = flip(grey, other);
+    std::vector<float> errors;
+    for (int j = y - reach; j <= y + reach; ++j)
+      for (int i = x - reach; i <= x + reach; ++i) errors.push_back(found.error.at(i, j));
+    return errors;
+  };
+  const std::vector<float> expected = around(32, 32);
+  EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0.1f);
+  for (const auto& [x, y] : {std::pair(63, 63), {64, 64}, {65, 40}, {70, 127}, {128, 60}, {118, 74}})
+    EXPECT_EQ(around(x, y), expected) << x << ", " << y;
+}
+
 // The further away, the less is seen of fine lines.
 TEST(Flip, FallsWithTheDistance) {
   const Picture8 grey = painted(64, 64, [](int, int) { return glm::ivec3(128); });
