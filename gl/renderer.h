@@ -104,6 +104,10 @@ class Renderer {
   // null: its own, the place in the image.
   void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m, const Image<uint32_t>* pixels = nullptr);
 
+  // Frees what the passes over a picture keep on the device, some 45 bytes for each pixel: the receivers, and the images
+  // that the passes draw into. load_receivers() comes again before the next lookup or probe.
+  void release_receivers();
+
   // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that
   // move the casters' vertices act through `casters` alone. time_ms, if given, receives the time of the pass alone
   // (DeviceInfo::times); the pass then runs twice, first without the clock, so that its shader is compiled, its memory is

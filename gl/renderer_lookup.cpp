@@ -29,6 +29,9 @@ void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m, 
   if (receivers.position.size() != count || receivers.normal.size() != count || count == 0)
     throw Error(ErrorKind::defect, fmt::format("load_receivers: images of {}, {} and {} pixels",
                                                receivers.position.size(), receivers.normal.size(), count));
+  // Before more is made: these were read when the receivers were found.
+  r.primitive_colour = Target{};
+  r.primitive_depth = Target{};
   r.require(r.position_image, GL_RGBA32F, width, height);
   r.require(r.normal_image, GL_RGBA32F, width, height);
   const auto pixel_of = [&](size_t i) { return pixels ? (*pixels)[i] : static_cast<uint32_t>(i); };
@@ -45,6 +48,15 @@ void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m, 
   glTextureSubImage2D(r.normal_image.texture.id(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
   r.eye_m = glm::vec3(eye_m);
   r.context->check("load_receivers");
+}
+
+void Renderer::release_receivers() {
+  Impl& r = *impl_;
+  r.context->make_current();
+  for (Target* target : {&r.position_image, &r.normal_image, &r.lit, &r.probe_scalars, &r.probe_texels, &r.probe_radius,
+                         &r.primitive_colour, &r.primitive_depth})
+    *target = Target{};
+  release_deleted();
 }
 
 void Renderer::Impl::set_receiver_uniforms(Program& program, const Technique& technique) {

@@ -23,11 +23,18 @@ Texture make_cube_index(int side) {
   return texture;
 }
 
-template <class T, class F>
-Image<T> each(const Image<glm::vec4>& image, F&& part) {
-  Image<T> out(image.width, image.height);
-  for (size_t i = 0; i < image.size(); ++i) out[i] = part(image[i]);
-  return out;
+// A picture is probed in bands of rows, so that what the device holds of the probe does not grow with it. This many pixels
+// take 38 MB on the device, and a picture of 1280 x 720 is one band.
+constexpr int most_probed_pixels = 1 << 20;
+
+// Where the numbers of one target go: put(numbers, pixel), for the pixels of a band whose first one has index `first`.
+template <class T, class Put>
+void read_band(const Target& target, GLenum format, int rows, size_t first, std::vector<T>& band, const Put& put) {
+  const size_t count = static_cast<size_t>(target.width) * static_cast<size_t>(rows);
+  band.resize(count);
+  glGetTextureSubImage(target.texture.id(), 0, 0, 0, 0, target.width, rows, 1, format, GL_FLOAT,
+                       static_cast<GLsizei>(count * sizeof(T)), band.data());
+  for (size_t i = 0; i < count; ++i) put(band[i], first + i);
 }
 
 }  // namespace
@@ -42,30 +49,45 @@ LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
       r.programs.get({"shaders/screen.vert", "shaders/probe.frag"}, receiver_slots(r.programs, frame, technique.bias));
   r.set_receiver_uniforms(program, technique);
   const int width = r.position_image.width, height = r.position_image.height;
-  r.require(r.probe_scalars, GL_RGBA32F, width, height);
-  r.require(r.probe_texels, GL_RGBA32F, width, height);
-  r.require(r.probe_radius, GL_R32F, width, height);
-  r.draw_into({r.probe_scalars.texture.id(), r.probe_texels.texture.id(), r.probe_radius.texture.id()}, 0, width,
-              height);
-  r.draw_screen(program);
-  r.detach(3);
+  const int band = std::clamp(most_probed_pixels / width, 1, height);
+  r.require(r.probe_scalars, GL_RGBA32F, width, band);
+  r.require(r.probe_texels, GL_RGBA32F, width, band);
+  r.require(r.probe_radius, GL_R32F, width, band);
 
   LookupProbe probe;
   probe.pattern = technique.taps;
   probe.tap_reference = &technique.bias.reference();
   probe.plane_cap = technique.bias.plane_cap();
-  const auto scalars = read_back<glm::vec4>(r.probe_scalars, GL_RGBA, GL_FLOAT);
-  probe.reference = each<float>(scalars, [](glm::vec4 s) { return s.x; });
-  probe.n_dot_l = each<float>(scalars, [](glm::vec4 s) { return s.y; });
-  probe.bias_unit = each<float>(scalars, [](glm::vec4 s) { return s.z; });
-  probe.tan_theta = each<float>(scalars, [](glm::vec4 s) { return s.w; });
-  if (!cube) {
-    const auto texels = read_back<glm::vec4>(r.probe_texels, GL_RGBA, GL_FLOAT);
-    probe.map_texels = each<glm::vec2>(texels, [](glm::vec4 t) { return glm::vec2(t.x, t.y); });
-    if (probe.tap_reference->plane)
-      probe.gradient = each<glm::vec2>(texels, [](glm::vec4 t) { return glm::vec2(t.z, t.w); });
+  const bool planes = !cube && probe.tap_reference->plane, by_view = probe.pattern.scaled_by_view;
+  for (Image<float>* image : {&probe.reference, &probe.n_dot_l, &probe.bias_unit, &probe.tan_theta})
+    *image = Image<float>(width, height);
+  if (!cube) probe.map_texels = Image<glm::vec2>(width, height);
+  if (planes) probe.gradient = Image<glm::vec2>(width, height);
+  if (by_view) probe.radius = Image<float>(width, height);
+  std::vector<glm::vec4> numbers;
+  std::vector<float> radii;
+  for (int row = 0; row < height; row += band) {
+    const int rows = std::min(band, height - row);
+    const size_t first = static_cast<size_t>(row) * static_cast<size_t>(width);
+    r.draw_into({r.probe_scalars.texture.id(), r.probe_texels.texture.id(), r.probe_radius.texture.id()}, 0, width,
+                rows);
+    program.set("first_row", row);
+    r.draw_screen(program);
+    r.detach(3);
+    read_band(r.probe_scalars, GL_RGBA, rows, first, numbers, [&](glm::vec4 s, size_t i) {
+      probe.reference[i] = s.x;
+      probe.n_dot_l[i] = s.y;
+      probe.bias_unit[i] = s.z;
+      probe.tan_theta[i] = s.w;
+    });
+    if (!cube)
+      read_band(r.probe_texels, GL_RGBA, rows, first, numbers, [&](glm::vec4 t, size_t i) {
+        probe.map_texels[i] = glm::vec2(t.x, t.y);
+        if (planes) probe.gradient[i] = glm::vec2(t.z, t.w);
+      });
+    if (by_view)
+      read_band(r.probe_radius, GL_RED, rows, first, radii, [&](float radius, size_t i) { probe.radius[i] = radius; });
   }
-  if (probe.pattern.scaled_by_view) probe.radius = read_back<float>(r.probe_radius, GL_RED, GL_FLOAT);
   if (cube) {
     probe.cube_resolution = frame.resolution;
     const int middle = probe.middle_tap();
@@ -125,8 +147,8 @@ std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, cons
   check_memory("the texels of a cube map's taps", width, most);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.id());
   glBindTextureUnit(3, cube_index.id());
-  require(probe_radius, GL_R32F, width, height);
-  draw_into({probe_radius.texture.id()}, 0, width, height);  // only its size is used: the shader writes to the buffer
+  require(lit, GL_R32F, width, height);
+  draw_into({lit.texture.id()}, 0, width, height);  // only its size is used: the shader writes to the buffer
   std::vector<uint32_t> texels(row_texels * static_cast<size_t>(rows.end - rows.begin));
   for (int first = rows.begin; first < rows.end; first += most) {
     const int count = std::min(most, rows.end - first);

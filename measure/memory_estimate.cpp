@@ -10,6 +10,7 @@
 #include "compare/ladder/live_picture.h"
 #include "compare/ladder/picture_stack.h"
 #include "compare/ladder/receiver_taps.h"
+#include "raytrace/tracer.h"
 #include "scenes/scene_size.h"
 #include "technique/casters.h"
 #include "technique/tap_pattern.h"
@@ -45,6 +46,8 @@ constexpr double per_cell_pixel = 40, most_cells = 202e6;  // [11, FlightHelmet 
 constexpr double per_kept_triangle = 150;                  // the second tree for the rays, without the culled faces
 // As scan conversion reads it, and in lists of tiles, while the first hits of a map are found.
 constexpr double per_raster_triangle = 130;  // [112]
+// The scene as a second light sees it (400), and through the lattice of the last placements (260).
+constexpr double per_light_triangle = 660;
 // Per byte of the scene's parts. point.json lists each part in up to 135 bytes and its name; the part itself has 40
 // bytes, and those of a long name.
 constexpr double per_listed_part_byte = 3.5;
@@ -103,7 +106,10 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
 
   if (kind_of_light(input.light).map_shape() == MapShape::flat)
     scene += per_raster_triangle * static_cast<double>(input.scene.triangles);
-  if (kind_of_light(input.light).rays().have_one_direction()) scene += std::min(per_cell_pixel * pixels, most_cells);
+  const bool two_lights = input.scene.triangles <= raytrace::most_triangles_of_two_lights;
+  if (kind_of_light(input.light).rays().have_one_direction())
+    scene += (two_lights ? 2 : 1) * std::min(per_cell_pixel * pixels, most_cells);
+  if (two_lights) scene += per_light_triangle * static_cast<double>(input.scene.triangles);
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 
   double curve = 0;

@@ -35,6 +35,10 @@ inline size_t bytes_per_tap(LightKind light) {
 // is looked up again, so that never more than one of them takes memory.
 inline constexpr size_t most_kept_map_bytes = size_t{128} << 20;
 
+// The most pixels of a picture whose receivers stay on the device while the point's numbers are computed, 90 MB of them. Those
+// of a larger one are uploaded again for the next lookup.
+inline constexpr size_t most_kept_pixels = size_t{1} << 21;
+
 struct MemoryInput {
   const Settings& settings;
   LightKind light = LightKind::directional;

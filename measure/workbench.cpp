@@ -193,6 +193,13 @@ struct Workbench::Impl {
     return stage;
   }
 
+  // Frees the receivers of a large picture on the device; see() brings them back.
+  void free_large_picture(const ReceiverImage& receivers) {
+    if (receivers.primitive.size() <= most_kept_pixels) return;
+    renderer.release_receivers();
+    receivers_on_device.clear();
+  }
+
   // Frees a map that was drawn again for pictures, and that has no room beside what a probe needs.
   void free_large_map() {
     if (MapStage* const kept = map.value()) keep_small(renderer, kept->map);
@@ -271,6 +278,7 @@ AvailableMemory Workbench::memory_of_program(bool pictures) const {
 void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const Looked& looked,
                                      const Asked& asked) {
   const auto& [seen, traced] = looked;
+  see(asked);
   const int worst = worst_placement(placements.counts());
   record.metrics.merge(placement_metrics(placements.counts(), placements.facts(worst)));
   const Technique moved = asked.technique.at(placements.frame(worst));
@@ -496,6 +504,11 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   }
   Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, truth, shown, technique, unknown, each_strip);
   if (placements) placements->finish();
+  // What is not needed again is freed before the point's numbers are computed, because it is large.
+  shown.r4 = Image<float>();
+  shown.tie_lookup = Image<float>();
+  if (!settings.view.motion.any()) shown.r5 = Image<float>();
+  b.free_large_picture(view.receivers);
   Measurement m{{},           technique, std::move(climbed.ladder), view.camera,        scene, view.receivers,
                 lookup.probe, {},        std::move(shown.stored),   lookup.exact_depth, {}};
   m.record = record_of(m, loaded, view, truth, lookup, climbed.soundness, metrics);
@@ -511,6 +524,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       return curve;
     });
   if (settings.view.motion.any()) {
+    b.see(asked);
     m.flicker = trace_flicker({*b.stages, b.renderer, loaded, view, truth, technique, shown.r5});
     m.record.metrics.merge(measure_flicker(*m.flicker));
   }

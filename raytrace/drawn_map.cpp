@@ -67,7 +67,8 @@ DrawnMap::DrawnMap(const TracedScene& traced, const LightView& view, const OwnSu
   }
 }
 
-void DrawnMap::depths(int count, const glm::dvec3* places, const uint32_t* hits, float* depths) const {
+void DrawnMap::depths(int count, const glm::dvec3* places, const uint32_t* hits, float* depths,
+                      bool no_silhouettes) const {
   std::fill_n(depths, count, 1.0f);
   if (nothing_kept_) return;
   uint32_t own_hits[packet_size];
@@ -76,7 +77,8 @@ void DrawnMap::depths(int count, const glm::dvec3* places, const uint32_t* hits,
     hits = own_hits;
   }
   for (int i = 0; i < count; ++i) {
-    const uint32_t hit = !own_tree_ && silhouettes_.near(places[i]) ? surface_.exact_first(places[i]) : hits[i];
+    const uint32_t hit =
+        !own_tree_ && !no_silhouettes && silhouettes_.near(places[i]) ? surface_.exact_first(places[i]) : hits[i];
     if (hit != no_primitive) depths[i] = depth_of(hit, places[i]);
   }
 }

@@ -5,6 +5,7 @@
 //   float depth = drawn.depth_at(x, hit);      // window depth at place x; hit: the scene's first hit there
 #pragma once
 #include <optional>
+#include <span>
 
 #include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
@@ -30,7 +31,10 @@ class DrawnMap {
   // Window depths in [0,1] at these places; 1 if nothing is drawn there. count: 1 ... 16. hits: what the rays of the
   // scene meet first there. Beside a silhouette a ray of float may pass on its wrong side; there the first hit is
   // found in double.
-  void depths(int count, const glm::dvec3* places, const uint32_t* hits, float* depths) const;
+  // no_silhouettes: none is near any of these places (Silhouettes::none_between), so that none is looked for.
+  void depths(int count, const glm::dvec3* places, const uint32_t* hits, float* depths,
+              bool no_silhouettes = false) const;
+  bool no_silhouettes_between(std::span<const glm::dvec3> corners) const { return silhouettes_.none_between(corners); }
 
   // Whether the pass draws other surfaces than the scene's (moved casters, culled faces). They have no first hits in
   // double: rays of float find them.

@@ -51,26 +51,93 @@ LatticeRaster::Triangle LatticeRaster::triangle(uint32_t index) const {
   return t;
 }
 
+namespace {
+
+// Finds a tile by its place: in a table of the rectangle around all tiles, or in a hash table if some lie far apart.
+class TileIndex {
+ public:
+  static constexpr uint32_t none = 0xffffffffu;
+
+  explicit TileIndex(std::span<const glm::ivec2> tiles) : low(tiles.front()), high(tiles.front()) {
+    for (glm::ivec2 tile : tiles) {
+      low = glm::min(low, tile);
+      high = glm::max(high, tile);
+    }
+    const int64_t columns = int64_t{high.x} - low.x + 1, rows = int64_t{high.y} - low.y + 1;
+    if (columns * rows <= most_in_table) {
+      columns_ = static_cast<size_t>(columns);
+      table_.assign(static_cast<size_t>(columns * rows), none);
+    } else {
+      far_apart_.reserve(tiles.size());
+    }
+    for (uint32_t i = 0; i < tiles.size(); ++i) {
+      if (columns_ > 0)
+        table_[place(tiles[i])] = i;
+      else
+        far_apart_[LatticeRaster::key(tiles[i])] = i;
+    }
+  }
+
+  // tile: between low and high.
+  uint32_t find(glm::ivec2 tile) const {
+    if (columns_ > 0) return table_[place(tile)];
+    const auto found = far_apart_.find(LatticeRaster::key(tile));
+    return found == far_apart_.end() ? none : found->second;
+  }
+
+  glm::ivec2 low, high;  // of all tiles
+
+ private:
+  static constexpr int64_t most_in_table = int64_t{1} << 21;  // 8 MB
+
+  size_t place(glm::ivec2 tile) const {
+    return static_cast<size_t>(tile.y - low.y) * columns_ + static_cast<size_t>(tile.x - low.x);
+  }
+  size_t columns_ = 0;  // 0: there is no table
+  std::vector<uint32_t> table_;
+  std::unordered_map<uint64_t, uint32_t> far_apart_;
+};
+
+}  // namespace
+
 std::vector<std::vector<uint32_t>> LatticeRaster::candidates(std::span<const glm::ivec2> tiles) const {
   std::vector<std::vector<uint32_t>> lists(tiles.size());
-  std::unordered_map<uint64_t, size_t> index;
-  index.reserve(tiles.size());
-  for (size_t i = 0; i < tiles.size(); ++i) index[key(tiles[i])] = i;
-  for (uint32_t t = 0; t < triangles_.size(); ++t) {
-    const Triangle& triangle = triangles_[t];
-    if (triangle.low.x > triangle.high.x) continue;
-    const glm::ivec2 first(triangle.low.x >> 6, triangle.low.y >> 6), last(triangle.high.x >> 6, triangle.high.y >> 6);
-    const double many = (static_cast<double>(last.x) - first.x + 1) * (static_cast<double>(last.y) - first.y + 1);
-    if (many > static_cast<double>(tiles.size())) {
-      for (size_t i = 0; i < tiles.size(); ++i)
-        if (tiles[i].x >= first.x && tiles[i].x <= last.x && tiles[i].y >= first.y && tiles[i].y <= last.y)
-          lists[i].push_back(t);
-      continue;
+  if (tiles.empty()) return lists;
+  const TileIndex index(tiles);
+  struct Entry {
+    uint32_t tile, triangle;
+  };
+  // Blocks of triangles are done at the same time, and then listed in order: a tile's triangles are in ascending order.
+  constexpr size_t block = 4096;
+  std::vector<std::vector<Entry>> blocks((triangles_.size() + block - 1) / block);
+  tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t b) {
+    std::vector<Entry>& entries = blocks[b];
+    const size_t end = std::min(triangles_.size(), (b + 1) * block);
+    for (size_t k = b * block; k < end; ++k) {
+      const Triangle& triangle = triangles_[k];
+      if (triangle.low.x > triangle.high.x) continue;
+      const auto t = static_cast<uint32_t>(k);
+      const glm::ivec2 first = glm::max(index.low, glm::ivec2(triangle.low.x >> 6, triangle.low.y >> 6));
+      const glm::ivec2 last = glm::min(index.high, glm::ivec2(triangle.high.x >> 6, triangle.high.y >> 6));
+      if (first.x > last.x || first.y > last.y) continue;
+      const double many = (static_cast<double>(last.x) - first.x + 1) * (static_cast<double>(last.y) - first.y + 1);
+      if (many > static_cast<double>(tiles.size())) {
+        for (uint32_t i = 0; i < tiles.size(); ++i)
+          if (tiles[i].x >= first.x && tiles[i].x <= last.x && tiles[i].y >= first.y && tiles[i].y <= last.y)
+            entries.push_back({i, t});
+        continue;
+      }
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x)
+          if (const uint32_t found = index.find({x, y}); found != TileIndex::none) entries.push_back({found, t});
     }
-    for (int y = first.y; y <= last.y; ++y)
-      for (int x = first.x; x <= last.x; ++x)
-        if (const auto found = index.find(key({x, y})); found != index.end()) lists[found->second].push_back(t);
-  }
+  });
+  std::vector<uint32_t> counts(tiles.size());
+  for (const std::vector<Entry>& entries : blocks)
+    for (const Entry& entry : entries) ++counts[entry.tile];
+  for (size_t i = 0; i < lists.size(); ++i) lists[i].reserve(counts[i]);
+  for (const std::vector<Entry>& entries : blocks)
+    for (const Entry& entry : entries) lists[entry.tile].push_back(entry.triangle);
   return lists;
 }
 

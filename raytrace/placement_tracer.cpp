@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "raytrace/drawn_map.h"
+#include "raytrace/lattice_side.h"
 #include "raytrace/own_surface.h"
 #include "raytrace/stage_watch.h"
 #include "raytrace/texel_lattice.h"
@@ -31,13 +32,15 @@ struct PlacementTracer::Impl {
   const ReceiverTruth& truth;
   Placements placements;
   MapSettings map;
-  LightView view;  // of the lattice
-  Silhouettes silhouettes;
+  std::shared_ptr<const LatticeSide> side;
+  const LightView& view;  // of the lattice
+  const Silhouettes& silhouettes;
   OwnSurface surface;
   DrawnMap drawn;
-  LatticeRaster raster;
+  const LatticeRaster& raster;
   bool by_rays;
   std::optional<TexelLattice> lattice;
+  PixelRange at_all_placements;  // the pixels whose taps the lattice holds at all placements; empty if there are none
   // The light's own frame, whose squares are certified; empty if there are none, or if rays shall answer.
   std::shared_ptr<LightSide> light;
   LightCells* cells = nullptr;
@@ -56,11 +59,12 @@ struct PlacementTracer::Impl {
         truth(receiver_truth),
         placements(all),
         map(settings),
-        view(scene.scene, all.lattice(frame)),
-        silhouettes(scene.adjacency, view, Silhouettes::reach_of(view)),
+        side(scene.lattice_side(all.lattice(frame))),
+        view(side->view),
+        silhouettes(side->silhouettes),
         surface(scene.embree, scene.adjacency, view, silhouettes),
         drawn(scene, view, surface, silhouettes, frame, settings, bias, over_texels(offset, all)),
-        raster(scene, view),
+        raster(side->raster),
         by_rays(method == TruthMethod::rays) {
     if (by_rays) return;
     light = traced.lit_by(frame);
@@ -82,6 +86,14 @@ struct PlacementTracer::Impl {
   }
 };
 
+std::shared_ptr<const LatticeSide> TracedScene::lattice_side(const LightFrame& lattice) {
+  if (lattice_ && lattice_->view.frame() == lattice) return lattice_;
+  lattice_.reset();  // before the next is made, because it is large
+  auto made = std::make_shared<const LatticeSide>(*this, lattice);
+  if (kept() > 1) lattice_ = made;
+  return made;
+}
+
 PlacementTracer::PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
                                  const LightFrame& frame, const Placements& placements, const MapSettings& map,
                                  const Bias& bias, double offset_unit, TruthMethod method)
@@ -94,7 +106,10 @@ PlacementTracer::~PlacementTracer() = default;
 void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage,
                             std::optional<int> placement) {
   Impl& l = *impl_;
+  const PixelRange held = l.at_all_placements;
+  if (placement && held.first <= strip.first && strip.end <= held.end && strip.size() > 0) return;
   const StageWatch watch(stage, l.traced.device);
+  l.at_all_placements = {};
   l.lattice.reset();  // freed before the next is made, because it is large
   l.lattice.emplace(l.raster, l.view, l.drawn, l.placements, l.map);
   // Each thread asks a lattice of its own; what all of them ask for is traced.
@@ -113,6 +128,7 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
   });
   asked.combine_each([&](const TexelLattice& of_thread) { l.lattice->want(of_thread); });
   l.lattice->trace(l.by_rays ? &l.surface : nullptr);
+  if (!placement) l.at_all_placements = strip;
 }
 
 PlacementTracer::RayError PlacementTracer::ray_error() const {

@@ -103,6 +103,11 @@ class Silhouettes {
     const Grid& grid = grids_[static_cast<size_t>(rectangle.chart)];
     return grid.size == 0 || grid.empty_between(rectangle.low, rectangle.high);
   }
+  // True only if near() is false at each place of the quadrilateral with these corners.
+  bool none_between(std::span<const glm::dvec3> corners) const {
+    const std::optional<Rectangle> around = rectangle(corners);
+    return around && none_in(*around);
+  }
   // nearby: its memory is used again.
   void list_in(const Rectangle& rectangle, Nearby& nearby) const;
   // The same around these places.

@@ -16,7 +16,9 @@ TexelLattice::TexelLattice(const LatticeRaster& raster, const LightView& view, c
       placements_(placements),
       wrap_(settings.wrap),
       depth_clamp_(settings.keeps_clipped()),
-      size_(view.frame().map_size() / placements.side()) {}
+      size_(view.frame().map_size() / placements.side()),
+      inside_from_(placements.first_point(0)),
+      inside_end_(placements.first_point(size_.x), placements.first_point(size_.y)) {}
 
 void TexelLattice::want(glm::ivec2 low, glm::ivec2 high) {
   const glm::ivec2 first = tile_at(low), last = tile_at(high);
@@ -52,8 +54,9 @@ void TexelLattice::want(const PlacedTaps& taps) {
   for (size_t tap = 0; tap < taps.column.size(); tap += s)
     for (size_t j = 0; j < s; ++j)
       for (size_t i = 0; i < s; ++i) {
-        const std::optional<glm::ivec2> read = read_at({taps.column[tap + i], taps.row[tap + j]});
-        if (read) want(*read, *read);
+        const glm::ivec2 point(taps.column[tap + i], taps.row[tap + j]);
+        if (inside(point)) continue;
+        if (const std::optional<glm::ivec2> read = read_at(point)) want(*read, *read);
       }
 }
 
@@ -64,18 +67,11 @@ std::optional<glm::ivec2> TexelLattice::read_at(glm::ivec2 point) const {
   return point + (read - texel) * placements_.side();
 }
 
-TexelLattice::Point TexelLattice::at(glm::ivec2 point) const {
-  const Tile& tile = tile_of(point);
-  const size_t index = tile.index(point);
-  Point found{tile.hit[index], tile.clipped[index] != 0, tile.depth[index]};
-  if (inside(point)) return found;
+float TexelLattice::depth_read_outside(glm::ivec2 point) const {
   const std::optional<glm::ivec2> read = read_at(point);
-  found.depth = border_depth;
-  if (read) {
-    const Tile& other = tile_of(*read);
-    found.depth = other.depth[other.index(*read)];
-  }
-  return found;
+  if (!read) return border_depth;
+  const Tile& tile = tile_of(*read);
+  return tile.depth[tile.index(*read)];
 }
 
 template <class Visit>
@@ -93,7 +89,8 @@ void TexelLattice::each_row(const PlacedTaps& taps, const Visit& visit) const {
       for (int row = from.y; row <= to.y; ++row) {
         const uint64_t bits = tile.wanted[static_cast<size_t>(row & (side - 1))] & columns;
         if (bits)
-          visit(tile, bits >> begin, tile.index({x * side + std::countr_zero(bits), row}), taps.index(from.x, row));
+          visit(tile, bits >> begin, tile.index({x * side + std::countr_zero(bits), row}), taps.index(from.x, row),
+                glm::ivec2(from.x, row));
       }
     }
 }
@@ -101,20 +98,15 @@ void TexelLattice::each_row(const PlacedTaps& taps, const Visit& visit) const {
 void TexelLattice::read(const PlacedTaps& taps, std::vector<Point>& points) const {
   const glm::ivec2 size = taps.size();
   points.resize(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
-  if (!inside(taps.low) || !inside(taps.high)) {
-    const auto side_of_taps = static_cast<size_t>(taps.side);
-    for (size_t tap = 0; tap < taps.column.size(); tap += side_of_taps)
-      for (size_t j = 0; j < side_of_taps; ++j)
-        for (size_t i = 0; i < side_of_taps; ++i) {
-          const glm::ivec2 k(taps.column[tap + i], taps.row[tap + j]);
-          points[taps.index(k.x, k.y)] = at(k);
-        }
-    return;
-  }
-  each_row(taps, [&](const Tile& tile, uint64_t columns, size_t index, size_t in_box) {
-    for (; columns; columns &= columns - 1, ++index)
-      points[in_box + static_cast<size_t>(std::countr_zero(columns))] = {tile.hit[index], tile.clipped[index] != 0,
-                                                                         tile.depth[index]};
+  const bool all_inside = inside(taps.low) && inside(taps.high);
+  each_row(taps, [&](const Tile& tile, uint64_t columns, size_t index, size_t in_box, glm::ivec2 first) {
+    for (; columns; columns &= columns - 1, ++index) {
+      const int column = std::countr_zero(columns);
+      Point& point = points[in_box + static_cast<size_t>(column)];
+      point = {tile.hit[index], tile.clipped[index] != 0, tile.depth[index]};
+      if (all_inside) continue;
+      if (const glm::ivec2 at(first.x + column, first.y); !inside(at)) point.depth = depth_read_outside(at);
+    }
   });
 }
 
@@ -127,7 +119,7 @@ bool TexelLattice::read_depths(const PlacedTaps& taps, std::vector<float>& depth
   depths.assign(static_cast<size_t>(size.x) * static_cast<size_t>(size.y),
                 in_map ? std::numeric_limits<float>::infinity() : border_depth);
   bool clipped = false;
-  each_row(taps, [&](const Tile& tile, uint64_t columns, size_t index, size_t in_box) {
+  each_row(taps, [&](const Tile& tile, uint64_t columns, size_t index, size_t in_box, glm::ivec2) {
     clipped |= tile.any_clipped;
     while (in_map && columns) {  // run by run
       const int from = std::countr_zero(columns), count = std::countr_one(columns >> from);
@@ -168,11 +160,15 @@ void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, co
   else
     raster_.hits(at, candidates, tile.wanted, tile.hit);
 
+  const glm::ivec2 low = at * side, high = low + (side - 1);
+  const glm::dvec3 corners[] = {view_.texel_place(low), view_.texel_place({high.x, low.y}), view_.texel_place(high),
+                                view_.texel_place({low.x, high.y})};
+  const bool no_silhouettes = drawn_.no_silhouettes_between(corners);
   glm::dvec3 places[packet_size];
   size_t first = 0;
   int count = 0;
   const auto flush = [&] {
-    drawn_.depths(count, places, &tile.hit[first], &tile.depth[first]);
+    drawn_.depths(count, places, &tile.hit[first], &tile.depth[first], no_silhouettes);
     for (int i = 0; i < count; ++i) {
       const auto at_place = first + static_cast<size_t>(i);
       tile.clipped[at_place] = !depth_clamp_ && tile.hit[at_place] != no_primitive &&
@@ -184,7 +180,7 @@ void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, co
   };
   for (int row = 0; row < side; ++row)
     for (uint64_t bits = tile.wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1) {
-      places[count++] = view_.texel_place(at * side + glm::ivec2(std::countr_zero(bits), row));
+      places[count++] = view_.texel_place(low + glm::ivec2(std::countr_zero(bits), row));
       if (count == packet_size) flush();
     }
   if (count > 0) flush();

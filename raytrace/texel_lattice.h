@@ -43,15 +43,14 @@ class TexelLattice {
   // if the surfaces of the lattice's frame are given.
   void trace(const OwnSurface* by_rays = nullptr);
 
-  // After trace(), at a point that was asked for: the triangle that its ray meets first, or no_primitive; whether the
+  // At a point that was asked for: the triangle that its ray meets first, or no_primitive; whether the
   // map's near plane clips it; and the window depth that the map of the point's placement gives to a lookup there.
   struct Point {
     uint32_t hit = no_primitive;
     bool clipped = false;
     float depth = border_depth;
   };
-  Point at(glm::ivec2 point) const;
-  // The same for the box of some taps, point by point in the order of PlacedTaps::index. Points that no tap reads are
+  // After trace(), of the box of some taps, point by point in the order of PlacedTaps::index. Points that no tap reads are
   // left as they are. Its memory is used again.
   void read(const PlacedTaps& taps, std::vector<Point>& points) const;
 
@@ -83,12 +82,16 @@ class TexelLattice {
   static glm::ivec2 tile_at(glm::ivec2 point) { return {point.x >> 6, point.y >> 6}; }
   const Tile& tile_of(glm::ivec2 point) const { return *tiles_.at(key(tile_at(point))); }
   void want(glm::ivec2 low, glm::ivec2 high);  // inclusive
-  // Calls visit(tile, columns, index, box_index) for each row of each tile in the box of taps:
-  // columns has a bit for each point that somebody asked for, from the box's first column in the tile on; index is that
-  // of the first of them in the tile, box_index that of bit 0 in the box.
+  // Calls visit(tile, columns, index, box_index, first) for each row of each tile in the box of taps: columns has a bit for
+  // each point that somebody asked for, from the box's first column in the tile on; index is that of the first of them in
+  // the tile, box_index that of bit 0 in the box, and `first` is the lattice point of bit 0.
   template <class Visit>
   void each_row(const PlacedTaps& taps, const Visit& visit) const;
-  bool inside(glm::ivec2 point) const { return inside_map(placements_.texel_of(point), size_); }
+  // Whether the point's texel lies inside the map.
+  bool inside(glm::ivec2 point) const {
+    return point.x >= inside_from_.x && point.y >= inside_from_.y && point.x < inside_end_.x && point.y < inside_end_.y;
+  }
+  float depth_read_outside(glm::ivec2 point) const;
   void trace(glm::ivec2 at, std::span<const uint32_t> candidates, const OwnSurface* by_rays, Tile& tile) const;
 
   const LatticeRaster& raster_;
@@ -97,7 +100,8 @@ class TexelLattice {
   Placements placements_;
   Wrap wrap_;
   bool depth_clamp_;
-  glm::ivec2 size_;  // of the map, in texels
+  glm::ivec2 size_;                      // of the map, in texels
+  glm::ivec2 inside_from_, inside_end_;  // the points of the texels inside the map, up to before `end`
   std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;
   uint64_t points_ = 0;
 };

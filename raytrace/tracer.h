@@ -57,6 +57,10 @@ struct OnSurface {
 inline constexpr int edge_spokes = 16;
 double edge_ring(int ring);  // the radius in units; ring: from 0 on
 
+// Of a scene with at most so many triangles a tracer keeps what two lights see of it, otherwise what one sees. A light takes up
+// to 400 bytes for each triangle.
+inline constexpr size_t most_triangles_of_two_lights = size_t{1} << 18;
+
 class Tracer {
  public:
   // method: rays asks no cells (raytrace/light_cells.h) and converts no map (raytrace/lattice_raster.h). The answers are

@@ -61,6 +61,8 @@ struct LightFrame {
   int rows = 1;        // texels along its height
   int tiles = 1;
 
+  bool operator==(const LightFrame&) const = default;
+
   const KindOfLight& light() const { return kind_of_light(kind); }
   MapShape map_shape() const { return light().map_shape(); }
   // True if the size of a texel and the step of depth are the same everywhere in the map.

@@ -4,18 +4,6 @@
 
 namespace noonmark {
 
-double MapTile::window_depth(double z) const {
-  switch (depth) {
-    case TileDepth::linear:
-      return (z - near_m) / (far_m - near_m);
-    case TileDepth::perspective:
-      return far_m * (z - near_m) / (z * (far_m - near_m));
-    case TileDepth::distance:
-      return z / far_m;
-  }
-  throw std::logic_error("a tile without a depth");
-}
-
 double MapTile::depth_of_window(double window) const {
   switch (depth) {
     case TileDepth::linear:
@@ -42,15 +30,6 @@ double MapTile::window_depth_slope(double z) const {
 
 double MapTile::texel_m(glm::dvec3 light) const {
   return orthographic ? 2 * half / resolution : 2 * along(light) * half / resolution;
-}
-
-glm::dvec3 MapTile::place_of(glm::ivec2 texel) const { return place_at(glm::dvec2(texel) + 0.5); }
-
-glm::dvec3 MapTile::place_at(glm::dvec2 texels) const {
-  const glm::dvec2 at = texels - glm::dvec2(corner);
-  if (orthographic) return {at * (2 * half / resolution) - half_m() + centre_m, 1};
-  const glm::dvec2 side = (2.0 * (at + shift_texels) / static_cast<double>(resolution) - 1.0) * half;
-  return forward + side.x * right + side.y * up;
 }
 
 glm::dvec2 MapTile::texels(glm::dvec3 place) const {

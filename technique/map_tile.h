@@ -6,6 +6,7 @@
 //   double w = tile.texel_m(light);            // the texel's width there
 #pragma once
 #include <glm/glm.hpp>
+#include <stdexcept>
 
 namespace noonmark {
 
@@ -48,5 +49,27 @@ struct MapTile {
   glm::dvec2 texels(glm::dvec3 place) const;     // the position of a place in the map's image
   glm::dvec3 place_at(glm::dvec2 texels) const;  // its inverse; of a perspective tile the place with along() = 1
 };
+
+// In the header, because a lattice of placements asks them at each of its points.
+inline double MapTile::window_depth(double z) const {
+  switch (depth) {
+    case TileDepth::linear:
+      return (z - near_m) / (far_m - near_m);
+    case TileDepth::perspective:
+      return far_m * (z - near_m) / (z * (far_m - near_m));
+    case TileDepth::distance:
+      return z / far_m;
+  }
+  throw std::logic_error("a tile without a depth");
+}
+
+inline glm::dvec3 MapTile::place_of(glm::ivec2 texel) const { return place_at(glm::dvec2(texel) + 0.5); }
+
+inline glm::dvec3 MapTile::place_at(glm::dvec2 texels) const {
+  const glm::dvec2 at = texels - glm::dvec2(corner);
+  if (orthographic) return {at * (2 * half / resolution) - half_m() + centre_m, 1};
+  const glm::dvec2 side = (2.0 * (at + shift_texels) / static_cast<double>(resolution) - 1.0) * half;
+  return forward + side.x * right + side.y * up;
+}
 
 }  // namespace noonmark

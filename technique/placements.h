@@ -49,7 +49,8 @@ class Placements {
 
   // The lattice point of a texel along one axis, for column or row i; and back.
   int point(int texel, int i) const { return side_ * texel + step(i); }
-  int texel_of(int point) const { return floor_div(point - step((side_ + 1) / 2), side_); }
+  int first_point(int texel) const { return side_ * texel + step((side_ + 1) / 2); }  // the first of a texel's S points
+  int texel_of(int point) const { return floor_div(point - first_point(0), side_); }
   glm::ivec2 texel_of(glm::ivec2 point) const { return {texel_of(point.x), texel_of(point.y)}; }
 
  private:

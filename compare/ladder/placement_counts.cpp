@@ -141,6 +141,10 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   const glm::ivec2 size = e.map_size;
   std::optional<TapThreshold> threshold;
   if (varied_) threshold.emplace(probe, e.bias, *varied_, pixel);
+  // Two steps of the format: a depth is rounded by half a step, and two sums to float. A tap that should be lit and reads
+  // such a depth inside the map is lit at every bias, so nothing is booked of it.
+  const bool by_reference = asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane;
+  const float lit_from = static_cast<float>(probe.reference[pixel] + 2 * depth_step(e.map.format));
   const auto add_tap = [&](int t, size_t i, size_t j, OfReceiver& receiver) {
     uint8_t bits = e.taps.bits(pixel, t);
     TapRead read;
@@ -148,6 +152,9 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
       const size_t at = static_cast<size_t>(t) * side;
       const glm::ivec2 point(taps.column[at + i], taps.row[at + j]);
       const size_t n = taps.index(point.x, point.y);
+      if (by_reference && truth && (bits & ~of_texel) == tap_exact_lit && box.bits[n] == tap_texel_lit &&
+          box.depth[n] >= lit_from && inside_map(placements_.texel_of(point), size))
+        return;
       read = {placements_.texel_of(point), box.depth[n], {taps.x[i], taps.y[j]}};
       bits = static_cast<uint8_t>((bits & ~of_texel) | box.bits[n]);
     }
@@ -183,9 +190,9 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   receivers.assign(count_, {});
   const auto other = [&](int t, size_t i, size_t j) { add_tap(t, i, j, receivers[j * side + i]); };
   if (truth)
-    book_by_depth<true>(e, pixel, taps, box, bias, threshold, receivers, other);
+    book_by_depth<true>(e, pixel, taps, box, bias, lit_from, threshold, receivers, other);
   else
-    book_by_depth<false>(e, pixel, taps, box, bias, threshold, receivers, other);
+    book_by_depth<false>(e, pixel, taps, box, bias, lit_from, threshold, receivers, other);
   for (size_t placement = 0; placement < count_; ++placement) book(placement, receivers[placement]);
 }
 
@@ -214,16 +221,14 @@ void PlacementCounts::book_beside(const PlacementEvidence& e, size_t pixel, cons
 // A tap that should be lit is acne where it is dark, and one that should be dark is Peter Panning where it is lit.
 template <bool lit, class Other>
 void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, const PlacedTaps& taps,
-                                    const LatticeBox& box, float bias, const std::optional<TapThreshold>& threshold,
-                                    std::vector<OfReceiver>& receivers, const Other& other) {
+                                    const LatticeBox& box, float bias, float lit_from,
+                                    const std::optional<TapThreshold>& threshold, std::vector<OfReceiver>& receivers,
+                                    const Other& other) {
   constexpr Kind cause = lit ? acne : peter_panning, error = lit ? error_dark : error_light;
   constexpr uint8_t exact_bits = lit ? tap_exact_lit : 0, texel_bits = lit ? tap_texel_lit : 0;
   const size_t side = static_cast<size_t>(placements_.side());
   const float reference = e.probe.reference[pixel], biased = reference - bias;
   const DepthFormat format = e.map.format;
-  // Two steps of the format: a depth is rounded by half a step, and both sums here to float. Such a tap is lit at every
-  // bias.
-  const float lit_from = static_cast<float>(reference + 2 * depth_step(format));
   const float without_bias = threshold ? reference - threshold->bias_at(0) : 0;
   const std::span<const float> biases = threshold ? edge_biases_.of(*threshold, bins_) : std::span<const float>();
   std::optional<BinsByDepth> of_exact, of_shown;

@@ -177,8 +177,8 @@ class PlacementCounts {
   // other(tap, column, row) for each tap whose own truth differs from the receiver's, or is not sure.
   template <bool lit, class Other>
   void book_by_depth(const PlacementEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
-                     float bias, const std::optional<TapThreshold>& threshold, std::vector<OfReceiver>& receivers,
-                     const Other& other);
+                     float bias, float lit_from, const std::optional<TapThreshold>& threshold,
+                     std::vector<OfReceiver>& receivers, const Other& other);
   void book(size_t placement, const OfReceiver& receiver);
   static Kind kind_of(Cause cause, bool darkens);
   static bool darkens(Kind kind);

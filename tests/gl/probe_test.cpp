@@ -231,6 +231,72 @@ TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
     }
 }
 
+// A picture of more than a million pixels is probed in bands of rows. Its numbers are those of its upper and its lower part.
+TEST_F(GlProbeTest, GivesTheSameNumbersInBands) {
+  std::mt19937 random(78);
+  const int width = 2048, height = 1100, upper = 700;  // bands of 512 rows
+  for (const LightKind kind : {LightKind::directional, LightKind::point}) {
+    const Scene scene = random_scene(random, kind);
+    const ReceiverImage receivers = load(scene, width, height);
+    Settings settings;
+    settings.map.resolution = 100;
+    if (kind == LightKind::point) {
+      settings.filter.kind = "cube_disk";  // its radius grows with the distance from the view
+    } else {
+      settings.bias.reference = "receiver_plane";
+    }
+    const LightFrame frame = make_light_frame(scene, settings);
+    const LookupProbe whole = renderer.probe({settings, frame});
+    ASSERT_EQ(whole.reference.size(), size_t{width} * height);
+    size_t asked = 0;
+    for (const auto& [first, end] : {std::pair(0, upper), std::pair(upper, height)}) {
+      const auto rows = [&, first = first, end = end](const auto& image) {
+        auto part = image;
+        part.height = end - first;
+        part.pixels.assign(image.pixels.begin() + first * width, image.pixels.begin() + end * width);
+        return part;
+      };
+      Image<uint32_t> pixels(width, end - first);
+      for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<uint32_t>(i + size_t(first) * width);
+      renderer.load_receivers({rows(receivers.position), rows(receivers.normal), rows(receivers.primitive)},
+                              scene.camera.eye_m, &pixels);
+      const LookupProbe part = renderer.probe({settings, frame});
+      EXPECT_EQ(part.reference.pixels, rows(whole.reference).pixels);
+      EXPECT_EQ(part.n_dot_l.pixels, rows(whole.n_dot_l).pixels);
+      EXPECT_EQ(part.bias_unit.pixels, rows(whole.bias_unit).pixels);
+      EXPECT_EQ(part.tan_theta.pixels, rows(whole.tan_theta).pixels);
+      if (kind == LightKind::point) {
+        EXPECT_EQ(part.radius.pixels, rows(whole.radius).pixels);
+        EXPECT_EQ(part.cube_middle.pixels, rows(whole.cube_middle).pixels);
+      } else {
+        EXPECT_TRUE(part.map_texels.pixels == rows(whole.map_texels).pixels);
+        EXPECT_TRUE(part.gradient.pixels == rows(whole.gradient).pixels);
+      }
+      for (size_t i = 0; i < part.reference.size(); ++i) asked += part.asks(i);
+    }
+    EXPECT_GT(asked, size_t{width} * height / 10);
+  }
+}
+
+// The receivers of a large picture leave the device and come back.
+TEST_F(GlProbeTest, ReleasedReceiversAreLoadedAgain) {
+  std::mt19937 random(79);
+  const Scene scene = random_scene(random, LightKind::directional);
+  const ReceiverImage receivers = load(scene, 96, 64);
+  Settings settings;
+  settings.map.resolution = 100;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const ShadowMap map = renderer.render_map({settings, frame});
+  const Image<float> lit = renderer.lookup(map, {settings, frame});
+  const LookupProbe probe = renderer.probe({settings, frame});
+  renderer.release_receivers();
+  EXPECT_THROW(renderer.probe({settings, frame}), std::logic_error);
+  EXPECT_THROW(renderer.lookup(map, {settings, frame}), std::logic_error);
+  renderer.load_receivers(receivers, scene.camera.eye_m);
+  EXPECT_EQ(renderer.lookup(map, {settings, frame}).pixels, lit.pixels);
+  EXPECT_EQ(renderer.probe({settings, frame}).reference.pixels, probe.reference.pixels);
+}
+
 // A picture with many taps is measured strip by strip, so strips must give the same texels.
 TEST_F(GlProbeTest, GivesTheSameTexelsInStrips) {
   std::mt19937 random(77);
