@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "compare/judge/curve_reading.h"
@@ -75,6 +76,18 @@ std::vector<ComparedGroup> compared_groups(const Results& results) {
     groups.push_back(std::move(group));
   }
   return groups;
+}
+
+std::vector<Recommendation> good_choices(const std::vector<ComparedGroup>& groups) {
+  std::vector<Recommendation> good;
+  for (const ComparedGroup& group : groups)
+    for (const ComparedChoice& one : group.choices)
+      if (one.good) good.push_back(*one.good);
+  // Choices stand in the order of their first points, and the points of results in one array.
+  std::stable_sort(good.begin(), good.end(), [](const Recommendation& a, const Recommendation& b) {
+    return std::less<const PointRecord*>()(&a.choice.first(), &b.choice.first());
+  });
+  return good;
 }
 
 Joined value_of(const ComparedChoice& one, const std::string& metric, AtBias at) {
