@@ -18,18 +18,23 @@
 namespace noonmark {
 namespace {
 
-constexpr size_t outside_buffer = 1u << 22;  // texels outside the map that a thread collects before it looks for twins
+constexpr size_t outside_buffer =
+    1u << 20;  // rows of texels beside the map that a thread collects before it merges them
+constexpr int row_length = 64;
 
 // Sorts by row, then column, so that neighbours in the list are neighbours in the map.
-uint64_t texel_key(glm::ivec2 texel) {
+uint64_t row_key(glm::ivec2 texel) {
   const auto shifted = [](int i) { return static_cast<uint64_t>(static_cast<uint32_t>(i) ^ 0x80000000u); };
-  return shifted(texel.y) << 32 | shifted(texel.x);
+  return shifted(texel.y) << 32 | shifted(texel.x & ~(row_length - 1));
 }
 
+// The first texel of a row.
 glm::ivec2 texel_of(uint64_t key) {
   const auto back = [](uint64_t i) { return static_cast<int>(static_cast<uint32_t>(i) ^ 0x80000000u); };
   return {back(key & 0xffffffffu), back(key >> 32)};
 }
+
+uint64_t bit_of(int x) { return uint64_t{1} << (x & (row_length - 1)); }
 
 }  // namespace
 
@@ -41,19 +46,39 @@ TexelRays::TexelRays(const raytrace::TracedScene& traced, const LightView& view,
 void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels) {
   const glm::ivec2 size = wanted_->size();
   struct Outside {
-    std::vector<uint64_t> keys;
+    std::vector<OutsideRow> rows;
     size_t limit = outside_buffer;
+
+    // The texels of all these columns in all these rows; ascending in both.
+    void add_square(std::span<const glm::ivec2> column_row) {
+      for (const glm::ivec2 row : column_row)
+        for (const glm::ivec2 column : column_row) add({column.x, row.y});
+    }
+    void add(glm::ivec2 texel) {
+      const uint64_t key = row_key(texel);
+      if (rows.empty() || rows.back().key != key) rows.push_back({.key = key});
+      rows.back().bits |= bit_of(texel.x);
+    }
+    // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills the memory. The limit
+    // doubles with what is truly different, so that the sorting stays a small share of the work.
+    void merge_many() {
+      if (rows.size() <= limit) return;
+      std::sort(rows.begin(), rows.end(), by_key);  // on this thread: others would let it take pixels meanwhile
+      merge_sorted(rows);
+      limit = std::max(outside_buffer, 2 * rows.size());
+    }
   };
-  tbb::combinable<Outside> outside_keys;
+  tbb::combinable<Outside> outside_rows;
   tbb::parallel_for(
       tbb::blocked_range<size_t>(pixels.first, pixels.end, 4096), [&](const tbb::blocked_range<size_t>& range) {
-        Outside& outside = outside_keys.local();
+        Outside& outside = outside_rows.local();
         // Neighbouring pixels mostly ask for the same texels.
         std::vector<glm::ivec2> before(static_cast<size_t>(probe.taps()), glm::ivec2(std::numeric_limits<int>::min()));
         const bool square = probe.cube_resolution == 0 && probe.pattern.square_side > 0;
         std::vector<glm::ivec2> side, side_before;
         for (size_t i = range.begin(); i != range.end(); ++i) {
           if (!facing[i]) continue;
+          outside.merge_many();
           if (square) {
             probe.square_at(probe.map_texels[i], i, side);
             if (side == side_before) continue;
@@ -62,29 +87,35 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
               wanted_->add_square(side);
               continue;
             }
+            if (wrap_ == Wrap::clamp_to_border && beside_map(side.front(), side.back(), size)) {
+              outside.add_square(side);
+              continue;
+            }
           }
           for (int tap = 0; tap < probe.taps(); ++tap) {
             const glm::ivec2 texel = probe.texel(i, tap);
             if (std::exchange(before[static_cast<size_t>(tap)], texel) == texel) continue;
             const glm::ivec2 read = wrapped(texel, size, wrap_);
             if (read.x >= 0) wanted_->add(read);
-            if (!inside_map(texel, size)) outside.keys.push_back(texel_key(texel));
-          }
-          // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills
-          // the memory. The limit doubles with what is truly different, so that the sorting stays a small
-          // share of the work.
-          if (outside.keys.size() > outside.limit) {
-            std::sort(outside.keys.begin(), outside.keys.end());
-            outside.keys.erase(std::unique(outside.keys.begin(), outside.keys.end()), outside.keys.end());
-            outside.limit = std::max(outside_buffer, 2 * outside.keys.size());
+            if (!inside_map(texel, size)) outside.add(texel);
           }
         }
       });
+  outside_rows.combine_each(
+      [&](const Outside& part) { outside_.insert(outside_.end(), part.rows.begin(), part.rows.end()); });
+  tbb::parallel_sort(outside_.begin(), outside_.end(), by_key);
+  merge_sorted(outside_);
+}
 
-  outside_keys.combine_each(
-      [&](const Outside& part) { outside_keys_.insert(outside_keys_.end(), part.keys.begin(), part.keys.end()); });
-  tbb::parallel_sort(outside_keys_);
-  outside_keys_.erase(std::unique(outside_keys_.begin(), outside_keys_.end()), outside_keys_.end());
+void TexelRays::merge_sorted(std::vector<OutsideRow>& rows) {
+  size_t count = 0;
+  for (const OutsideRow& row : rows) {
+    if (count > 0 && rows[count - 1].key == row.key)
+      rows[count - 1].bits |= row.bits;
+    else
+      rows[count++] = row;
+  }
+  rows.resize(count);
 }
 
 void TexelRays::each_packet_inside(const auto& visit) const {
@@ -118,14 +149,18 @@ void TexelRays::trace(const OwnSurface* by_rays) {
   wanted_->close();
   texels_ = std::move(wanted_);
   inside_.resize(texels_->count());
-  outside_.resize(outside_keys_.size());
+  size_t beside = 0;
+  for (OutsideRow& row : outside_) {
+    row.first = beside;
+    beside += static_cast<size_t>(std::popcount(row.bits));
+  }
+  outside_hits_.resize(beside);
   const bool flat = view_->frame().map_shape() == MapShape::flat;
-  (flat && !by_rays ? answers_.scan : answers_.rays) = inside_.size() + outside_.size();
+  (flat && !by_rays ? answers_.scan : answers_.rays) = inside_.size() + beside;
   if (flat)
     trace_flat(by_rays);
   else
     trace_cube();
-  std::vector<uint64_t>().swap(outside_keys_);
 }
 
 // A cube has no texels outside.
@@ -151,7 +186,7 @@ void TexelRays::trace_flat(const OwnSurface* by_rays) {
   struct Tile {
     glm::ivec2 at{0};
     size_t in_set = none;           // the number of the tile in the set
-    std::vector<size_t> outside{};  // indexes in outside_keys_, in their order
+    std::vector<size_t> outside{};  // indexes in outside_, in their order
     bool clipped = false;           // a hit of it
   };
   std::vector<Tile> tiles;
@@ -161,8 +196,8 @@ void TexelRays::trace_flat(const OwnSurface* by_rays) {
       tiles.push_back({texels_->origin(n) / TexelSet::side, n});
       known[LatticeRaster::key(tiles.back().at)] = tiles.size() - 1;
     }
-  for (size_t i = 0; i < outside_keys_.size(); ++i) {
-    const glm::ivec2 texel = texel_of(outside_keys_[i]), at(texel.x >> 6, texel.y >> 6);
+  for (size_t i = 0; i < outside_.size(); ++i) {
+    const glm::ivec2 texel = texel_of(outside_[i].key), at(texel.x >> 6, texel.y >> 6);
     const auto [tile, added] = known.try_emplace(LatticeRaster::key(at), tiles.size());
     if (added) tiles.push_back({at});
     tiles[tile->second].outside.push_back(i);
@@ -179,10 +214,9 @@ void TexelRays::trace_flat(const OwnSurface* by_rays) {
     if (tile.in_set != none)
       for (int row = 0; row < TexelSet::side; ++row) inside[static_cast<size_t>(row)] = texels_->bits(tile.in_set, row);
     wanted = inside;
-    for (const size_t i : tile.outside) {
-      const glm::ivec2 texel = texel_of(outside_keys_[i]);
-      wanted[static_cast<size_t>(texel.y & 63)] |= uint64_t{1} << (texel.x & 63);
-    }
+    // A row of the list is a row of the tile.
+    for (const size_t i : tile.outside)
+      wanted[static_cast<size_t>(texel_of(outside_[i].key).y & 63)] |= outside_[i].bits;
     uint32_t triangles[TexelSet::side * TexelSet::side];
     size_t count = 0;
     for (const uint64_t bits : wanted) count += static_cast<size_t>(std::popcount(bits));
@@ -190,19 +224,21 @@ void TexelRays::trace_flat(const OwnSurface* by_rays) {
       raster.hits_by_rays(*by_rays, tile.at, wanted, {triangles, count});
     else
       raster.hits(tile.at, candidates[n], wanted, {triangles, count});
-    size_t hit = 0, next_inside = tile.in_set == none ? 0 : texels_->first(tile.in_set), next_outside = 0;
-    for (int row = 0; row < TexelSet::side; ++row)
+    size_t hit = 0, next_inside = tile.in_set == none ? 0 : texels_->first(tile.in_set);
+    auto next_row = tile.outside.begin();
+    for (int row = 0; row < TexelSet::side; ++row) {
+      const bool beside = next_row != tile.outside.end() && (texel_of(outside_[*next_row].key).y & 63) == row;
+      size_t next_outside = beside ? outside_[*next_row++].first : 0;
       for (uint64_t bits = wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1, ++hit) {
         const glm::dvec3 place = view_->texel_place(tile.at * TexelSet::side + glm::ivec2(std::countr_zero(bits), row));
         const FirstHit found = first_hit_at(place, triangles[hit]);
         tile.clipped |= found.before_near();
-        if (inside[static_cast<size_t>(row)] >> std::countr_zero(bits) & 1) {
+        if (inside[static_cast<size_t>(row)] >> std::countr_zero(bits) & 1)
           inside_[next_inside++] = found;
-        } else {
-          const size_t i = tile.outside[next_outside++];
-          outside_[i] = {outside_keys_[i], found};
-        }
+        else
+          outside_hits_[next_outside++] = found;
       }
+    }
   });
   for (const Tile& tile : tiles) {
     if (!tile.clipped) continue;
@@ -211,12 +247,12 @@ void TexelRays::trace_flat(const OwnSurface* by_rays) {
   }
 }
 
-const TexelRays::FirstHit& TexelRays::outside_hit(glm::ivec2 texel) const {
-  static const FirstHit not_asked_for;
-  const uint64_t key = texel_key(texel);
-  const auto found = std::lower_bound(outside_.begin(), outside_.end(), key,
-                                      [](const auto& entry, uint64_t wanted) { return entry.first < wanted; });
-  return found != outside_.end() && found->first == key ? found->second : not_asked_for;
+TexelRays::FirstHit TexelRays::outside_hit(glm::ivec2 texel) const {
+  const uint64_t key = row_key(texel), bit = bit_of(texel.x);
+  const auto row = std::lower_bound(outside_.begin(), outside_.end(), key,
+                                    [](const OutsideRow& entry, uint64_t wanted) { return entry.key < wanted; });
+  if (row == outside_.end() || row->key != key || !(row->bits & bit)) return {};
+  return outside_hits_[row->first + static_cast<size_t>(std::popcount(row->bits & (bit - 1)))];
 }
 
 }  // namespace noonmark

@@ -11,7 +11,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "raytrace/light_view.h"
@@ -68,10 +67,19 @@ class TexelRays {
    private:
     uint32_t bits_ = no_primitive << 1;
   };
-  const FirstHit& first_hit(glm::ivec2 texel) const {
+  FirstHit first_hit(glm::ivec2 texel) const {
     return inside_map(texel, texels_->size()) ? inside_[texels_->index(texel)] : outside_hit(texel);
   }
-  const FirstHit& outside_hit(glm::ivec2 texel) const;
+  FirstHit outside_hit(glm::ivec2 texel) const;
+  // Up to 64 texels of a row beside the map, from a multiple of 64 on: so a row of a wide kernel takes one or two entries.
+  struct OutsideRow {
+    uint64_t key = 0;   // row, then column; of the first texel
+    uint64_t bits = 0;  // a bit for each texel
+    size_t first = 0;   // after trace(): the index of the first hit in outside_hits_
+  };
+  static bool by_key(const OutsideRow& a, const OutsideRow& b) { return a.key < b.key; }
+  // Makes one row of those with the same key.
+  static void merge_sorted(std::vector<OutsideRow>& rows);
   // Calls visit(count, first, places) for up to 16 texels of the set at a time; `first` is the number of the first.
   void each_packet_inside(const auto& visit) const;
   void trace_cube();
@@ -84,13 +92,13 @@ class TexelRays {
   const LightView* view_;
   Wrap wrap_;
   std::shared_ptr<TexelSet> wanted_;    // until trace()
-  std::vector<uint64_t> outside_keys_;  // until trace(); sorted, each once
+  std::vector<OutsideRow> outside_;     // of a flat map; sorted by key
+  std::vector<FirstHit> outside_hits_;  // after trace(): row by row
   std::shared_ptr<const TexelSet> texels_;
   std::vector<FirstHit> inside_;  // by TexelSet::index
   // The rectangle around the tiles of texels that have a clipped hit; empty if there is none.
   glm::ivec2 clipped_low_{std::numeric_limits<int>::max()}, clipped_high_{std::numeric_limits<int>::min()};
   TruthAnswers answers_;
-  std::vector<std::pair<uint64_t, FirstHit>> outside_;  // (texel key, hit), sorted
 };
 
 }  // namespace noonmark

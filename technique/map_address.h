@@ -15,6 +15,11 @@ inline bool inside_map(glm::ivec2 texel, glm::ivec2 size) {
   return texel.x >= 0 && texel.y >= 0 && texel.x < size.x && texel.y < size.y;
 }
 
+// Whether all texels between these two lie beside the map, on one side of it.
+inline bool beside_map(glm::ivec2 low, glm::ivec2 high, glm::ivec2 size) {
+  return high.x < 0 || high.y < 0 || low.x >= size.x || low.y >= size.y;
+}
+
 // The texel that a sampler with this wrap mode reads; {-1, -1} for the border.
 inline glm::ivec2 wrapped(glm::ivec2 texel, glm::ivec2 size, Wrap wrap) {
   if (inside_map(texel, size)) return texel;

@@ -65,15 +65,15 @@ ChosenPixel chosen_pixel(const SectionOptions& options, const PointRecord& recor
   if (!options.pixel.empty()) return {pixel_from(options.pixel), ""};
   const std::string metric = options.worst.empty() ? "error" : options.worst;
   const auto worst = worst_pixel_of(record, metric);
+  if (!worst && metric_of(record, metric) == 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("no pixel of this picture has any {}; give another --worst, or a --pixel", metric));
   if (!worst)
     throw Error(
         ErrorKind::usage,
         fmt::format("{} is a number of the whole picture, of no pixel; give the metric of a cause or error with "
                     "--worst, or a --pixel",
                     metric));
-  if (worst->x < 0)
-    throw Error(ErrorKind::usage,
-                fmt::format("no pixel of this picture has any {}; give another --worst, or a --pixel", metric));
   return {{worst->x, worst->y},
           fmt::format("the pixel with the largest {}, {}", metric,
                       quantity_text(worst->size, find_quantity(metric, {&record, 1}).unit))};

@@ -35,9 +35,9 @@ class ReceiverTaps {
     lit_beyond_far_ = reference_ > 1.0f && settings.lit_beyond_far;
     blended_ = probe.pattern.bilinear();
     const uint8_t* const bits = &truth.taps[(i - truth.first) * count];
-    const bool inside = list_texels(probe, settings, i);
-    by_depth_ = inside && asks_ && reference_ <= 1.0f && !blended_ && !probe.tap_reference->plane;
-    alike_ = by_depth_ && std::equal(bits + 1, bits + count, bits);
+    const bool on_one_side = list_texels(probe, settings, i);
+    by_depth_ = asks_ && reference_ <= 1.0f && !blended_ && !probe.tap_reference->plane;
+    alike_ = by_depth_ && on_one_side && std::equal(bits + 1, bits + count, bits);
     if (alike_) {
       same_ = tap_of(probe, bits[0], settings, map.size(), i, 0, read_by(probe, i, 0));
       return;
@@ -68,20 +68,22 @@ class ReceiverTaps {
     return tap;
   }
 
-  // True if nothing but the depth that a tap reads decides whether it is lit, and each tap weighs 1: neither the map's
-  // border, nor far, nor a plane, nor a sampler.
+  // True if nothing but the depth that a tap reads decides whether it is lit, and each tap weighs 1: neither far, nor a
+  // plane, nor a sampler.
   bool by_depth() const { return by_depth_; }
   // True if the taps differ in that depth only, so that they are judged together.
   bool alike() const { return alike_; }
   // Of taps by_depth(): how many are lit at this bias on a map with the same texels.
   size_t lit_on(const MapDepths& map, float bias) const {
     const float biased = reference_ - bias;  // as Tap::lit()
-    int lit = 0;
+    size_t lit = biased > border_depth ? 0 : beside_;
     for (const Run& run : runs_) {
       const float* const depth = &map.depth[run.first];
-      for (uint32_t k = 0; k < run.length; ++k) lit += !(biased > depth[k]);
+      uint32_t of_run = 0;
+      for (uint32_t k = 0; k < run.length; ++k) of_run += !(biased > depth[k]);
+      lit += of_run;
     }
-    return static_cast<size_t>(lit);
+    return lit;
   }
 
  private:
@@ -91,12 +93,13 @@ class ReceiverTaps {
     uint32_t first, length;
   };
 
-  // Lists the texels that the taps read. Returns whether all of them lie inside the map.
+  // Lists the texels that the taps read. Returns whether all taps read inside the map, or all of them beside it.
   bool list_texels(const LookupProbe& probe, const MapSettings& settings, size_t i) {
     const TexelSet& texels = *map_->texels;
     const glm::ivec2 map_size = texels.size();
     index_.clear();
     runs_.clear();
+    beside_ = 0;
     if (probe.cube_resolution == 0 && probe.pattern.square_side > 0) {
       probe.square_at(probe.map_texels[i], i, square_);
       if (inside_map(square_.front(), map_size) && inside_map(square_.back(), map_size)) {
@@ -104,22 +107,30 @@ class ReceiverTaps {
         list_runs();
         return true;
       }
+      if (settings.wrap == Wrap::clamp_to_border && beside_map(square_.front(), square_.back(), map_size)) {
+        index_.assign(size_, on_border);
+        beside_ = size_;
+        return true;
+      }
     }
-    bool inside = true;
+    size_t inside = 0;
     for (int tap = 0; tap < static_cast<int>(size_); ++tap) {
       const glm::ivec2 texel = probe.texel(i, tap), at = wrapped(texel, map_size, settings.wrap);
-      inside = inside && inside_map(texel, map_size);
+      inside += inside_map(texel, map_size);
+      beside_ += at.x < 0;
       index_.push_back(at.x < 0 ? on_border : static_cast<uint32_t>(texels.index(at)));
     }
-    if (inside) list_runs();
-    return inside;
+    list_runs();
+    return inside == 0 || inside == size_;
   }
   void list_runs() {
-    for (const uint32_t index : index_)
+    for (const uint32_t index : index_) {
+      if (index == on_border) continue;
       if (!runs_.empty() && index == runs_.back().first + runs_.back().length)
         ++runs_.back().length;
       else
         runs_.push_back({index, 1});
+    }
   }
   TapRead read_by(const LookupProbe& probe, size_t i, int tap) const {
     TapRead read;
@@ -135,7 +146,8 @@ class ReceiverTaps {
   const MapDepths* map_ = nullptr;  // the exact map
   size_t size_ = 0;
   std::vector<uint32_t> index_;  // TexelSet::index of the texel that a tap reads
-  std::vector<Run> runs_;        // the same, if all lie inside the map
+  std::vector<Run> runs_;        // the same, without the taps that read the border
+  size_t beside_ = 0;            // the taps that read the border
   std::vector<Tap> taps_;        // empty if the taps differ in nothing but their depth
   Tap same_;                     // each of them then, but for its depth
   float reference_ = 0;

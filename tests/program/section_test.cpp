@@ -60,9 +60,9 @@ TEST_F(SectionVerb, RefusesWhatIsNoPixel) {
   EXPECT_EQ(section({"--worst", "acme"}), 2);
   EXPECT_TRUE(says("acne")) << output_;
   EXPECT_EQ(section({"--worst", "undecided"}), 2);
-  EXPECT_TRUE(says("undecided is a number of the whole picture, of no pixel")) << output_;
-  EXPECT_EQ(section({"--worst", "filter"}), 2);
-  EXPECT_TRUE(says("no pixel of this picture has any filter")) << output_;
+  EXPECT_TRUE(says("no pixel of this picture has any undecided")) << output_;
+  EXPECT_EQ(section({"--worst", "map_used"}), 2);
+  EXPECT_TRUE(says("map_used is a number of the whole picture, of no pixel")) << output_;
   EXPECT_FALSE(fs::exists(folder_ / "section.svg"));
 }
 
