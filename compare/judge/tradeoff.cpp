@@ -54,6 +54,7 @@ ComparedChoice at_best_bias(const Choice& choice, const Results& results) {
   one.choice = choice, one.usable = joined_window(choice), one.good = good_choice(choice, results);
   if (!has_curves(choice)) return one;
   one.window = one.usable ? Window::usable : Window::empty;
+  one.rendered_in_window = one.usable && was_rendered_in_window(choice);
   one.bias = one.good     ? one.good->bias->value
              : one.usable ? bias_without_bounds(choice, results, *one.usable)
                           : least_wrong_bias(choice, results.info.accuracy);
@@ -109,7 +110,7 @@ bool counts_by(const ComparedChoice& one, const std::string& metric, AtBias at) 
     case Window::usable:
       break;
   }
-  return (at == AtBias::best && follows_bias(one, metric)) || was_rendered_in_window(one.choice);
+  return (at == AtBias::best && follows_bias(one, metric)) || one.rendered_in_window;
 }
 
 std::optional<Interval> span_over_window(const ComparedChoice& one, const std::string& metric) {
