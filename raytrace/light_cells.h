@@ -60,11 +60,11 @@
 //     F, at a distance of at least 2 / 3 of gap_m > near. So each dark receiver sees nothing of the disc.
 //   - No ray starts below the receiver's own horizon, because N.L is greater than tangent.
 //
-// ---- Why a dark receiver is dark at all taps of a rectangle
+// ---- Why V is one verdict in a rectangle
 //
 // If one triangle F is the front of all good squares that hold the rectangle, it is the first hit at each place in it,
 // and all else lies deeper by gap_m. If the triangle of the receiver covers the rectangle too, by more than reach_m, it is
-// the receiver's sheet at each place: V compares these two planes only (OwnSurface::dark_in).
+// the receiver's sheet at each place: V compares these two planes only (OwnSurface::known_in).
 //
 // Only parallel rays have cells so far.
 #pragma once

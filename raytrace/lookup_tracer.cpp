@@ -63,12 +63,21 @@ class AmongTaps {
   // every kind of light, and took half of the time of a lookup without a filter.
   Silhouettes::Rectangle around(size_t pixel, glm::dvec3 p) const {
     const auto [low, high] = texels(pixel);
-    const glm::dvec2 place(glm::dot(p - origin_m_, right_), glm::dot(p - origin_m_, up_));
-    return {0, glm::min(place + texel_m_ * glm::dvec2(low_), first_texel_ + texel_m_ * glm::dvec2(low)),
-            glm::max(place + texel_m_ * glm::dvec2(high_), first_texel_ + texel_m_ * glm::dvec2(high))};
+    return rectangle(place(p), low_, high_, low, high);
   }
+  // The same of the taps of a square between two of its taps, without the receiver's place.
+  Silhouettes::Rectangle of_taps(size_t pixel, glm::dvec3 p, int first, int last) const {
+    const auto offset = [&](int tap) { return glm::vec2(probe_.pattern.offset(0, tap)); };
+    return rectangle(place(p), offset(first), offset(last), probe_.texel(pixel, first), probe_.texel(pixel, last));
+  }
+  glm::dvec2 place(glm::dvec3 p) const { return {glm::dot(p - origin_m_, right_), glm::dot(p - origin_m_, up_)}; }
 
  private:
+  Silhouettes::Rectangle rectangle(glm::dvec2 place, glm::dvec2 low, glm::dvec2 high, glm::ivec2 low_texel,
+                                   glm::ivec2 high_texel) const {
+    return {0, glm::min(place + texel_m_ * low, first_texel_ + texel_m_ * glm::dvec2(low_texel)),
+            glm::max(place + texel_m_ * high, first_texel_ + texel_m_ * glm::dvec2(high_texel))};
+  }
   const Silhouettes& silhouettes_;
   const LookupProbe& probe_;
   bool applies_;
@@ -132,8 +141,8 @@ TapTruth LookupTracer::trace_places(const LookupProbe& probe, PixelRange strip, 
   return trace(probe, strip, nullptr, stage);
 }
 
-// One trace of a strip. Receivers that are lit, or dark, for sure at all their taps are answered first; for the others rays are
-// asked, packet by packet.
+// One trace of a strip. Receivers that are lit, or dark, for sure at all their taps are answered first. Of the others, blocks of
+// taps are; for the taps that remain rays are asked, packet by packet.
 class TapTracing {
  public:
   // edge_distance_texels: null if only the exact places are asked (trace_places).
@@ -146,6 +155,7 @@ class TapTracing {
         surface_(l_.traced.embree, l_.traced.adjacency, l_.view, l_.light->silhouettes(), cells_),
         among_taps_(l_.view, l_.light->silhouettes(), probe, l_.bias),
         listed_(!l_.by_rays() && among_taps_.applies()),
+        square_(listed_ && probe.taps() > 1 ? probe.pattern.square_side : 0),
         parallel_(l_.view.rays().have_one_direction()),
         texel_m_(parallel_ ? frame().texel_m({}) : 0) {
     result_.taps.assign(strip.size() * static_cast<size_t>(probe.taps()), 0);
@@ -167,6 +177,7 @@ class TapTracing {
     glm::dvec3 looked_up[packet_size];                 // P' there; P unless a part moves the lookup
     bool behind[packet_size];                          // P' has no place in the map: behind a spot light
     Silhouettes::Nearby* nearby;                       // of each receiver, if the silhouettes are listed
+    std::vector<uint8_t>* decided;                     // [tap] of each receiver: 1 if a block decided it
     mutable std::optional<LightCells::Reader> reader;  // remembers where it looked last
     mutable TruthAnswers answers;                      // counted here, and added to the thread's once
     int active() const { return static_cast<int>(pixels.size()); }
@@ -189,9 +200,18 @@ class TapTracing {
   // in order.
   std::vector<size_t> answer_certain();
   void answer(size_t pixel, bool lit);
+  // The taps of a square in these columns and rows; the last ones are in it.
+  struct Block {
+    int left, bottom, right, top;
+    bool holds(int column, int row) const { return left <= column && column <= right && bottom <= row && row <= top; }
+  };
+  // Answers blocks of a receiver's taps that are certain, and divides the others.
+  void answer_blocks(const Packet& packet, int k, const Block& block, OwnSurface::Pair& pair);
+  std::optional<bool> known_in(const Packet& packet, int k, const Block& block, OwnSurface::Pair& pair) const;
   void trace_packet(std::span<const size_t> pixels);
-  void first_hits(const Packet& packet, const glm::dvec3* x, uint32_t* hits) const;
-  void verdicts_at(const Packet& packet, const glm::dvec3* from, const glm::dvec3* offsets,
+  // ks: the receivers of the packet that are asked.
+  void first_hits(const Packet& packet, std::span<const int> ks, const glm::dvec3* x, uint32_t* hits) const;
+  void verdicts_at(const Packet& packet, std::span<const int> ks, const glm::dvec3* from, const glm::dvec3* offsets,
                    OwnSurface::Verdict* verdicts) const;
   void trace_tap(const Packet& packet, int tap);
   // The verdict at the centre of the texel that the tap reads. moved_lit: D of the tap.
@@ -205,6 +225,7 @@ class TapTracing {
   const OwnSurface surface_;
   const AmongTaps among_taps_;
   const bool listed_;  // silhouettes are listed for each receiver
+  const int square_;   // the side of a square of taps that is divided into blocks; 0 if they are not
   const bool parallel_;
   const double texel_m_;  // of parallel rays
   TapTruth result_{probe_.taps(), {}, strip_.first};
@@ -227,8 +248,8 @@ std::vector<size_t> TapTracing::answer_certain() {
     const auto dark = [&](size_t pixel) {
       if (!reader) return false;
       const Silhouettes::Rectangle around = among_taps_.around(pixel, l_.receivers.position[pixel]);
-      return surface_.dark_in(l_.traced.adjacency.first(l_.receivers.primitive[pixel]), around.low, around.high,
-                              *reader, pair);
+      const SurfacePoint p{.primitive = l_.traced.adjacency.first(l_.receivers.primitive[pixel])};
+      return surface_.known_in(p, around.low, around.high, *reader, pair) == std::optional(false);
     };
     uint64_t certain = 0;  // receivers
     for (size_t pixel = from; pixel < to; ++pixel) {
@@ -260,11 +281,57 @@ void TapTracing::answer(size_t pixel, bool lit) {
     if (l_.texels.clipped(probe_.texel(pixel, tap))) bits[tap] |= tap_near_clipped;
 }
 
+// A block of a lit P is lit if no silhouette comes between P and it.
+std::optional<bool> TapTracing::known_in(const Packet& packet, int k, const Block& block,
+                                         OwnSurface::Pair& pair) const {
+  const size_t pixel = packet.pixels[static_cast<size_t>(k)];
+  const SurfacePoint& p = packet.points[k];
+  const glm::dvec3 position = l_.receivers.position[pixel];
+  const Silhouettes::Rectangle taps =
+      among_taps_.of_taps(pixel, position, block.bottom * square_ + block.left, block.top * square_ + block.right);
+  const glm::dvec2 place = among_taps_.place(position);
+  if (p.lit && packet.nearby[k].none_in({0, glm::min(taps.low, place), glm::max(taps.high, place)})) return true;
+  if (!packet.reader) return std::nullopt;
+  const std::optional<bool> known = surface_.known_in(p, taps.low, taps.high, *packet.reader, pair);
+  // The tap at P itself has the verdict R1, which the ray of float gave.
+  if (known && *known != p.lit && block.holds(square_ / 2, square_ / 2)) return std::nullopt;
+  return known;
+}
+
+void TapTracing::answer_blocks(const Packet& packet, int k, const Block& block, OwnSurface::Pair& pair) {
+  if (block.left > block.right || block.bottom > block.top) return;
+  if (const std::optional<bool> lit = known_in(packet, k, block, pair)) {
+    const size_t pixel = packet.pixels[static_cast<size_t>(k)];
+    for (int row = block.bottom; row <= block.top; ++row)
+      for (int column = block.left; column <= block.right; ++column) {
+        const int tap = row * square_ + column;
+        const glm::ivec2 texel = probe_.texel(pixel, tap);
+        const bool clipped = may_clip() && l_.texels.may_be_clipped(texel, texel) && l_.texels.clipped(texel);
+        bits_of(pixel)[tap] =
+            static_cast<uint8_t>((*lit ? tap_exact_lit | (edge_distance_texels_ ? tap_texel_lit : 0) : 0) |
+                                 (clipped ? tap_near_clipped : 0));
+        packet.decided[k][static_cast<size_t>(tap)] = 1;
+        packet.answers.cells += glm::dvec3(probe_.pattern.offset(0, tap)) != glm::dvec3(0);
+      }
+    return;
+  }
+  if (block.left == block.right && block.bottom == block.top) return;
+  const int column = (block.left + block.right) / 2, row = (block.bottom + block.top) / 2;
+  answer_blocks(packet, k, {block.left, block.bottom, column, row}, pair);
+  answer_blocks(packet, k, {column + 1, block.bottom, block.right, row}, pair);
+  answer_blocks(packet, k, {block.left, row + 1, column, block.top}, pair);
+  answer_blocks(packet, k, {column + 1, row + 1, block.right, block.top}, pair);
+}
+
 void TapTracing::trace_packet(std::span<const size_t> pixels) {
-  thread_local Silhouettes::Nearby nearby[packet_size];  // its memory is used again
+  thread_local Silhouettes::Nearby nearby[packet_size];  // their memory is used again
+  thread_local std::vector<uint8_t> decided[packet_size];
   Packet packet;
   packet.pixels = pixels;
   packet.nearby = nearby;
+  packet.decided = decided;
+  if (cells_) packet.reader.emplace(*cells_);
+  OwnSurface::Pair pair;
   for (int k = 0; k < packet.active(); ++k) {
     const size_t pixel = pixels[static_cast<size_t>(k)];
     const glm::dvec3 p = l_.receivers.position[pixel], normal = l_.receivers.normal[pixel];
@@ -274,17 +341,18 @@ void TapTracing::trace_packet(std::span<const size_t> pixels) {
     packet.looked_up[k] = frame().to_light(l_.bias.looked_up(frame(), p, normal));
     packet.behind[k] = !frame().light().has_place(packet.looked_up[k]);
     if (listed_) among_taps_.list(pixel, p, nearby[k]);
+    decided[k].assign(static_cast<size_t>(probe_.taps()), 0);
+    if (square_ > 0) answer_blocks(packet, k, {0, 0, square_ - 1, square_ - 1}, pair);
   }
-  if (cells_) packet.reader.emplace(*cells_);
   for (int tap = 0; tap < probe_.taps(); ++tap) trace_tap(packet, tap);
   answers_.local() += packet.answers;
 }
 
 // The cells' answers, and rays where they have none.
-void TapTracing::first_hits(const Packet& packet, const glm::dvec3* x, uint32_t* hits) const {
+void TapTracing::first_hits(const Packet& packet, std::span<const int> ks, const glm::dvec3* x, uint32_t* hits) const {
   int unknown[packet_size], rays = 0;
   glm::dvec3 places[packet_size];
-  for (int k = 0; k < packet.active(); ++k) {
+  for (const int k : ks) {
     if (const auto hit = packet.reader ? packet.reader->first_hit(x[k]) : std::nullopt) {
       hits[k] = *hit;
     } else {
@@ -292,39 +360,44 @@ void TapTracing::first_hits(const Packet& packet, const glm::dvec3* x, uint32_t*
       unknown[rays++] = k;
     }
   }
-  packet.answers += {.cells = static_cast<uint64_t>(packet.active() - rays), .rays = static_cast<uint64_t>(rays)};
+  packet.answers += {.cells = ks.size() - static_cast<uint64_t>(rays), .rays = static_cast<uint64_t>(rays)};
   if (rays == 0) return;
   uint32_t found[packet_size];
   l_.view.first_hits(l_.traced.embree, rays, places, found);
   for (int i = 0; i < rays; ++i) hits[unknown[i]] = found[i];
 }
 
-void TapTracing::verdicts_at(const Packet& packet, const glm::dvec3* from, const glm::dvec3* offsets,
-                             OwnSurface::Verdict* verdicts) const {
-  glm::dvec3 x[packet_size];
+void TapTracing::verdicts_at(const Packet& packet, std::span<const int> ks, const glm::dvec3* from,
+                             const glm::dvec3* offsets, OwnSurface::Verdict* verdicts) const {
+  glm::dvec3 x[packet_size]{};
   uint32_t hits[packet_size];
-  for (int k = 0; k < packet.active(); ++k) x[k] = tap_place(from[k], offsets[k]);
-  first_hits(packet, x, hits);
-  for (int k = 0; k < packet.active(); ++k) verdicts[k] = lit_at(packet, k, x[k], hits[k]);
+  for (const int k : ks) x[k] = tap_place(from[k], offsets[k]);
+  first_hits(packet, ks, x, hits);
+  for (const int k : ks) verdicts[k] = lit_at(packet, k, x[k], hits[k]);
 }
 
 void TapTracing::trace_tap(const Packet& packet, int tap) {
-  const int active = packet.active();
+  int asked[packet_size];
+  size_t count = 0;
+  for (int k = 0; k < packet.active(); ++k)
+    if (!packet.decided[k][static_cast<size_t>(tap)]) asked[count++] = k;
+  const std::span<const int> ks(asked, count);
+  if (ks.empty()) return;
   glm::dvec3 offsets[packet_size];
   if (probe_.pattern.variants == 1 && !probe_.pattern.scaled_by_view)  // the same of every receiver
-    std::fill_n(offsets, active, glm::dvec3(probe_.pattern.offset(0, tap)));
+    std::fill_n(offsets, packet.active(), glm::dvec3(probe_.pattern.offset(0, tap)));
   else
-    for (int k = 0; k < active; ++k) offsets[k] = probe_.offset(packet.pixels[static_cast<size_t>(k)], tap);
+    for (const int k : ks) offsets[k] = probe_.offset(packet.pixels[static_cast<size_t>(k)], tap);
   OwnSurface::Verdict exact[packet_size], moved[packet_size];  // F and D
-  if (std::all_of(offsets, offsets + active, [](glm::dvec3 o) { return o == glm::dvec3(0); }))
-    for (int k = 0; k < active; ++k) exact[k] = {packet.points[k].lit, true};  // V(P, P) is R1
+  if (std::all_of(ks.begin(), ks.end(), [&](int k) { return offsets[k] == glm::dvec3(0); }))
+    for (const int k : ks) exact[k] = {packet.points[k].lit, true};  // V(P, P) is R1
   else
-    verdicts_at(packet, packet.at, offsets, exact);
+    verdicts_at(packet, ks, packet.at, offsets, exact);
   if (l_.bias.moves_lookup())
-    verdicts_at(packet, packet.looked_up, offsets, moved);
+    verdicts_at(packet, ks, packet.looked_up, offsets, moved);
   else
-    std::copy_n(exact, active, moved);
-  for (int k = 0; k < active; ++k) {
+    std::copy_n(exact, packet.active(), moved);
+  for (const int k : ks) {
     if (packet.behind[k]) moved[k] = exact[k];
     const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit;
     uint8_t& bits = bits_of(packet.pixels[static_cast<size_t>(k)])[tap];

@@ -54,14 +54,16 @@ class OwnSurface {
     return lit_at<Silhouettes::Nearby>(p, x, hit, nearby);
   }
 
-  // Remembers the last pair of triangles that dark_in() compared.
+  // Remembers the last pair of triangles that known_in() compared.
   struct Pair {
     uint32_t own = no_primitive, front = no_primitive;
     bool apart = false;
   };
-  // Whether V(P, x) is surely dark at every place x of a rectangle of the light's plane; false if that is not known. P lies on
-  // this triangle and is dark itself. reader: reads this surface's cells, which know the first hit of a ray without tracing it.
-  bool dark_in(uint32_t triangle, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader, Pair& last) const;
+  // V(P, x) if it is the same at every place x of a rectangle of the light's plane, for sure, because one certified triangle is
+  // before everything else there; no value if that is not known. reader: reads this surface's cells, which know the first hit of
+  // a ray without tracing it.
+  std::optional<bool> known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
+                               Pair& last) const;
 
   // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
   // to 2^-8 of the way.

@@ -68,9 +68,9 @@ struct PlacementTracer::Impl {
     if (cells) in_cells.emplace(traced.embree, traced.adjacency, light->view(), light->silhouettes(), cells);
   }
 
-  // Whether a dark receiver on this triangle is dark for sure at all points that these taps read.
-  bool dark_in(uint32_t triangle, const PlacedTaps& taps) const {
-    if (!in_cells) return false;
+  // V of a receiver at all points that these taps read, if it is the same for sure.
+  std::optional<bool> known_in(const SurfacePoint& p, const PlacedTaps& taps) const {
+    if (!in_cells) return std::nullopt;
     // The lattice has another origin than the light's own frame. The difference is rounded far finer than the reach of
     // the squares.
     const auto place = [&](glm::ivec2 point) {
@@ -78,7 +78,7 @@ struct PlacementTracer::Impl {
     };
     const glm::dvec2 a = place(taps.low), b = place(taps.high);
     Asking& of_thread = asking.local();
-    return in_cells->dark_in(triangle, glm::min(a, b), glm::max(a, b), of_thread.reader, of_thread.pair);
+    return in_cells->known_in(p, glm::min(a, b), glm::max(a, b), of_thread.reader, of_thread.pair);
   }
 };
 
@@ -134,6 +134,7 @@ bool PlacementTracer::on_edge(glm::ivec2 point) const {
 
 void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const {
   const Impl& l = *impl_;
+  box.alike = false;
   if (taps.low.x > taps.high.x) return;
   const size_t side = static_cast<size_t>(taps.side);
   const size_t points = static_cast<size_t>(taps.size().x) * static_cast<size_t>(taps.size().y);
@@ -146,15 +147,16 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
                                 l.view.texel_place({taps.high.x, taps.low.y})};
   l.silhouettes.list_nearby(places, nearby);
   // Without a silhouette in the box, a lit receiver's surface is lit all over it (the rule of OwnSurface).
-  const bool all_lit = p.lit && !l.by_rays && nearby.none();
-  const bool all_dark = !p.lit && l.dark_in(p.primitive, taps);
+  const bool none_near = p.lit && !l.by_rays && nearby.none();
+  const std::optional<bool> known = none_near ? true : l.known_in(p, taps);
 
-  const OwnSurface::Verdict everywhere{all_lit, !p.on_silhouette};
+  const OwnSurface::Verdict everywhere{known.value_or(false), !p.on_silhouette};
   const auto bits_of = [](OwnSurface::Verdict v, bool clipped) {
     return static_cast<uint8_t>((v.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                 (v.sure ? 0 : tap_texel_unsure));
   };
-  if ((all_lit || all_dark) && l.lattice->read_depths(taps, box.depth)) {
+  box.alike = known && l.lattice->read_depths(taps, box.depth);
+  if (box.alike) {
     box.bits.assign(points, bits_of(everywhere, false));
     return;
   }
@@ -169,8 +171,8 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
         const size_t n = taps.index(k.x, k.y);
         if (box.bits[n] != lattice_unknown) continue;
         const TexelLattice::Point& at = found[n];
-        box.bits[n] = bits_of(
-            all_lit || all_dark ? everywhere : l.surface.lit_at(p, l.view.texel_place(k), at.hit, nearby), at.clipped);
+        box.bits[n] =
+            bits_of(known ? everywhere : l.surface.lit_at(p, l.view.texel_place(k), at.hit, nearby), at.clipped);
         box.depth[n] = at.depth;
       }
 }

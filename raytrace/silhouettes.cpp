@@ -156,6 +156,7 @@ void Silhouettes::list_in(const Rectangle& rectangle, Nearby& nearby) const {
   nearby.all_ = this;
   nearby.listed_ = true;
   nearby.edges_.clear();
+  nearby.ends_.clear();
   if (none_in(rectangle)) return;
   const int chart = rectangle.chart;
   const glm::dvec2 low = rectangle.low, high = rectangle.high;
@@ -169,27 +170,35 @@ void Silhouettes::list_in(const Rectangle& rectangle, Nearby& nearby) const {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   // Most of these edges pass beside the rectangle.
-  const auto beside = [&](uint32_t index) {
+  std::erase_if(edges, [&](uint32_t index) {
     const auto segment = view_.rays().in_chart(chart, edges_[index].a, edges_[index].b, reach_m_);
-    if (!segment) return true;
-    const double reach = segment->reach * (1 + 1e-9);  // and the rounding of double
-    const glm::dvec2 from = low - reach, to = high + reach, a = segment->a, b = segment->b;
-    if (std::max(a.x, b.x) < from.x || std::min(a.x, b.x) > to.x || std::max(a.y, b.y) < from.y ||
-        std::min(a.y, b.y) > to.y)
-      return true;
-    const glm::dvec2 way = b - a, middle = (from + to) / 2.0, half = (to - from) / 2.0;
-    return std::abs(way.x * (middle.y - a.y) - way.y * (middle.x - a.x)) >
-           (std::abs(way.x) * half.y + std::abs(way.y) * half.x) * (1 + 1e-9);
-  };
-  std::erase_if(edges, beside);
+    return !segment || beside(low, high, segment->a, segment->b, segment->reach);
+  });
   if (!view_.rays().have_one_direction()) return;
-  nearby.ends_.clear();
   nearby.farthest_m_ = 0;
   for (const uint32_t index : edges) {
     const glm::dvec2 a(edges_[index].a), b(edges_[index].b);
     nearby.ends_.push_back({a, b});
     nearby.farthest_m_ = std::max({nearby.farthest_m_, std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
   }
+}
+
+bool Silhouettes::beside(glm::dvec2 low, glm::dvec2 high, glm::dvec2 a, glm::dvec2 b, double reach) {
+  reach *= 1 + 1e-9;  // and the rounding of double
+  const glm::dvec2 from = low - reach, to = high + reach;
+  if (std::max(a.x, b.x) < from.x || std::min(a.x, b.x) > to.x || std::max(a.y, b.y) < from.y ||
+      std::min(a.y, b.y) > to.y)
+    return true;
+  const glm::dvec2 way = b - a, middle = (from + to) / 2.0, half = (to - from) / 2.0;
+  return std::abs(way.x * (middle.y - a.y) - way.y * (middle.x - a.x)) >
+         (std::abs(way.x) * half.y + std::abs(way.y) * half.x) * (1 + 1e-9);
+}
+
+bool Silhouettes::Nearby::none_in(const Rectangle& rectangle) const {
+  if (!listed_) return false;
+  return std::all_of(ends_.begin(), ends_.end(), [&](const Ends& edge) {
+    return beside(rectangle.low, rectangle.high, edge.a, edge.b, all_->reach_m_);
+  });
 }
 
 bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {

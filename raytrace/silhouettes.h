@@ -68,6 +68,12 @@ class Silhouettes {
   // Where the straight way crosses silhouettes, in order.
   std::vector<Crossing> crossings(glm::dvec3 from, glm::dvec3 to) const;
 
+  // A rectangle of a chart. Of parallel rays, it is a rectangle of the light's plane.
+  struct Rectangle {
+    int chart = 0;
+    glm::dvec2 low{0}, high{0};
+  };
+
   // The silhouettes among a set of places that lie close together, listed once for many questions. The answers are the
   // same as those of all silhouettes, for places within the rectangle around the set and within_m up to reach_m.
   class Nearby {
@@ -76,6 +82,9 @@ class Silhouettes {
     bool near(glm::dvec3 x) const { return near(x, all_->reach_m_); }
     bool near(glm::dvec3 x, double within_m) const;
     std::vector<Crossing> crossings(glm::dvec3 from, glm::dvec3 to) const;
+    // True only if none of them comes within reach_m of a place of the rectangle, so that none crosses a way inside it. Of
+    // parallel rays.
+    bool none_in(const Rectangle& rectangle) const;
 
    private:
     friend class Silhouettes;
@@ -88,11 +97,6 @@ class Silhouettes {
     };
     std::vector<Ends> ends_;
     double farthest_m_ = 0;
-  };
-  // A rectangle of a chart. Of parallel rays, it is a rectangle of the light's plane.
-  struct Rectangle {
-    int chart = 0;
-    glm::dvec2 low{0}, high{0};
   };
   // True only if no silhouette comes within reach_m of a place of the rectangle, so that none crosses a way inside it.
   bool none_in(const Rectangle& rectangle) const {
@@ -164,6 +168,8 @@ class Silhouettes {
   bool near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const;
   void cross(uint32_t edge, glm::dvec3 from, glm::dvec3 to, std::vector<Crossing>& at) const;
   static void put_in_order(std::vector<Crossing>& at);
+  // True only if the segment from a to b passes beside the rectangle by more than reach.
+  static bool beside(glm::dvec2 low, glm::dvec2 high, glm::dvec2 a, glm::dvec2 b, double reach);
 
   LightView view_;
   double reach_m_;

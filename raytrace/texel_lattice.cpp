@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace noonmark::raytrace {
 
@@ -118,13 +119,17 @@ void TexelLattice::read(const PlacedTaps& taps, std::vector<Point>& points) cons
 }
 
 bool TexelLattice::read_depths(const PlacedTaps& taps, std::vector<float>& depths) const {
-  if (!inside(taps.low) || !inside(taps.high)) return false;
+  const bool in_map = inside(taps.low) && inside(taps.high);
+  if (!in_map && !(wrap_ == Wrap::clamp_to_border &&
+                   beside_map(placements_.texel_of(taps.low), placements_.texel_of(taps.high), size_)))
+    return false;
   const glm::ivec2 size = taps.size();
-  depths.resize(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
+  depths.assign(static_cast<size_t>(size.x) * static_cast<size_t>(size.y),
+                in_map ? std::numeric_limits<float>::infinity() : border_depth);
   bool clipped = false;
   each_row(taps, [&](const Tile& tile, uint64_t columns, size_t index, size_t in_box) {
     clipped |= tile.any_clipped;
-    while (columns) {  // run by run
+    while (in_map && columns) {  // run by run
       const int from = std::countr_zero(columns), count = std::countr_one(columns >> from);
       std::copy_n(&tile.depth[index], count, &depths[in_box + static_cast<size_t>(from)]);
       index += static_cast<size_t>(count);

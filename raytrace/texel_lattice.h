@@ -55,8 +55,8 @@ class TexelLattice {
   // left as they are. Its memory is used again.
   void read(const PlacedTaps& taps, std::vector<Point>& points) const;
 
-  // The depths alone, in the same order, where all of these taps lie inside the map and the near plane clips none of the
-  // tiles that they read; false if not.
+  // The depths alone, in the same order, where all of these taps lie inside the map, or all read its border, and the near
+  // plane clips none of the tiles that they read; false if not. Points that no tap reads are at least as deep as the others.
   bool read_depths(const PlacedTaps& taps, std::vector<float>& depths) const;
 
   // The point that a lookup reads in the stead of this one; no value for the border.
@@ -83,7 +83,7 @@ class TexelLattice {
   static glm::ivec2 tile_at(glm::ivec2 point) { return {point.x >> 6, point.y >> 6}; }
   const Tile& tile_of(glm::ivec2 point) const { return *tiles_.at(key(tile_at(point))); }
   void want(glm::ivec2 low, glm::ivec2 high);  // inclusive
-  // Calls visit(tile, columns, index, box_index) for each row of each tile in the box of taps inside the map:
+  // Calls visit(tile, columns, index, box_index) for each row of each tile in the box of taps:
   // columns has a bit for each point that somebody asked for, from the box's first column in the tile on; index is that
   // of the first of them in the tile, box_index that of bit 0 in the box.
   template <class Visit>

@@ -34,6 +34,23 @@ float stored_depth(float depth, DepthFormat format) {
 
 constexpr uint8_t of_texel = tap_texel_lit | tap_near_clipped | tap_texel_unsure;
 
+// The least and the largest of these numbers. Eight at a time, so that one comparison need not wait for another.
+std::pair<float, float> bounds(const std::vector<float>& values) {
+  constexpr size_t lanes = 8;
+  std::array<float, lanes> least, most;
+  least.fill(infinity_f);
+  most.fill(-infinity_f);
+  const auto take = [&](size_t lane, float value) {
+    least[lane] = value < least[lane] ? value : least[lane];
+    most[lane] = value > most[lane] ? value : most[lane];
+  };
+  size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes)
+    for (size_t lane = 0; lane < lanes; ++lane) take(lane, values[i + lane]);
+  for (; i < values.size(); ++i) take(0, values[i]);
+  return {*std::min_element(least.begin(), least.end()), *std::max_element(most.begin(), most.end())};
+}
+
 bool within_one_float(float a, float b) { return a == b || std::nextafter(a, b) == b; }
 
 }  // namespace
@@ -143,9 +160,15 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
 
   // Of most receivers nothing but a tap's depth decides whether it is lit: neither the map's border, nor a plane, nor a
   // weight.
-  const bool by_depth = asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane &&
-                        !probe.pattern.bilinear() && inside_map(placements_.texel_of(taps.low), size) &&
-                        inside_map(placements_.texel_of(taps.high), size);
+  const bool flat = asks && !probe.tap_reference->plane && !probe.pattern.bilinear();
+  const bool beyond_far = probe.reference[pixel] > 1.0f;
+  const glm::ivec2 low = placements_.texel_of(taps.low), high = placements_.texel_of(taps.high);
+  const bool depth_is_known = beyond_far ? e.map.lit_beyond_far : beside_map(low, high, size);
+  if (flat && box.alike && depth_is_known && alike(e.taps, pixel)) {
+    book_beside(e, pixel, box, truth, bias, threshold);
+    return;
+  }
+  const bool by_depth = flat && !beyond_far && inside_map(low, size) && inside_map(high, size);
   if (!by_depth) {
     for (size_t j = 0; j < side; ++j)
       for (size_t i = 0; i < side; ++i) {
@@ -166,6 +189,28 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   for (size_t placement = 0; placement < count_; ++placement) book(placement, receivers[placement]);
 }
 
+// Whether all taps have the same truth at their exact places.
+bool PlacementCounts::alike(const TapTruth& taps, size_t pixel) {
+  const uint8_t first = taps.bits(pixel, 0) & ~of_texel;
+  for (int t = 1; t < taps.taps_per_receiver; ++t)
+    if ((taps.bits(pixel, t) & ~of_texel) != first) return false;
+  return true;
+}
+
+void PlacementCounts::book_beside(const PlacementEvidence& e, size_t pixel, const LatticeBox& box, bool truth,
+                                  float bias, const std::optional<TapThreshold>& threshold) {
+  const auto bits = static_cast<uint8_t>((e.taps.bits(pixel, 0) & ~of_texel) | box.bits.front());
+  Tap tap = tap_of(e.probe, bits, e.map, e.map_size, pixel, 0, {.texel = {-1, -1}, .depth = border_depth});
+  // The border is lit at any bias that is not negative. A tap that should be lit is never wrong then.
+  if (truth && tap.moved_sure && tap.moved_lit && tap.lit(0) && tap.lit(bias)) return;
+  tap.weight = e.probe.taps();
+  for (size_t placement = 0; placement < count_; ++placement) {
+    OfReceiver receiver;
+    book(placement, truth, bias, threshold, tap, tap, false, receiver);
+    book(placement, receiver);
+  }
+}
+
 // A tap that should be lit is acne where it is dark, and one that should be dark is Peter Panning where it is lit.
 template <bool lit, class Other>
 void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, const PlacedTaps& taps,
@@ -180,17 +225,50 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
   // bias.
   const float lit_from = static_cast<float>(reference + 2 * depth_step(format));
   const float without_bias = threshold ? reference - threshold->bias_at(0) : 0;
+  const std::span<const float> biases = threshold ? edge_biases_.of(*threshold, bins_) : std::span<const float>();
   std::optional<BinsByDepth> of_exact, of_shown;
   float least = infinity_f;  // of the depths that should be lit
   const float* const depth = box.depth.data();
+  const bool same_bits = box.alike && box.bits.front() == texel_bits;
+  if (same_bits && (e.taps.bits(pixel, 0) & ~of_texel) == exact_bits && alike(e.taps, pixel)) {
+    // Where all depths say the same, all taps of all placements are booked at once.
+    const auto [nearest, farthest] = bounds(box.depth);
+    if (lit && nearest >= lit_from) return;
+    if (!lit && (!threshold || farthest < infinity_f)) {
+      const float shown[2] = {stored_depth(nearest, format), stored_depth(farthest, format)};
+      const bool own = biased > nearest, own_shown = biased > shown[0];
+      std::array<size_t, 2> bin{}, bin_shown{};
+      if (threshold)
+        for (size_t end = 0; end < 2; ++end) {
+          bin[end] = bins_.of(threshold->at(reference, end == 0 ? nearest : farthest));
+          bin_shown[end] = bins_.of(threshold->at(reference, shown[end]));
+        }
+      if (own == (biased > farthest) && own_shown == (biased > shown[1]) && bin[0] == bin[1] &&
+          bin_shown[0] == bin_shown[1]) {
+        const double weight = e.probe.taps();
+        for (size_t placement = 0; placement < count_; ++placement) {
+          if (!own) own_[cause][placement] += weight;
+          if (!own_shown) {
+            own_[error][placement] += weight;
+            receivers[placement].wrong_weight += weight;
+          }
+          if (!threshold) continue;
+          cell(cause, placement, bin[0]) += weight;
+          cell(error, placement, bin_shown[0]) += weight;
+        }
+        return;
+      }
+    }
+  }
   for (int t = 0; t < e.probe.taps(); ++t) {
     const bool as_receiver = (e.taps.bits(pixel, t) & ~of_texel) == exact_bits;
     const int* const column = &taps.column[static_cast<size_t>(t) * side];
     const int* const row = &taps.row[static_cast<size_t>(t) * side];
-    for (size_t j = 0; j < side; ++j)
+    for (size_t j = 0; j < side; ++j) {
+      const size_t of_row = taps.index(taps.low.x, row[j]);
       for (size_t i = 0; i < side; ++i) {
-        const size_t n = taps.index(column[i], row[j]), placement = j * side + i;
-        if (!as_receiver || box.bits[n] != texel_bits) {
+        const size_t n = of_row + static_cast<size_t>(column[i] - taps.low.x), placement = j * side + i;
+        if (!as_receiver || !(same_bits || box.bits[n] == texel_bits)) {
           other(t, i, j);
           continue;
         }
@@ -204,15 +282,16 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
         }
         if (!threshold) continue;
         if (!lit || without_bias > exact) {
-          if (!of_exact) of_exact.emplace(*threshold, bins_, reference, exact);
+          if (!of_exact) of_exact.emplace(biases, reference, bins_.of(threshold->at(reference, exact)));
           ++cell(cause, placement, of_exact->of(exact));
           least = std::min(least, exact);
         }
         if (!lit || without_bias > shown) {
-          if (!of_shown) of_shown.emplace(*threshold, bins_, reference, shown);
+          if (!of_shown) of_shown.emplace(biases, reference, bins_.of(threshold->at(reference, shown)));
           ++cell(error, placement, of_shown->of(shown));
         }
       }
+    }
   }
   if (lit && least < infinity_f) acne_free_from_ = std::max(acne_free_from_, threshold->at(reference, least));
 }

@@ -48,14 +48,30 @@ class ThresholdBins {
   std::vector<uint32_t> first_;  // for the leading bits of a float
 };
 
+// The bias at each edge, by TapThreshold::bias_at(). It is kept, because most receivers have the same as the one before.
+class EdgeBiases {
+ public:
+  std::span<const float> of(const TapThreshold& threshold, const ThresholdBins& bins) {
+    if (!of_ || !of_->has_bias_of(threshold) || biases_.size() != bins.edges().size()) {
+      biases_.clear();
+      for (const float amount : bins.edges()) biases_.push_back(threshold.bias_at(amount));
+      of_ = threshold;
+    }
+    return biases_;
+  }
+
+ private:
+  std::optional<TapThreshold> of_;
+  std::vector<float> biases_;
+};
+
 // The bins of the thresholds of one receiver's taps, from their depths alone: the bin is the first edge at which the tap is
 // lit. The search begins at the last answer, because neighbouring taps have neighbouring depths.
 class BinsByDepth {
  public:
-  // reference: of the taps. depth: of the first tap. threshold and bins must outlive it.
-  BinsByDepth(const TapThreshold& threshold, const ThresholdBins& bins, float reference, float depth)
-      : threshold_(threshold), edges_(bins.edges()), reference_(reference) {
-    at_ = bins.of(threshold.at(reference, depth));
+  // biases: EdgeBiases::of the receiver's thresholds. reference: of the taps. bin: that of any depth, to begin with.
+  BinsByDepth(std::span<const float> biases, float reference, size_t bin)
+      : biases_(biases), reference_(reference), at_(bin) {
     before_ = at_ == 0 ? -infinity_f : compared_at(at_ - 1);
     here_ = compared_at(at_);
   }
@@ -74,11 +90,8 @@ class BinsByDepth {
 
  private:
   // What is compared with a depth at this edge. Beyond the last edge every tap counts as lit.
-  float compared_at(size_t edge) const {
-    return edge < edges_.size() ? reference_ - threshold_.bias_at(edges_[edge]) : -infinity_f;
-  }
-  const TapThreshold& threshold_;
-  const std::vector<float>& edges_;
+  float compared_at(size_t edge) const { return edge < biases_.size() ? reference_ - biases_[edge] : -infinity_f; }
+  std::span<const float> biases_;
   float reference_;
   size_t at_ = 0;
   float before_ = 0, here_ = 0;  // what is compared at the edge before, and at this one
@@ -156,6 +169,10 @@ class PlacementCounts {
   // Books a tap. threshold: empty if no part is varied. shown: the tap with the depth as the map's format stores it.
   void book(size_t placement, bool truth, float bias, const std::optional<TapThreshold>& threshold, const Tap& exact,
             const Tap& shown, bool rounded, OfReceiver& receiver);
+  static bool alike(const TapTruth& taps, size_t pixel);
+  // Books a receiver whose taps all have the same truth, and read the border or lie beyond far, at every placement.
+  void book_beside(const PlacementEvidence& evidence, size_t pixel, const LatticeBox& box, bool truth, float bias,
+                   const std::optional<TapThreshold>& threshold);
   // Books the taps of a receiver whose truth is `lit`, if nothing but their depth decides whether they are. Calls
   // other(tap, column, row) for each tap whose own truth differs from the receiver's, or is not sure.
   template <bool lit, class Other>
@@ -175,6 +192,7 @@ class PlacementCounts {
   size_t count_;  // of placements
   const BiasPart* varied_;
   ThresholdBins bins_;
+  EdgeBiases edge_biases_;
   double whole_ = 1;
   uint64_t receivers_ = 0;
   float acne_free_from_ = 0;

@@ -36,8 +36,9 @@ class ReceiverTaps {
     blended_ = probe.pattern.bilinear();
     const uint8_t* const bits = &truth.taps[(i - truth.first) * count];
     const bool on_one_side = list_texels(probe, settings, i);
-    by_depth_ = asks_ && reference_ <= 1.0f && !blended_ && !probe.tap_reference->plane;
-    alike_ = by_depth_ && on_one_side && std::equal(bits + 1, bits + count, bits);
+    by_depth_ = asks_ && !blended_ && !probe.tap_reference->plane;
+    // Beyond far no tap is covered, wherever it reads.
+    alike_ = by_depth_ && (on_one_side || reference_ > 1.0f) && std::equal(bits + 1, bits + count, bits);
     if (alike_) {
       same_ = tap_of(probe, bits[0], settings, map.size(), i, 0, read_by(probe, i, 0));
       return;
@@ -68,13 +69,14 @@ class ReceiverTaps {
     return tap;
   }
 
-  // True if nothing but the depth that a tap reads decides whether it is lit, and each tap weighs 1: neither far, nor a
-  // plane, nor a sampler.
+  // True if nothing but the depth that a tap reads decides whether it is lit, and each tap weighs 1: neither a plane, nor a
+  // sampler.
   bool by_depth() const { return by_depth_; }
   // True if the taps differ in that depth only, so that they are judged together.
   bool alike() const { return alike_; }
   // Of taps by_depth(): how many are lit at this bias on a map with the same texels.
   size_t lit_on(const MapDepths& map, float bias) const {
+    if (lit_beyond_far_) return size_;
     const float biased = reference_ - bias;  // as Tap::lit()
     size_t lit = biased > border_depth ? 0 : beside_;
     for (const Run& run : runs_) {
