@@ -8,6 +8,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -19,11 +20,21 @@ namespace noonmark {
 class Digest {
  public:
   void bytes(const void* data, size_t size) {
-    for (size_t i = 0; i < size; ++i) hash_ = (hash_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3;
+    for (size_t i = 0; i < size; ++i) hash_ = (hash_ ^ static_cast<const unsigned char*>(data)[i]) * prime;
   }
+  // The bytes of the value as this machine stores them (little-endian). Most integers are below 256: their other bytes are
+  // 0, and a byte of 0 only multiplies, so that all of them are one multiplication.
   template <class T>
   void value(const T& v) {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+    static_assert(std::endian::native == std::endian::little);
+    if constexpr (std::is_integral_v<T>) {
+      if (const auto bits = static_cast<uint64_t>(v); bits < 256) {
+        constexpr uint64_t power = power_of_prime(sizeof(T));
+        hash_ = (hash_ ^ bits) * power;
+        return;
+      }
+    }
     bytes(&v, sizeof v);
   }
   // The length is added too, so that two texts in a row cannot be confused with two other texts.
@@ -34,6 +45,12 @@ class Digest {
   std::string hex() const { return fmt::format("{:016x}", hash_); }
 
  private:
+  static constexpr uint64_t prime = 0x100000001b3;
+  static constexpr uint64_t power_of_prime(size_t exponent) {
+    uint64_t power = 1;
+    for (size_t i = 0; i < exponent; ++i) power *= prime;
+    return power;
+  }
   uint64_t hash_ = 0xcbf29ce484222325;
 };
 

@@ -15,7 +15,7 @@
 namespace noonmark {
 namespace {
 
-// Threads beside those of the rays and the renderer: Mesa, OpenEXR and OpenImageIO start them. Two thirds of this
+// Threads beside those of the rays and the renderer: Mesa, OpenEXR (most_image_threads) and OpenImageIO start them. Two thirds of this
 // number were measured on Debian 12.
 constexpr int threads_of_libraries = 12;
 

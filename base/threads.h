@@ -6,6 +6,9 @@
 
 namespace noonmark {
 
+// The most threads that compress an image's rows, beside those of the rays: as many as the rays have, but no more than this.
+inline constexpr int most_image_threads = 4;
+
 class ThreadLimit {
  public:
   // threads: the number for the rays and for Mesa's software renderer; 0: the number of cores. If the system does not

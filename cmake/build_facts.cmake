@@ -2,7 +2,7 @@
 function(noonmark_build_facts target)
   # Versions as each folder's find_package or pkg_check_modules left them: name, folder, variable.
   set(libraries)
-  foreach(row "Embree raytrace embree_VERSION" "libepoxy gl EPOXY_VERSION" "GLM . glm_VERSION" "OpenImageIO app OPENIMAGEIO_VERSION"
+  foreach(row "Embree raytrace embree_VERSION" "libepoxy gl EPOXY_VERSION" "GLM . glm_VERSION" "OpenEXR app OpenEXR_VERSION" "OpenImageIO app OPENIMAGEIO_VERSION"
               "tinygltf scenes TinyGLTF_VERSION" "Draco scenes draco_VERSION" "meshoptimizer scenes meshoptimizer_VERSION" "CLI11 app CLI11_VERSION" "toml++ app tomlplusplus_VERSION"
               "nlohmann-json . nlohmann_json_VERSION" "fmt . fmt_VERSION" "SQLite . SQLite3_VERSION"
               "oneTBB . TBB_VERSION")

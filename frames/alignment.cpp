@@ -1,5 +1,7 @@
 #include "frames/alignment.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -160,7 +162,7 @@ glm::ivec2 OutlineAlignment::shift() const {
 Image<float> pixel_width_m(const ViewMatrix& view, const ReceiverImage& receivers) {
   const int width = receivers.width(), height = receivers.height();
   Image<float> size(width, height, 0);
-  for (int y = 0; y < height; ++y)
+  tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const size_t i = size.index(x, y);
       if (receivers.primitive[i] == no_primitive) continue;
@@ -169,6 +171,7 @@ Image<float> pixel_width_m(const ViewMatrix& view, const ReceiverImage& receiver
       size[i] = static_cast<float>(std::max(glm::length(view.world_at(x + 1, y, depth, width, height) - here),
                                             glm::length(view.world_at(x, y + 1, depth, width, height) - here)));
     }
+  });
   return size;
 }
 

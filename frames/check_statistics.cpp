@@ -1,5 +1,7 @@
 #include "frames/check_statistics.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,29 +15,42 @@ struct Extremes {
 };
 Extremes extremes_within(const Image<uint8_t>& values, int reach) {
   const int width = values.width, height = values.height;
-  const auto pass = [&](const Image<uint8_t>& from, bool along_x, bool largest) {
-    Image<uint8_t> to(width, height);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const int at = along_x ? x : y, last = (along_x ? width : height) - 1;
-        uint8_t best = from.at(x, y);
-        for (int i = std::max(0, at - reach); i <= std::min(last, at + reach); ++i) {
-          const uint8_t value = along_x ? from.at(i, y) : from.at(x, i);
-          best = largest ? std::max(best, value) : std::min(best, value);
-        }
-        to.at(x, y) = best;
+  // Whole rows are joined, shifted by each step along the axis: the compiler makes vectors of that.
+  const auto pass = [&](const Image<uint8_t>& from, bool along_x, const auto& better) {
+    Image<uint8_t> to = from;
+    tbb::parallel_for(0, height, [&](int y) {
+      for (int step = -reach; step <= reach; ++step) {
+        const int row = along_x ? y : y + step, shift = along_x ? step : 0;
+        if (row < 0 || row >= height) continue;
+        const uint8_t* const others = &from.at(0, row);
+        uint8_t* const best = &to.at(0, y);
+        for (int x = std::max(0, -shift), end = std::min(width, width - shift); x < end; ++x)
+          best[x] = better(best[x], others[x + shift]);
       }
+    });
     return to;
   };
-  return {pass(pass(values, true, false), false, false), pass(pass(values, true, true), false, true)};
+  const auto least = [](uint8_t a, uint8_t b) { return std::min(a, b); };
+  const auto most = [](uint8_t a, uint8_t b) { return std::max(a, b); };
+  return {pass(pass(values, true, least), false, least), pass(pass(values, true, most), false, most)};
 }
 
-Region region_of(const std::vector<double>& values) {
-  Region region{.count = values.size(),
-                .median = quantile(values, 0.5),
-                .low = quantile(values, 0.05),
-                .high = quantile(values, 0.95)};
+// Moves the value below which this share of the values lies to its place, and returns it. There must be values.
+double place_quantile(std::vector<double>& values, double share) {
+  const auto at = std::min(values.size() - 1, static_cast<size_t>(share * static_cast<double>(values.size())));
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(at);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+Region region_of(std::vector<double> values) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Region region{.count = values.size(), .median = none, .low = none, .high = none};
+  if (values.empty()) return region;
   for (const double value : values) region.mean += value / static_cast<double>(values.size());
+  region.median = place_quantile(values, 0.5);
+  region.low = place_quantile(values, 0.05);
+  region.high = place_quantile(values, 0.95);
   return region;
 }
 
@@ -154,10 +169,7 @@ FrameStatistics frame_statistics(const GivenFrame& frame, const ReceiverTruth& t
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto at = std::min(values.size() - 1, static_cast<size_t>(share * static_cast<double>(values.size())));
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(at);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+  return place_quantile(values, share);
 }
 
 bool is_half(double value) {

@@ -4,10 +4,10 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "base/address_space.h"
 #include "base/error.h"
+#include "base/threads.h"
 #include "compare/judge/poor_view.h"
 #include "compare/ladder/law_metrics.h"
 #include "compare/ladder/measure.h"
@@ -234,9 +234,8 @@ size_t ray_threads() { return tbb::global_control::active_value(tbb::global_cont
 // space that was used before and the points' own share.
 uint64_t room_to_start(bool pictures) {
   constexpr uint64_t base = uint64_t{384} << 20;  // libraries, shaders; with 2 threads it is 973 MB in all [880e6]
-  // OpenImageIO: 402 MB on 2 cores [386e6]. It starts a thread for each core and some more, each with a stack and 64 MB
-  // for its allocations.
-  const uint64_t images = (uint64_t{240} << 20) + std::thread::hardware_concurrency() * (uint64_t{72} << 20);
+  // Those of OpenEXR have a stack each, and 64 MB for allocations.
+  const uint64_t images = std::min<uint64_t>(ray_threads(), most_image_threads) * (uint64_t{72} << 20);
   return base + (pictures ? images : 0) + 2 * ray_threads() * address_space_of_a_thread;
 }
 

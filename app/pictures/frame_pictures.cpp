@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/pictures/picture_files.h"
 #include "app/pictures/view_colors.h"
 
 namespace noonmark {
@@ -93,20 +94,18 @@ std::vector<PictureRecord> write_frame_pictures(const FrameVerdict& verdict, con
                                                 const Ladder* ladder, const std::string& folder,
                                                 const std::string& relative, const std::string& stem) {
   const FramePainter painter(verdict, frame);
-  std::vector<PictureRecord> records;
-  const auto write = [&](std::string_view name, const Image<Color>& picture, const char* caption) {
-    const std::string file = fmt::format("{}-{}.png", stem, name);
-    const std::string digest = write_png(folder + "/" + file, picture);
-    records.push_back({std::string(name), relative + "/" + file, caption, digest});
-  };
-  write("truth", painter.shaded([&](size_t i) { return verdict.truth_at(i); }),
-        "The true shadow, by rays; what faces away from the light is blue.");
-  write("frame", painter.shaded([&](size_t i) { return frame.visibility[i]; }),
-        "The frame's own visibility, shaded in the same way.");
-  write("classes", painter.classes(), "Why pixels differ, by their place; the colour's strength is the error's size.");
-  if (ladder) write("causes", painter.causes(*ladder), "Why pixels differ, by the rungs of the frame's own map.");
-  write("difference", painter.difference(), "Too dark in orange-red, too light in blue.");
-  return records;
+  PictureFiles files(folder, relative, stem);
+  files.add("truth", "The true shadow, by rays; what faces away from the light is blue.",
+            [&] { return painter.shaded([&](size_t i) { return verdict.truth_at(i); }); });
+  files.add("frame", "The frame's own visibility, shaded in the same way.",
+            [&] { return painter.shaded([&](size_t i) { return frame.visibility[i]; }); });
+  files.add("classes", "Why pixels differ, by their place; the colour's strength is the error's size.",
+            [&] { return painter.classes(); });
+  if (ladder)
+    files.add("causes", "Why pixels differ, by the rungs of the frame's own map.",
+              [&] { return painter.causes(*ladder); });
+  files.add("difference", "Too dark in orange-red, too light in blue.", [&] { return painter.difference(); });
+  return files.write();
 }
 
 ImageRecord write_frame_exr(const FrameVerdict& v, const GivenFrame& frame, const Ladder* ladder,

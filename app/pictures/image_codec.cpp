@@ -14,67 +14,6 @@
 namespace noonmark {
 namespace {
 
-// Hands on what the library writes, because OpenImageIO 2.4 itself does not notice a full disk and leaves incomplete
-// files. After a failure the library is told that all is well: it may write again while it closes the file.
-class Output : public OIIO::Filesystem::IOProxy {
- public:
-  explicit Output(const ImageToEncode& image) : IOProxy("", Write), image_(image) {}
-  const char* proxytype() const override { return "noonmark"; }
-  size_t size() const override { return size_; }
-  size_t write(const void* bytes, size_t count) override {
-    take(bytes, count, m_pos);
-    m_pos += static_cast<int64_t>(count);
-    return count;
-  }
-  size_t pwrite(const void* bytes, size_t count, int64_t offset) override {
-    take(bytes, count, offset);
-    return count;
-  }
-  bool failed() const { return failed_; }
-
- private:
-  void take(const void* bytes, size_t count, int64_t offset) {
-    const auto at = static_cast<uint64_t>(offset);
-    failed_ = failed_ || !image_.write(image_.context, at, static_cast<const char*>(bytes), count);
-    size_ = std::max(size_, static_cast<size_t>(at) + count);
-  }
-  const ImageToEncode& image_;
-  size_t size_ = 0;
-  bool failed_ = false;
-};
-
-// At most 16 MiB of rows at a time. EXR compresses 16 rows together.
-int rows_at_a_time(size_t row_bytes) {
-  return static_cast<int>(std::clamp<size_t>((size_t{1} << 24) / row_bytes / 16, 1, 4096)) * 16;
-}
-
-void encode(const ImageToEncode& image, Output& bytes) {
-  const OIIO::TypeDesc type = image.channel_names ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
-  if (image.channel_names) {
-    spec.attribute("compression", "zip:1");
-    // Without it OpenImageIO writes the time, so that equal pictures would be files of different bytes.
-    spec.attribute("DateTime", "");
-    spec.channelnames.assign(image.channel_names, image.channel_names + image.channels);
-  } else {
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("png:compressionLevel", 6);
-  }
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(image.path, &bytes);
-  if (!output) throw std::runtime_error(OIIO::geterror());
-  if (!output->open(image.path, spec)) throw std::runtime_error(output->geterror());
-  const size_t row_bytes = spec.scanline_bytes();
-  const int most = std::min(rows_at_a_time(row_bytes), image.height);
-  std::vector<char> rows(row_bytes * static_cast<size_t>(most));
-  for (int first = 0; first < image.height; first += most) {
-    const int count = std::min(most, image.height - first);
-    if (!image.rows(image.context, first, count, rows.data()) || bytes.failed()) return;
-    if (!output->write_scanlines(first, first + count, 0, type, rows.data()))
-      throw std::runtime_error(output->geterror());
-  }
-  if (!output->close()) throw std::runtime_error(output->geterror());
-}
-
 // Thrown with the reason, as DecodeImage gives it.
 struct Refused : std::runtime_error {
   using runtime_error::runtime_error;
@@ -147,15 +86,6 @@ Decoded decode(const ImageToDecode& file) {
 
 }  // namespace
 }  // namespace noonmark
-
-extern "C" void noonmark_encode_image(const noonmark::ImageToEncode& image) {
-  try {
-    noonmark::Output bytes(image);  // outlives the library's output, which writes to it
-    noonmark::encode(image, bytes);
-  } catch (const std::exception& thrown) {
-    image.fail(image.context, *thrown.what() ? thrown.what() : "OpenImageIO gives no reason");
-  }
-}
 
 extern "C" void noonmark_decode_image(const noonmark::ImageToDecode& file, void* context,
                                       void (*done)(void*, const noonmark::DecodedPixels*, const char*)) {

@@ -1,30 +1,11 @@
-// The interface between the program and its module noonmark_images. Only this module needs OpenImageIO, whose 250
-// shared libraries take a quarter of a second to load. app/pictures/image_file.cpp opens it before the first picture. Both are
-// built together, so this is not an interface for other programs.
+// The interface between the program and its module noonmark_images, which reads the pictures of other programs. Only this
+// module needs OpenImageIO, whose 250 shared libraries take 0.4 s to load. app/pictures/image_file.cpp opens it before it
+// reads the first picture. Both are built together, so this is not an interface for other programs.
 #pragma once
 #include <cstddef>
 #include <cstdint>
 
 namespace noonmark {
-
-// Neither the image nor the file is ever in memory as a whole: rows come and bytes go in pieces.
-struct ImageToEncode {
-  const char* path;  // its ending selects the format; no file is written
-  int width, height;
-  int channels;
-  const char* const* channel_names;  // null: sRGB colours of 8 bits; else 32-bit floats, `channels` names
-  void* context;                     // the first argument of the following; these throw nothing
-  // Writes `count` rows from row `first` on to `pixels`; row 0 is on top, the channels are interleaved. If it returns
-  // false, encoding ends.
-  bool (*rows)(void* context, int first, int count, void* pixels);
-  // Takes bytes of the file. If it returns false, encoding ends.
-  bool (*write)(void* context, uint64_t offset, const char* bytes, size_t count);
-  // Gets the reason if the library cannot encode the image.
-  void (*fail)(void* context, const char* why);
-};
-
-// Throws nothing.
-using EncodeImage = void(const ImageToEncode& image);
 
 struct ImageToDecode {
   const char* format;  // "png" or "exr"
@@ -52,7 +33,6 @@ using DecodeImage = void(const ImageToDecode& file, void* context,
                          void (*done)(void* context, const DecodedPixels* pixels, const char* why));
 
 inline constexpr const char* image_module_file = "noonmark_images.so";
-inline constexpr const char* image_module_function = "noonmark_encode_image";  // an EncodeImage
-inline constexpr const char* image_module_decoder = "noonmark_decode_image";   // a DecodeImage
+inline constexpr const char* image_module_decoder = "noonmark_decode_image";  // a DecodeImage
 
 }  // namespace noonmark

@@ -3,16 +3,20 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 
 #include "app/pictures/animated_png.h"
+#include "app/pictures/exr_encoder.h"
 #include "app/pictures/image_codec.h"
 #include "app/pictures/npy.h"
+#include "app/pictures/png_encoder.h"
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -39,15 +43,9 @@ Function* load(const char* name) {
   if (!function) {
     const char* const said = dlerror();
     const std::string why = said ? said : image_module_file;
-    throw Error(ErrorKind::device,
-                fmt::format("pictures cannot be read or written: {}; {}", why, what_to_install(why)));
+    throw Error(ErrorKind::device, fmt::format("pictures cannot be read: {}; {}", why, what_to_install(why)));
   }
   return reinterpret_cast<Function*>(function);
-}
-
-EncodeImage& encoder() {
-  static EncodeImage* const function = load<EncodeImage>(image_module_function);
-  return *function;
 }
 
 DecodeImage& decoder() {
@@ -77,63 +75,45 @@ class Quiet {
   int kept_;
 };
 
-// rows(first, count, pixels) writes rows of the image; take(offset, bytes) takes bytes of the file.
-template <class Rows, class Take>
-void encode(ImageToEncode image, const Rows& rows, const Take& take) {
-  struct Call {
-    const Rows& rows;
-    const Take& take;
-    std::string why;
-    std::exception_ptr failure;  // of rows() or of take(); it must not pass through the library
-    bool attempt(const std::function<void()>& what) {
-      try {
-        what();
-        return true;
-      } catch (...) {
-        failure = std::current_exception();
-        return false;
-      }
-    }
-  } call{rows, take, "", {}};
-  image.context = &call;
-  image.rows = [](void* context, int first, int count, void* pixels) {
-    Call& c = *static_cast<Call*>(context);
-    return c.attempt([&] { c.rows(first, count, pixels); });
-  };
-  image.write = [](void* context, uint64_t offset, const char* bytes, size_t count) {
-    Call& c = *static_cast<Call*>(context);
-    return c.attempt([&] { c.take(offset, std::string_view(bytes, count)); });
-  };
-  image.fail = [](void* context, const char* why) { static_cast<Call*>(context)->why = why; };
-  encoder()(image);
-  if (call.failure) std::rethrow_exception(call.failure);
-  if (!call.why.empty()) throw Error(ErrorKind::file, fmt::format("cannot write {}: {}", image.path, call.why));
+[[noreturn]] void throw_cannot_write(const std::string& path, const char* why) {
+  throw Error(ErrorKind::file, fmt::format("cannot write {}: {}", path, why));
 }
 
-// Returns the digest of the file.
-template <class Rows>
-std::string write(const ImageToEncode& image, const Rows& rows) {
-  AtomicFile file(image.path);
-  encode(image, rows, [&](uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); });
+std::string png_of(const std::string& path, const Image<Color>& picture) {
+  try {
+    return encoded_png(picture);
+  } catch (const std::runtime_error& error) {
+    throw_cannot_write(path, error.what());
+  }
+}
+
+// Returns the digest of the file. rows: as encode_exr() asks for them.
+std::string write_exr(const std::string& path, int width, int height, const std::vector<std::string>& channels,
+                      int rows_at_once, const std::function<ExrRows(int first_row, int count)>& rows) {
+  AtomicFile file(path);
+  try {
+    encode_exr(width, height, channels, rows_at_once, rows,
+               [&](uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); });
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw_cannot_write(path, error.what());
+  }
   std::string digest = file.digest();
   file.keep();
   return digest;
 }
 
-ImageToEncode colours(const std::string& path, const Image<Color>& picture) {
-  return {path.c_str(), picture.width, picture.height, 3, nullptr, {}, {}, {}, {}};
-}
-
-auto rows_of(const Image<Color>& picture) {
-  return [&picture](int first, int count, void* pixels) {
-    std::copy_n(&picture.at(0, first), static_cast<size_t>(count) * static_cast<size_t>(picture.width),
-                static_cast<Color*>(pixels));
-  };
+// At most 16 MiB of rows at a time. EXR compresses 16 rows together.
+int rows_at_a_time(size_t row_bytes) {
+  return static_cast<int>(std::clamp<size_t>((size_t{1} << 24) / row_bytes / 16, 1, 4096)) * 16;
 }
 
 }  // namespace
 
-void require_image_files() { encoder(); }
+void require_image_reader() { decoder(); }
 
 void require_image_memory(const std::string& path, double bytes) {
   if (const AvailableMemory available = available_memory(); bytes > static_cast<double>(available.bytes))
@@ -203,44 +183,43 @@ std::vector<float> grey_values(const DecodedImage& image) {
 }
 
 std::string write_png(const std::string& path, const Image<Color>& picture) {
-  return write(colours(path, picture), rows_of(picture));
+  const std::string file = png_of(path, picture);
+  write_file_atomically(path, file);
+  return digest_of(file);
 }
 
 std::string write_animated_png(const std::string& path, const std::vector<Image<Color>>& frames, int frame_ms) {
-  std::vector<std::string> files;
-  for (const Image<Color>& frame : frames) {
-    std::string& file = files.emplace_back();
-    encode(colours(path, frame), rows_of(frame), [&](uint64_t offset, std::string_view bytes) {
-      file.resize(std::max(file.size(), static_cast<size_t>(offset) + bytes.size()));
-      bytes.copy(&file[static_cast<size_t>(offset)], bytes.size());
-    });
-  }
+  std::vector<std::string> files(frames.size());
+  tbb::parallel_for(size_t{0}, frames.size(), [&](size_t i) { files[i] = png_of(path, frames[i]); });
   const std::string animated = animated_png(files, frame_ms);
   write_file_atomically(path, animated);
   return digest_of(animated);
 }
 
 std::string write_exr(const std::string& path, const LargeImage& image) {
-  std::vector<const char*> names;
-  for (const std::string& name : image.channels) names.push_back(name.c_str());
-  return write({path.c_str(), image.width, image.height, static_cast<int>(names.size()), names.data(), {}, {}, {}, {}},
-               [&](int first, int count, void* pixels) { image.rows(first, count, static_cast<float*>(pixels)); });
+  const size_t count = image.channels.size(), pixel_bytes = count * sizeof(float),
+               row_bytes = static_cast<size_t>(image.width) * pixel_bytes;
+  const int most = std::min(rows_at_a_time(row_bytes), image.height);
+  std::vector<float> pixels(static_cast<size_t>(most) * static_cast<size_t>(image.width) * count);
+  return write_exr(path, image.width, image.height, image.channels, most, [&](int first_row, int rows) {
+    image.rows(first_row, rows, pixels.data());
+    ExrRows from{{}, pixel_bytes, row_bytes};
+    for (size_t c = 0; c < count; ++c) from.channels.push_back(pixels.data() + c);
+    return from;
+  });
 }
 
 std::string write_exr(const std::string& path, const std::vector<Channel>& channels) {
-  LargeImage image{{}, channels.at(0).values.width, channels.at(0).values.height, {}};
+  const int width = channels.at(0).values.width, height = channels.at(0).values.height;
+  ExrRows all{{}, sizeof(float), static_cast<size_t>(width) * sizeof(float)};
+  std::vector<std::string> names;
   for (const Channel& channel : channels) {
-    image.channels.push_back(channel.name);
-    if (channel.values.width != image.width || channel.values.height != image.height)
+    if (channel.values.width != width || channel.values.height != height)
       throw std::logic_error("channels of one image differ in size");
+    names.push_back(channel.name);
+    all.channels.push_back(channel.values.pixels.data());
   }
-  image.rows = [&](int first, int count, float* pixels) {
-    const size_t begin = static_cast<size_t>(first) * static_cast<size_t>(image.width);
-    const size_t size = static_cast<size_t>(count) * static_cast<size_t>(image.width);
-    for (size_t c = 0; c < channels.size(); ++c)
-      for (size_t i = 0; i < size; ++i) pixels[i * channels.size() + c] = channels[c].values[begin + i];
-  };
-  return write_exr(path, image);
+  return write_exr(path, width, height, names, height, [&](int, int) { return all; });
 }
 
 }  // namespace noonmark

@@ -1,6 +1,6 @@
-// Writes pictures and images with OpenImageIO: PNG for people, 32-bit float EXR for programs. A file is written under
-// another name beside its place and then renamed. Also reads grey pictures of other programs. Throws Error(file) if a
-// file cannot be written or read, Error(device) if OpenImageIO cannot be loaded.
+// Writes pictures and images: PNG for people, 32-bit float EXR for programs. A file is written under another name beside
+// its place and then renamed. Also reads grey pictures of other programs, with OpenImageIO. Throws Error(file) if a file
+// cannot be written or read, Error(device) if OpenImageIO cannot be loaded. Files may be written from several threads at once.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -14,9 +14,8 @@
 
 namespace noonmark {
 
-// Loads OpenImageIO; otherwise the first picture loads it. Throws Error(device) if that fails. A run that will write
-// pictures calls this before it measures.
-void require_image_files();
+// Loads OpenImageIO; otherwise the first picture that is read loads it. Throws Error(device) if that fails.
+void require_image_reader();
 
 using Color = glm::u8vec3;  // sRGB
 

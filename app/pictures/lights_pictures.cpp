@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/pictures/picture_files.h"
 #include "base/file.h"
 
 namespace noonmark {
@@ -22,13 +23,10 @@ std::vector<PictureRecord> keep_lights(const LightsFrame& frame, const std::vect
       {"most-wrong", frame.most_wrong,
        fmt::format("Which light makes the largest part of the frame's error at each pixel ({}); black: none.",
                    fmt::join(colors, ", "))}};
-  std::vector<PictureRecord> records;
-  for (const auto& [name, picture, caption] : pictures) {
-    const std::string path = fmt::format("images/p{:04}-{}{}.png", id, lights_prefix, name);
-    const std::string digest = write_png(out + "/" + path, picture);
-    records.push_back({std::string(lights_prefix) + name, path, caption, digest});
-  }
-  return records;
+  PictureFiles files(out + "/images", "images", fmt::format("p{:04}", id));
+  for (const auto& one : pictures)
+    files.add(std::string(lights_prefix) + one.name, one.caption, [&one] { return one.picture; });
+  return files.write();
 }
 
 }  // namespace noonmark

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/pictures/picture_files.h"
 #include "app/pictures/point_files.h"
 #include "app/pictures/view_colors.h"
 #include "app/pictures/view_frustum.h"
@@ -136,19 +137,23 @@ Image<Color> with_corner(Image<Color> picture, const Image<Color>& map) {
   return picture;
 }
 
-// The files of one list of names.
-struct PictureFiles {
-  std::string folder, relative, stem;
-  std::span<const std::string_view> names;
-  std::vector<PictureRecord> records{};
+// Pictures of one list of names.
+class ListedPictures : public PictureFiles {
+ public:
+  ListedPictures(const std::string& folder, const std::string& relative, const std::string& stem,
+                 std::span<const std::string_view> names)
+      : PictureFiles(folder, relative, stem), names_(names) {}
 
-  void add(const std::string& name, const std::string& caption, const Image<Color>& picture) {
-    if (std::find(names.begin(), names.end(), name) == names.end())
+  // picture: a picture, or what paints it.
+  template <class Picture>
+  void add(const std::string& name, const std::string& caption, Picture&& picture) {
+    if (std::find(names_.begin(), names_.end(), name) == names_.end())
       throw std::logic_error(name + " is not in the list of names");
-    const std::string file = fmt::format("{}-{}.png", stem, name);
-    const std::string digest = write_png(folder + "/" + file, picture);
-    records.push_back({name, relative + "/" + file, caption, digest});
+    PictureFiles::add(name, caption, std::forward<Picture>(picture));
   }
+
+ private:
+  std::span<const std::string_view> names_;
 };
 
 // Copies the surroundings of (x, y) to `to`, from column `left` on, and frames the pixel.
@@ -200,59 +205,66 @@ Image<Color> lit_picture(const Measurement& m) {
 
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem) {
-  PictureFiles files{folder, relative, stem, picture_names};
-  const auto add = [&](const std::string& name, const std::string& caption, const Image<Color>& picture) {
-    files.add(name, caption, picture);
-  };
+  ListedPictures files(folder, relative, stem, picture_names);
   const Light light = effective_light(m.scene, m.technique.settings);
   const bool sized = m.technique.frame.light().disc_radius(light) > 0;
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   const auto shaded_with = [&](const Image<float>& visibility) {
     return shaded_frame(m.receivers, m.technique.frame, camera, visibility);
   };
-  add("truth", "The truth: one exact shadow ray for each pixel (R1).", shaded(m, m.ladder.truth()));
-  if (sized) add("soft-truth", "The truth of the light with its size (R0).", shaded(m, m.ladder.soft_truth()));
+  files.add("truth", "The truth: one exact shadow ray for each pixel (R1).",
+            [&] { return shaded(m, m.ladder.truth()); });
+  if (sized)
+    files.add("soft-truth", "The truth of the light with its size (R0).",
+              [&] { return shaded(m, m.ladder.soft_truth()); });
   const std::string& judged = m.ladder.rungs.back().name;
   const bool given = !m.ladder.brought.empty();  // the judged picture is not the shadow map's
-  add("map", fmt::format("What the {} showed ({}).", given ? "given picture" : "shadow map", judged), shown_picture(m));
-  add("classes", "Why each wrong pixel is wrong.", causes_picture(m));
-  add("difference",
-      fmt::format("{} minus truth: too dark is orange, too light is blue.", given ? "Given picture" : "Map"),
-      difference(m));
+  files.add("map", fmt::format("What the {} showed ({}).", given ? "given picture" : "shadow map", judged),
+            [&] { return shown_picture(m); });
+  files.add("classes", "Why each wrong pixel is wrong.", [&] { return causes_picture(m); });
+  files.add("difference",
+            fmt::format("{} minus truth: too dark is orange, too light is blue.", given ? "Given picture" : "Map"),
+            [&] { return difference(m); });
   if (m.flicker)
-    add("flicker",
+    files.add(
+        "flicker",
         fmt::format("What the shadow map shows at the points of frame {0} (left), what that of frame {1} shows at the "
                     "same points of the world (middle), and what changed although the truth did not (right): the grid "
                     "moved (orange), depths were re-rounded (pink), the kernel turned (blue), "
                     "or the map's edge passed (green).",
                     m.technique.settings.view.motion.frame, m.technique.settings.view.motion.frame + 1),
-        beside({shaded(m, m.flicker->now), shaded(m, m.flicker->next), changes(m)}));
-  add("depth",
-      m.technique.frame.map_shape() == MapShape::cube
-          ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
-          : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
-      map_picture(m.stored_rows, m.technique.frame));
-  add("frustum", std::string(m.technique.frame.light().frustum_caption()), frustum(m, camera));
+        [&] {
+          return beside({shaded(m, m.flicker->now), shaded(m, m.flicker->next), changes(m)});
+        });
+  files.add("depth",
+            m.technique.frame.map_shape() == MapShape::cube
+                ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
+                : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
+            map_picture(m.stored_rows, m.technique.frame));  // OpenGL's map is read here
+  files.add("frustum", std::string(m.technique.frame.light().frustum_caption()), [&] { return frustum(m, camera); });
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
-  add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).",
-      shown_frame(m.receivers, truth));
+  files.add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).",
+            [&] { return shown_frame(m.receivers, truth); });
   if (sized)
-    add("shaded-soft-truth", "Grey clay with the true shadow of the light with its size (R0).",
-        shown_frame(m.receivers, shaded_with(m.ladder.soft_truth())));
-  add("shaded-map",
-      fmt::format("Grey clay as a renderer shows it, with the {} shadow ({}).", given ? "given picture's" : "map's",
-                  judged),
-      shown_frame(m.receivers, map));
-  Image<Color> apart(map.width, map.height);
-  for (size_t i = 0; i < apart.size(); ++i)
-    apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));
+    files.add("shaded-soft-truth", "Grey clay with the true shadow of the light with its size (R0).",
+              [&] { return shown_frame(m.receivers, shaded_with(m.ladder.soft_truth())); });
+  files.add("shaded-map",
+            fmt::format("Grey clay as a renderer shows it, with the {} shadow ({}).",
+                        given ? "given picture's" : "map's", judged),
+            [&] { return shown_frame(m.receivers, map); });
   const double rmse = shaded_rmse(m.receivers, m.technique.frame, camera, m.ladder.truth(), m.ladder.shown());
-  add("shaded-difference",
+  files.add(
+      "shaded-difference",
       fmt::format("The absolute difference of the two shaded pictures in linear light, from dark (0) to bright (1). "
                   "Its root mean square over the receivers is {}.",
                   std::isnan(rmse) ? std::string(not_measured) : fmt::format("{:.4g}", rmse)),
-      apart);
-  return std::move(files.records);
+      [&] {
+        Image<Color> apart(map.width, map.height);
+        for (size_t i = 0; i < apart.size(); ++i)
+          apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));
+        return apart;
+      });
+  return files.write();
 }
 
 namespace {
@@ -270,33 +282,36 @@ Color texel_color(float pixels) {
 
 std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std::string& folder,
                                                 const std::string& relative, const std::string& stem) {
-  PictureFiles files{folder, relative, stem, debug_picture_names};
+  ListedPictures files(folder, relative, stem, debug_picture_names);
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
-  Image<float> all_lit(m.receivers.width(), m.receivers.height());
-  for (size_t i = 0; i < all_lit.size(); ++i) all_lit[i] = m.ladder.flags[i] & flag_facing ? 1.0f : 0.0f;
-  files.add("debug-unshadowed", "The frame without shadows: as if every receiver that faces the light were lit.",
-            shown_frame(m.receivers, shaded_frame(m.receivers, m.technique.frame, camera, all_lit)));
+  files.add("debug-unshadowed", "The frame without shadows: as if every receiver that faces the light were lit.", [&] {
+    Image<float> all_lit(m.receivers.width(), m.receivers.height());
+    for (size_t i = 0; i < all_lit.size(); ++i) all_lit[i] = m.ladder.flags[i] & flag_facing ? 1.0f : 0.0f;
+    return shown_frame(m.receivers, shaded_frame(m.receivers, m.technique.frame, camera, all_lit));
+  });
+  // OpenGL's map is read here.
   const Image<Color> stored = stored_picture(m.stored_rows, m.technique.frame);
-  files.add("debug-stored", "The shadow map as it is stored: the grey is the window depth, black is 0 and white is 1.",
-            stored);
   const Image<float> read = stored_depths(m);
+  files.add("debug-stored", "The shadow map as it is stored: the grey is the window depth, black is 0 and white is 1.",
+            [&] { return stored; });
   files.add("debug-painted",
             "The depth that each receiver's lookup reads, painted on the scene with the same grey: the map's texels as "
             "they lie on the surfaces.",
-            paint(m, [&](size_t i) { return stored_grey(static_cast<double>(read[i])); }));
-  files.add(
-      "debug-corner", "The frame as the shadow map shows it, with the stored map in the corner.",
-      with_corner(shown_frame(m.receivers, shaded_frame(m.receivers, m.technique.frame, camera, m.ladder.shown())),
-                  stored));
-  Image<uint8_t> facing(m.receivers.width(), m.receivers.height());
-  for (size_t i = 0; i < facing.size(); ++i) facing[i] = (m.ladder.flags[i] & flag_facing) != 0;
-  const TexelFootprint footprint = texel_footprint(m.receivers, camera, m.technique.frame, facing);
-  files.add(
-      "debug-texels",
-      "How long a texel of the shadow map is in the picture, in pixels: blue is an eighth and less, light grey is "
-      "one, red is eight and more, where the stairs of shadow edges show.",
-      paint(m, [&](size_t i) { return texel_color(footprint.pixels[i]); }));
-  return std::move(files.records);
+            [&] { return paint(m, [&](size_t i) { return stored_grey(static_cast<double>(read[i])); }); });
+  files.add("debug-corner", "The frame as the shadow map shows it, with the stored map in the corner.", [&] {
+    return with_corner(shown_frame(m.receivers, shaded_frame(m.receivers, m.technique.frame, camera, m.ladder.shown())),
+                       stored);
+  });
+  files.add("debug-texels",
+            "How long a texel of the shadow map is in the picture, in pixels: blue is an eighth and less, light grey "
+            "is one, red is eight and more, where the stairs of shadow edges show.",
+            [&] {
+              Image<uint8_t> facing(m.receivers.width(), m.receivers.height());
+              for (size_t i = 0; i < facing.size(); ++i) facing[i] = (m.ladder.flags[i] & flag_facing) != 0;
+              const TexelFootprint footprint = texel_footprint(m.receivers, camera, m.technique.frame, facing);
+              return paint(m, [&](size_t i) { return texel_color(footprint.pixels[i]); });
+            });
+  return files.write();
 }
 
 }  // namespace noonmark

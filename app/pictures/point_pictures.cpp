@@ -140,8 +140,8 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
   make_folder(folder);
   const std::string stem = fmt::format("p{:04}", id);
   PointPictures kept;
-  if (formats == PictureFormats::png_and_exr) kept.images = write_images(m, folder, "images", stem + "-");
   kept.pictures = write_pictures(m, folder, "images", stem);
+  if (formats == PictureFormats::png_and_exr) kept.images = write_images(m, folder, "images", stem + "-");
   return kept;
 }
 

@@ -104,7 +104,6 @@ class FrameRun {
       : experiment_(experiment), folder_(folder), options_(options), tracer_info_(raytrace::tracer_info()) {
     if (options.shard)
       throw Error(ErrorKind::usage, "frames are judged in seconds, so they have no shares; leave out --shard");
-    if (experiment.pictures != "none") require_image_files();
   }
 
   void open() {

@@ -63,7 +63,6 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
   // Checks the same things as run, in the same order.
   require_room_to_start(writes_pictures(experiment));
   Workbench bench(gl::DebugMode::log);
-  if (writes_pictures(experiment)) require_image_files();
   const Survey survey(bench, experiment, planned, listed);
   survey.tell();
   const std::vector<MemoryEstimate>& memory = survey.memory;

@@ -42,7 +42,7 @@ std::vector<PictureRecord> pictures_at_bias(const Measurement& m, const report::
 
 void keep_recommended_picture(Results& results, ResultStore& store, const std::string& out,
                               const std::function<Measurement(int64_t, const Settings&)>& measure) {
-  const report::Opening opened = report::opening(results, compared_groups(results));
+  const report::Opening opened = report::opening(results, compared_groups(results), recommend(results));
   for (PointRecord& point : results.points) {
     PointPictures old;
     std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), is_at_bias);

@@ -77,7 +77,6 @@ Workbench bench_for(const Experiment& experiment) {
 
 Survey survey_of(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& planned,
                  const std::vector<int64_t>& wanted) {
-  if (writes_pictures(experiment)) require_image_files();
   return Survey(bench, experiment, planned, wanted);
 }
 

@@ -38,7 +38,7 @@ std::string truth_methods_agree() {
 int examine_machine() {
   const BuildFacts& facts = build_facts();
   fmt::print("noonmark  {} (commit {}, {}, {})\n", facts.version, facts.commit, facts.compiler, facts.build_type);
-  bool can_measure = true, can_write_pictures = true, agree = true;
+  bool can_measure = true, can_read_pictures = true, agree = true;
   try {
     const ThreadLimit limit(0);
     require_room_to_start(true);
@@ -74,22 +74,22 @@ int examine_machine() {
     }
   try {
     if (room) {  // without room, loading the library ends the program
-      require_image_files();
-      fmt::print("Pictures  OpenImageIO\n");
+      require_image_reader();
+      fmt::print("Pictures  OpenImageIO reads those of other programs\n");
     }
   } catch (const Error& error) {
     fmt::print("Pictures  NOT USABLE: {}\n", printable(error.what()));
-    can_write_pictures = false;
+    can_read_pictures = false;
   }
   std::string libraries;
   for (const LibraryVersion& library : facts.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : "; ", library.name, library.version);
   fmt::print("Libraries {}\n", libraries);
   fmt::print("{}\n", !can_measure          ? "Nothing can be measured here until this is fixed."
-                     : !can_write_pictures ? "Only experiments with pictures = \"none\" run here until this is fixed."
+                     : !can_read_pictures ? "All can be measured here; PNG and EXR files of other programs cannot be read until this is fixed."
                                            : "Everything that a measurement needs is here.");
   if (!agree) return static_cast<int>(ErrorKind::defect);
-  return can_measure && can_write_pictures ? 0 : static_cast<int>(ErrorKind::device);
+  return can_measure && can_read_pictures ? 0 : static_cast<int>(ErrorKind::device);
 }
 
 RunVerb add_doctor(CLI::App&) {

@@ -299,7 +299,6 @@ int recommend(const RecommendOptions& options) {
   const Experiment& experiment = only_part(whole);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
-  require_image_files();
   AdviceRequest request = request_of(experiment, options, bench);
   if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
   const std::string no_lines = why_no_engine_lines(request.conditions);

@@ -154,7 +154,6 @@ int render_point(const RenderOptions& options) {
   clear_abandoned_files(out);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
-  require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
   const bool curve = part.curve_enabled;
   const MemoryEstimate memory =

@@ -20,7 +20,7 @@ int write_report_again(const std::string& folder) {
     throw Error(ErrorKind::usage, fmt::format("{}: there are no results here (no results.sqlite); give the folder that "
                                               "noonmark run or check wrote",
                                               folder));
-  const Results results = ResultStore::open(store).load();
+  const Results results = ResultStore::read(store);
   write_report(results, folder);
   fmt::print("{} of {}; the report is {}/report.html\n", results.points.size(),
              counted(static_cast<size_t>(results.planned_points), "point"), printable(folder));

@@ -87,6 +87,7 @@ Joined joined_at(const Choice& choice, const std::string& metric, std::optional<
       constexpr double nan = std::numeric_limits<double>::quiet_NaN();
       return {nan, nan, nan, point};
     }
+    if (choice.points.size() == 1) return {value, value, value, point};
     values.push_back(value);
     result.mean += value / static_cast<double>(choice.points.size());
     if (value > result.worst) result.worst = value, result.at = point;

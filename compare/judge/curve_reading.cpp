@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "compare/ladder/numbers.h"
@@ -12,9 +13,12 @@
 namespace noonmark {
 namespace {
 
-const std::vector<double>* series_of(const BiasCurve& curve, const std::string& metric) {
+// metric and ending: the name's two parts.
+const std::vector<double>* series_of(const BiasCurve& curve, std::string_view metric, std::string_view ending = "") {
   for (const CurveSeries& series : curve_series())
-    if (series.name == metric && series.name != "bias_depth" && !series.of(curve).empty()) return &series.of(curve);
+    if (series.name.size() == metric.size() + ending.size() && series.name.starts_with(metric) &&
+        series.name.ends_with(ending) && series.name != "bias_depth" && !series.of(curve).empty())
+      return &series.of(curve);
   return nullptr;
 }
 
@@ -35,11 +39,12 @@ bool is_hard_error(const PointRecord& point, const std::string& metric) {
 
 // The metric from the point's curve. Empty if the curve has no series of it.
 std::optional<double> value_of_curve(const PointRecord& point, const std::string& metric, double bias_depth) {
-  const bool no_size = is_hard_error(point, metric);
-  for (const std::string& name :
-       {metric + "_worst", metric, std::string(no_size ? "error_worst" : ""), std::string(no_size ? "error" : "")})
-    if (const auto value = name.empty() ? std::nullopt : curve_value(*point.curve, name, bias_depth)) return *value;
-  return std::nullopt;
+  const BiasCurve& curve = *point.curve;
+  if (const auto* worst = series_of(curve, metric, "_worst")) return interpolate(curve.bias_depth, *worst, bias_depth);
+  if (const std::optional<double> value = curve_value(curve, metric, bias_depth)) return value;
+  if (!is_hard_error(point, metric)) return std::nullopt;
+  if (const auto* worst = series_of(curve, "error_worst")) return interpolate(curve.bias_depth, *worst, bias_depth);
+  return curve_value(curve, "error", bias_depth);
 }
 
 }  // namespace
@@ -54,8 +59,8 @@ std::optional<double> curve_value(const BiasCurve& curve, const std::string& met
 }
 
 double parameter_per_depth(const PointRecord& point) {
-  const std::string unit = setting_of(point, "bias.unit");
   if (!point.curve) return not_a_number;
+  const std::string unit = setting_of(point, "bias.unit");
   if (unit == "depth") return 1;
   if (unit == "m") return point.curve->m_per_depth;
   if (unit == "texel") return point.curve->texels_per_depth;

@@ -44,7 +44,7 @@ IntervalNames interval_names(const std::string& metric) {
 MedianInterval interval_of(const PointRecord& point, const std::string& metric) {
   const double value = metric_of(point, metric);
   const auto [low, high] = interval_names(metric);
-  if (!point.metrics.contains(low) || !point.metrics.contains(high)) return {value, value, value};
+  if (low.empty() || !point.metrics.contains(low) || !point.metrics.contains(high)) return {value, value, value};
   return {metric_of(point, low), value, metric_of(point, high)};
 }
 

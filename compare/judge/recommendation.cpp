@@ -100,16 +100,14 @@ CostNoise noise_of(const std::vector<Recommendation>& good) {
   return {costs.size(), least.size()};
 }
 
-// What pick(good choices) finds, or why nothing can be recommended.
-template <class Pick>
-Recommendation answered(const Results& results, const Pick& pick) {
+// The choice that was picked of the good ones, or why nothing can be recommended. picked: null if none is good.
+Recommendation answered(const Results& results, const Recommendation* picked) {
   Recommendation none;
   if (is_incomplete(results)) {
     none.outcome = Outcome::incomplete;
     return none;
   }
-  const std::vector<Recommendation> good = good_choices(results);
-  if (const Recommendation* found = pick(good)) return *found;
+  if (picked) return *picked;
   const std::vector<Choice> all = choices_of(results);
   if (std::any_of(all.begin(), all.end(), [&](const Choice& choice) { return has_criterion(choice, results); }))
     none.outcome = Outcome::none_holds;
@@ -267,18 +265,18 @@ const Recommendation* most_accurate(const std::vector<Recommendation>& good) {
   });
 }
 
-Recommendation recommend(const Results& results) {
-  CostNoise noise;
-  Recommendation found = answered(results, [&](const auto& good) {
-    noise = noise_of(good);
-    return cheapest(good);
-  });
-  found.noise = noise;
+Recommendation recommend(const Results& results, const std::vector<Recommendation>& good) {
+  Recommendation found = answered(results, cheapest(good));
+  if (!is_incomplete(results)) found.noise = noise_of(good);
   return found;
 }
 
-Recommendation recommend_accurate(const Results& results) {
-  return answered(results, [](const auto& good) { return most_accurate(good); });
+Recommendation recommend_accurate(const Results& results, const std::vector<Recommendation>& good) {
+  return answered(results, most_accurate(good));
 }
+
+Recommendation recommend(const Results& results) { return recommend(results, good_choices(results)); }
+
+Recommendation recommend_accurate(const Results& results) { return recommend_accurate(results, good_choices(results)); }
 
 }  // namespace noonmark

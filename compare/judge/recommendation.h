@@ -102,6 +102,9 @@ const Recommendation* most_accurate(const std::vector<Recommendation>& good);
 Recommendation recommend(const Results& results);
 // The one of least error; among equal errors the one of least cost.
 Recommendation recommend_accurate(const Results& results);
+// The same where good_choices() are known already: of thousands of choices they are most of the work.
+Recommendation recommend(const Results& results, const std::vector<Recommendation>& good);
+Recommendation recommend_accurate(const Results& results, const std::vector<Recommendation>& good);
 
 // Whether one point meets a bound's limits, in the way that the bound takes placements. Metrics of the curve are read at
 // the bias (window depth), if it is given.

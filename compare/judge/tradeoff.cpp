@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "compare/judge/curve_reading.h"
@@ -53,6 +54,7 @@ ComparedChoice at_best_bias(const Choice& choice, const Results& results) {
   one.choice = choice, one.usable = joined_window(choice), one.good = good_choice(choice, results);
   if (!has_curves(choice)) return one;
   one.window = one.usable ? Window::usable : Window::empty;
+  one.rendered_in_window = one.usable && was_rendered_in_window(choice);
   one.bias = one.good     ? one.good->bias->value
              : one.usable ? bias_without_bounds(choice, results, *one.usable)
                           : least_wrong_bias(choice, results.info.accuracy);
@@ -77,6 +79,18 @@ std::vector<ComparedGroup> compared_groups(const Results& results) {
   return groups;
 }
 
+std::vector<Recommendation> good_choices(const std::vector<ComparedGroup>& groups) {
+  std::vector<Recommendation> good;
+  for (const ComparedGroup& group : groups)
+    for (const ComparedChoice& one : group.choices)
+      if (one.good) good.push_back(*one.good);
+  // Choices stand in the order of their first points, and the points of results in one array.
+  std::stable_sort(good.begin(), good.end(), [](const Recommendation& a, const Recommendation& b) {
+    return std::less<const PointRecord*>()(&a.choice.first(), &b.choice.first());
+  });
+  return good;
+}
+
 Joined value_of(const ComparedChoice& one, const std::string& metric, AtBias at) {
   return joined_at(one.choice, metric, at == AtBias::best ? one.read_at() : std::nullopt);
 }
@@ -96,7 +110,7 @@ bool counts_by(const ComparedChoice& one, const std::string& metric, AtBias at) 
     case Window::usable:
       break;
   }
-  return (at == AtBias::best && follows_bias(one, metric)) || was_rendered_in_window(one.choice);
+  return (at == AtBias::best && follows_bias(one, metric)) || one.rendered_in_window;
 }
 
 std::optional<Interval> span_over_window(const ComparedChoice& one, const std::string& metric) {

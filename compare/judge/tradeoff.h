@@ -27,6 +27,7 @@ struct ComparedChoice {
   // without bounds. Window empty: that of the least error (RunInfo::accuracy), of several the least bias. No curve: none.
   std::optional<double> bias;
   std::optional<Interval> usable;      // the joined window
+  bool rendered_in_window = false;     // every point was rendered with a bias of its own window
   std::optional<Recommendation> good;  // the choice is good enough
   // Where its numbers are read at its bias: as rendered if that is the bias that was set (BiasChoice::as_set).
   std::optional<double> read_at() const { return good && good->bias ? good->bias->read_at() : bias; }
@@ -41,6 +42,9 @@ struct ComparedGroup {
   std::optional<size_t> accurate;     // the most accurate one that is good enough
 };
 std::vector<ComparedGroup> compared_groups(const Results& results);
+
+// good_choices() of the results, from their groups.
+std::vector<Recommendation> good_choices(const std::vector<ComparedGroup>& groups);
 
 // Where a choice is looked at: at its own bias (ComparedChoice::bias), or with the bias that its points were rendered with.
 enum class AtBias { best, as_set };

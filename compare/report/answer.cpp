@@ -291,18 +291,20 @@ Markup verdict_line(const Results& results) {
 namespace {
 
 // Points of different parts are not meant to be compared, so none of them is the answer.
-bool has_answer(const Results& results) {
+bool has_answer(const Results& results, const ShownPoints& shown) {
   return !results.points.empty() && results.points.front().part.empty() &&
-         recommend(results).outcome == Recommendation::Outcome::found;
+         shown.recommended.outcome == Recommendation::Outcome::found;
 }
 
 }  // namespace
 
-const char* answer_label(const Results& results) { return has_answer(results) ? "Answer" : "Findings"; }
+const char* answer_label(const Results& results, const ShownPoints& shown) {
+  return has_answer(results, shown) ? "Answer" : "Findings";
+}
 
-Markup answer_section(const Results& results) {
+Markup answer_section(const Results& results, const ShownPoints& shown) {
   if (results.points.empty()) return "";
-  const char* const title = has_answer(results) ? "The answer" : "What was found";
+  const char* const title = has_answer(results, shown) ? "The answer" : "What was found";
   const auto findings = [](const Markup& items) { return element("ul", css("findings"), "\n", items); };
   Markup items = health_items(results);
   if (!results.points.front().part.empty()) {
@@ -322,7 +324,7 @@ Markup answer_section(const Results& results) {
   items = window_items(results) + causes + items;
   const Markup what_breaks = div(css("breaks"), element("h3", "What breaks"), findings(items));
   return section("answer", title,
-                 div(css("answer"), recommendation_box(results), what_breaks) + "\n" + bounds_section(results) +
+                 div(css("answer"), recommendation_box(results, shown), what_breaks) + "\n" + bounds_section(results) +
                      laws_table(results));
 }
 

@@ -5,8 +5,13 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <set>
-#include <string_view>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "compare/report/escape.h"
 #include "compare/results/metrics.h"
@@ -17,18 +22,46 @@
 namespace noonmark {
 namespace {
 
-std::string exact_number(double value) { return fmt::format("{}", value); }
+// Numbers need no quotes.
+void add_number(double value, std::string& csv) { fmt::format_to(std::back_inserter(csv), "{}", value); }
 
-// A heading and its value for each point.
-struct Column {
-  std::string name;
-  std::function<std::string(const PointRecord&)> cell;
+// The values of a point by the place of their name in a list of names; null: the point has none. Points mostly have the same
+// names in the same order, so that a name is compared with that of the point before and seldom looked up.
+template <class Value>
+class Places {
+ public:
+  explicit Places(const std::vector<std::string>& names) : values_(names.size()) {
+    for (size_t i = 0; i < names.size(); ++i) place_.emplace(names[i], i);
+  }
+  void take(const std::map<std::string, Value>& values) {
+    std::fill(values_.begin(), values_.end(), nullptr);
+    size_t nth = 0;
+    for (const auto& [name, value] : values) {
+      if (nth == before_.size()) before_.push_back(place_.begin());
+      if (before_[nth]->first != name) before_[nth] = place_.find(name);
+      values_[before_[nth++]->second] = &value;
+    }
+  }
+  const Value* at(size_t place) const { return values_[place]; }
+
+ private:
+  std::map<std::string, size_t> place_;
+  std::vector<std::map<std::string, size_t>::const_iterator> before_;  // of the nth name of a point
+  std::vector<const Value*> values_;
 };
 
-std::string look_up(const std::map<std::string, double>& numbers, const std::string& name) {
-  const auto found = numbers.find(name);
-  return found == numbers.end() ? std::string() : exact_number(found->second);
-}
+// A point, and its settings and metrics by the places of their names.
+struct Row {
+  const PointRecord* point = nullptr;
+  Places<std::string> settings;
+  Places<double> metrics;
+};
+
+// A heading, and what adds the cell of a row, escaped.
+struct Column {
+  std::string name;
+  std::function<void(const Row& row, std::string& csv)> add;
+};
 
 // `known` in its order, then the names that only the points have (results of another version), sorted.
 std::vector<std::string> names(std::vector<std::string> known, const std::set<std::string>& present) {
@@ -37,48 +70,73 @@ std::vector<std::string> names(std::vector<std::string> known, const std::set<st
   return known;
 }
 
-std::vector<Column> columns(const Results& results) {
+struct Table {
+  std::vector<Column> columns;
+  std::vector<std::string> settings, metrics;  // the names that Row has places for
+};
+
+Table table_of(const Results& results) {
   std::set<std::string> present_settings, present_metrics;
+  const auto add_names = [](const auto& values, std::set<std::string>& present) {
+    auto next = present.begin();  // both in order, so that a name that is there already is seldom looked up
+    for (const auto& [name, value] : values) {
+      if (next == present.end() || *next != name) next = present.insert(name).first;
+      ++next;
+    }
+  };
   for (const PointRecord& point : results.points) {
-    for (const auto& [name, text] : point.settings) present_settings.insert(name);
-    for (const auto& [name, value] : point.metrics) present_metrics.insert(name);
+    add_names(point.settings, present_settings);
+    add_names(point.metrics, present_metrics);
   }
-  std::vector<std::string> settings, metrics;
+  Table table;
   std::set<std::string> clocked;  // metrics that are times
-  for (const Setting& row : settings_table()) settings.emplace_back(row.name);
+  for (const Setting& row : settings_table()) table.settings.emplace_back(row.name);
   for (const Metric& row : metrics_table()) {
-    metrics.emplace_back(row.name);
+    table.metrics.emplace_back(row.name);
     if (row.unit == "ms") clocked.emplace(row.name);
   }
+  table.settings = names(std::move(table.settings), present_settings);
+  table.metrics = names(std::move(table.metrics), present_metrics);
 
-  std::vector<Column> list, at_the_end;
-  list.push_back({"point", [](const PointRecord& p) { return fmt::format("{}", p.id); }});
+  std::vector<Column>& list = table.columns;
+  std::vector<Column> at_the_end;
+  list.push_back({"point", [](const Row& row, std::string& csv) { csv += std::to_string(row.point->id); }});
   const auto field_column = [&](const RecordField& field) {
-    list.push_back({std::string(field.name), [&field](const PointRecord& p) {
-                      return with_value(field, p, [](const auto& value) { return fmt::format("{}", value); });
+    list.push_back({std::string(field.name), [&field](const Row& row, std::string& csv) {
+                      with_value(field, *row.point, [&](const auto& value) {
+                        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+                          csv += csv_text(value);
+                        else
+                          fmt::format_to(std::back_inserter(csv), "{}", value);
+                      });
                     }});
   };
   const auto any_has = [&](const RecordField& field) {
     return std::any_of(results.points.begin(), results.points.end(), [&](const PointRecord& p) {
-      return with_value(field, p, [](const auto& value) { return !fmt::format("{}", value).empty(); });
+      return with_value(field, p, [](const auto& value) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+          return !value.empty();
+        else
+          return true;
+      });
     });
   };
   // The part: left out if no point has one.
   for (const RecordField& field : record_fields())
     if (field.group.empty() && any_has(field)) field_column(field);
-  for (const std::string& name : names(settings, present_settings))
-    list.push_back({name, [name](const PointRecord& p) {
-                      const auto found = p.settings.find(name);
-                      return found == p.settings.end() ? std::string() : found->second;
+  for (size_t i = 0; i < table.settings.size(); ++i)
+    list.push_back({table.settings[i], [i](const Row& row, std::string& csv) {
+                      if (const std::string* text = row.settings.at(i)) csv += csv_text(*text);
                     }});
-  for (const std::string& name : names(metrics, present_metrics))
-    (clocked.contains(name) ? at_the_end : list).push_back({name, [name](const PointRecord& p) {
-                                                              return look_up(p.metrics, name);
-                                                            }});
-  for (const CurveQuantity& row : curve_quantities())
-    list.push_back({std::string(row.name), [&row](const PointRecord& p) {
-                      const std::optional<double> value = p.curve ? row.value(*p.curve) : std::nullopt;
-                      return value ? exact_number(*value) : std::string();
+  for (size_t i = 0; i < table.metrics.size(); ++i)
+    (clocked.contains(table.metrics[i]) ? at_the_end : list)
+        .push_back({table.metrics[i], [i](const Row& row, std::string& csv) {
+                      if (const double* value = row.metrics.at(i)) add_number(*value, csv);
+                    }});
+  for (const CurveQuantity& quantity : curve_quantities())
+    list.push_back({quantity.name, [&quantity](const Row& row, std::string& csv) {
+                      const auto& curve = row.point->curve;
+                      if (const auto value = curve ? quantity.value(*curve) : std::nullopt) add_number(*value, csv);
                     }});
   for (const RecordField& field : record_fields())
     if (!field.group.empty() && field.group != machine_group && (field.group != delivery_group || any_has(field)))
@@ -88,20 +146,29 @@ std::vector<Column> columns(const Results& results) {
   for (const RecordField& field : record_fields())
     if (field.group == machine_group && field.name != "machine_host" && field.name != "machine_clock")
       field_column(field);
-  return list;
+  return table;
 }
 
 }  // namespace
 
 std::string to_csv(const Results& results) {
-  const std::vector<Column> list = columns(results);
+  const Table table = table_of(results);
   std::string csv;
-  const auto row = [&](auto cell) {
-    for (size_t i = 0; i < list.size(); ++i) csv += (i ? "," : "") + csv_text(cell(list[i]));
+  const auto add_row = [&](const auto& add_cell) {
+    for (size_t i = 0; i < table.columns.size(); ++i) {
+      if (i > 0) csv += ',';
+      add_cell(table.columns[i]);
+    }
     csv += "\r\n";
   };
-  row([](const Column& column) { return column.name; });
-  for (const PointRecord& point : results.points) row([&](const Column& column) { return column.cell(point); });
+  add_row([&](const Column& column) { csv += csv_text(column.name); });
+  Row row{nullptr, Places<std::string>(table.settings), Places<double>(table.metrics)};
+  for (const PointRecord& point : results.points) {
+    row.point = &point;
+    row.settings.take(point.settings);
+    row.metrics.take(point.metrics);
+    add_row([&](const Column& column) { column.add(row, csv); });
+  }
   return csv;
 }
 

@@ -11,7 +11,6 @@
 #include <type_traits>
 
 #include "compare/judge/curve_reading.h"
-#include "compare/judge/recommendation.h"
 #include "compare/report/broken.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/laws.h"
@@ -195,7 +194,6 @@ json diagram_data(const Results& results) {
 
 json chart_data(const Results& results, const ShownPoints& shown) {
   const std::set<std::string> shared = shared_settings(shown.results.points);
-  const Recommendation recommendation = recommend(results);
   return {
       {"swept", swept_data(results, shown)},
       {"metrics", metric_data(results)},
@@ -211,7 +209,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
       {"points", points_data(results, shown, shared)},
       {"laws", law_data(results)},
       {"phases", diagram_data(results)},
-      {"recommended", recommendation.choice.points.empty() ? json() : json(recommendation.choice.first().id)},
+      {"recommended", shown.recommended.choice.points.empty() ? json() : json(shown.recommended.choice.first().id)},
       {"speed", speed_data(results, shown)},
   };
 }

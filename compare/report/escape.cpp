@@ -17,6 +17,11 @@ bool is_number(std::string_view text) {
 }  // namespace
 
 std::string csv_text(std::string_view text) {
+  // Most cells are plain words and numbers, which nothing below would change.
+  const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != ',' && c != '"' && c != ':'; };
+  if (std::all_of(text.begin(), text.end(), is_plain) &&
+      (text.empty() || std::string_view("=+-@").find(text.front()) == std::string_view::npos))
+    return std::string(text);
   std::string cell = printable(text);
   if (!cell.empty() && std::string_view("=+-@").find(cell.front()) != std::string_view::npos && !is_number(cell))
     cell.insert(0, 1, '\'');

@@ -118,7 +118,7 @@ Markup figure_of(const PointRecord& point, const std::string& bytes, const Resul
   head["data"] = base64(packed(std::string_view(bytes).substr(bytes.find('\n') + 1), head.value("answers", size_t{0})));
   head["point"] = point.id;
   const bool stack = head.value("kind", "thresholds") == "stack";
-  head["marks"] = stack ? stack_marks(point, recommend(results), head) : marks_of(point, recommend(results));
+  head["marks"] = stack ? stack_marks(point, shown.recommended, head) : marks_of(point, shown.recommended);
   const std::vector<PictureRecord> pictures = pictures_for_page(point, recommended_biases(shown.groups));
   const bool at_other = std::any_of(pictures.begin(), pictures.end(), [](const PictureRecord& picture) {
     return picture.name == at_recommended_bias("map");
@@ -152,7 +152,7 @@ bool has_live_picture(const Results& results) {
 
 Markup live_figure(const Results& results, const ShownPoints& shown,
                    const std::function<std::string(const std::string&)>& read_file) {
-  const PointRecord* const point = opening(results, shown.groups).point;
+  const PointRecord* const point = opening(results, shown.groups, shown.recommended).point;
   if (!point) return "";
   try {
     return figure_of(*point, read_file(live_image(*point)->path), results, shown);

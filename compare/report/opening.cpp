@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view bias_separator = " at ";  // no picture's own name has it
 
-const PointRecord* point_to_open(const Results& results) {
+const PointRecord* point_to_open(const Results& results, const Recommendation& recommended) {
   for (const BoundResult& bound : results.bounds)
     // A bound of the whole frame names its first light, which may have no part in it.
     if (const PointRecord* point =
@@ -25,11 +25,10 @@ const PointRecord* point_to_open(const Results& results) {
         point && live_image(*point))
       return point;
   if (const PointRecord* light = largest_light(results); light && live_image(*light)) return light;
-  const Recommendation found = recommend(results);
   const PointRecord* first = nullptr;
   for (const PointRecord& point : results.points) {
     if (!live_image(point)) continue;
-    if (!found.choice.points.empty() && found.choice.first().id == point.id) return &point;
+    if (!recommended.choice.points.empty() && recommended.choice.first().id == point.id) return &point;
     if (!first) first = &point;
   }
   return first;
@@ -50,8 +49,8 @@ const ImageRecord* live_image(const PointRecord& point) {
   return nullptr;
 }
 
-Opening opening(const Results& results, const std::vector<ComparedGroup>& groups) {
-  Opening first{point_to_open(results), {}};
+Opening opening(const Results& results, const std::vector<ComparedGroup>& groups, const Recommendation& recommended) {
+  Opening first{point_to_open(results, recommended), {}};
   if (!first.point || opens_as_set(results)) return first;
   const std::map<int64_t, double> biases = recommended_biases(groups);
   const auto bias = biases.find(first.point->id);

@@ -1,7 +1,7 @@
 // How the page opens: the point of its first picture, and the bias of all its figures. And the pictures of a point at another
 // bias than its own, with which it opens where it recommends one.
 //
-//   const Opening first = opening(results, compared_groups(results));
+//   const Opening first = opening(results, compared_groups(results), recommend(results));
 //   if (first.bias) draw(*first.point, *first.bias, name_at_bias("map", *first.bias));
 #pragma once
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Opening {
   const PointRecord* point = nullptr;
   std::optional<double> bias;  // at which it opens, in bias.unit; empty: as set
 };
-Opening opening(const Results& results, const std::vector<ComparedGroup>& groups);
+Opening opening(const Results& results, const std::vector<ComparedGroup>& groups, const Recommendation& recommended);
 
 // A picture at another bias than the point's own has the bias in its name, exactly: "map at 3.7". A page shows it only while
 // that bias is the recommended one of the point. bias: in bias.unit, of the parameter that the point's curve varies.

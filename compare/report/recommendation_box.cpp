@@ -133,7 +133,7 @@ Markup cheapest_of_parts(const Results& results, const ShownPoints& shown) {
   for (const PointRecord& point : shown.results.points) on_page.insert(point.id);
   const std::string name = ChoiceNames(results).of(best.choice, AtBias::best),
                     of = GroupNames(results, shown.groups).of(group);
-  const PointRecord* const point = point_on_page(best, error_shown_first(results), on_page);
+  const PointRecord* const point = point_on_page(best, shown.error_first, on_page);
   return prose(" Of the {} choices{} the cheapest that is good enough is {}.", group.choices.size(),
                of.empty() ? "" : " for " + of, point ? point_link(point->id, name) : name);
 }
@@ -154,7 +154,7 @@ Markup held_of_parts(const Results& results, const ShownPoints& shown) {
 // What to set, or what is known instead.
 Markup what_to_set(const Results& results, const ShownPoints& shown) {
   if (!results.points.front().part.empty()) return held_of_parts(results, shown);
-  const Recommendation found = recommend(results);
+  const Recommendation& found = shown.recommended;
   switch (found.outcome) {
     case Recommendation::Outcome::no_criterion:
       return "No bound and no bias curve says what is good enough, so no setting is recommended.";
@@ -277,8 +277,7 @@ Markup causes_text(const Recommendation& found) {
 }
 
 // The most accurate setting, if it is another one.
-Markup accurate_text(const Recommendation& found, const Results& results) {
-  const Recommendation accurate = recommend_accurate(results);
+Markup accurate_text(const Recommendation& found, const Recommendation& accurate, const Results& results) {
   const std::string phrase = accurate.choice.points.empty() ? "" : chosen_phrase(accurate, results);
   if (&accurate.choice.first() == &found.choice.first()) return "";
   const std::string bias =
@@ -309,8 +308,8 @@ Markup criterion_text(const Recommendation& found, const Results& results) {
 
 }  // namespace
 
-Markup recommendation_box(const Results& results) {
-  const Recommendation found = recommend(results);
+Markup recommendation_box(const Results& results, const ShownPoints& shown) {
+  const Recommendation& found = shown.recommended;
   if (Markup none = box_without_answer(results, found); !none.empty()) return none;
   const bool kept = found.bias && found.bias->as_set;
   const Markup answer =
@@ -319,14 +318,14 @@ Markup recommendation_box(const Results& results) {
             found.bias ? bias_margin_text(*found.bias) : "");
   const Markup reasons = prose(
       "It is {}: {}.{}{}", point_links(found.choice), criterion_text(found, results), noise_text(found.noise, results),
-      compares_choices(results)
+      compares_choices(shown.groups)
           ? prose(" {} compares by other costs and errors.", section_link("cost", "Speed against accuracy"))
           : Markup());
   // Not green while a bound is broken: a reader would take the colour for the verdict.
   const bool broken = std::any_of(results.bounds.begin(), results.bounds.end(), breaks);
   return box(broken ? "none" : "held", kept ? "What is set" : "What to set",
              paragraph(answer) + element("dl", settings_and_bias(found, results)) + "\n" + causes_text(found) +
-                 accurate_text(found, results) + element("p", css("small"), reasons));
+                 accurate_text(found, shown.accurate, results) + element("p", css("small"), reasons));
 }
 
 }  // namespace noonmark::report

@@ -79,7 +79,7 @@ bool opens_with_motion(const Results& results) {
 bool opens_with_speed(const Results& results, const ShownPoints& shown) {
   const bool parts = !results.points.empty() && !results.points.front().part.empty();
   return (parts || !report::has_live_picture(results)) && !report::has_diagram(results) &&
-         !report::has_flicker(results) && report::has_speed_chart(results, shown);
+         !report::has_flicker(results) && report::has_speed_chart(shown);
 }
 Markup motion(const Results& results, const ShownPoints&, const ReadFile&) {
   return report::has_flicker(results) ? report::flicker_section(results, opens_with_motion(results)) : "";
@@ -89,7 +89,7 @@ Markup speed(const Results& results, const ShownPoints& shown, const ReadFile&) 
 }
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
-    {"answer", nullptr, plain<report::answer_section>, false},
+    {"answer", nullptr, by_point<report::answer_section>, false},
     {"lights", "Lights", lights, false},
     {"engines", "Engines", plain<report::engines_section>, false},
     {"motion", "Motion", motion, false},
@@ -114,7 +114,7 @@ std::vector<ShownSection> sections_of(const Results& results, const ShownPoints&
   std::vector<ShownSection> sections;
   for (const Section& section : all_sections) {
     if (parts && section.compares) continue;
-    const std::string label = section.label ? section.label : report::answer_label(results);
+    const std::string label = section.label ? section.label : report::answer_label(results, shown);
     if (Markup content = section.make(results, shown, read_file); !content.empty())
       sections.push_back({section.id, label, std::move(content)});
   }

@@ -20,7 +20,8 @@ namespace noonmark::report {
 namespace {
 
 // Indices of the points that the page speaks of, the most important first.
-std::vector<size_t> spoken_of(const Results& results, const std::vector<ComparedGroup>& groups) {
+std::vector<size_t> spoken_of(const Results& results, const ShownPoints& shown) {
+  const std::vector<ComparedGroup>& groups = shown.groups;
   std::vector<size_t> out;
   std::map<int64_t, size_t> place;
   for (size_t i = 0; i < results.points.size(); ++i) place.emplace(results.points[i].id, i);
@@ -28,8 +29,8 @@ std::vector<size_t> spoken_of(const Results& results, const std::vector<Compared
     if (const auto found = place.find(id); found != place.end()) out.push_back(found->second);
   };
   if (results.points.front().part.empty()) {
-    for (const Recommendation& found : {recommend(results), recommend_accurate(results)})
-      for (const PointRecord* point : found.choice.points) add(point->id);
+    for (const Recommendation* found : {&shown.recommended, &shown.accurate})
+      for (const PointRecord* point : found->choice.points) add(point->id);
   }
   for (const BoundResult& bound : results.bounds) add(bound.point);
   for (const LawResult& law : results.laws)
@@ -41,7 +42,7 @@ std::vector<size_t> spoken_of(const Results& results, const std::vector<Compared
   const auto worst = std::max_element(results.points.begin(), results.points.end(),
                                       [&](const auto& a, const auto& b) { return error_of(a) < error_of(b); });
   add(worst->id);
-  const std::string error = error_shown_first(results);
+  const std::string& error = shown.error_first;
   for (const ComparedGroup& group : groups) {
     std::vector<size_t> named = front_of(group, results.info.cost, error);
     for (const std::optional<size_t>& one : {group.recommended, group.accurate})
@@ -49,7 +50,7 @@ std::vector<size_t> spoken_of(const Results& results, const std::vector<Compared
     for (size_t i : named)
       if (const PointRecord* at = value_of(group.choices[i], error).at) add(at->id);
   }
-  for (int64_t id : answer_points(groups, results)) add(id);
+  for (int64_t id : answer_points(groups, shown.techniques, results)) add(id);
   for (size_t i = 0; i < results.points.size(); ++i)
     if (!results.points[i].pictures.empty()) out.push_back(i);
   return out;
@@ -101,8 +102,19 @@ std::vector<size_t> smaller_grid(const Results& results, std::string& said) {
 
 ShownPoints shown_points(const Results& results) {
   const size_t count = results.points.size();
-  std::vector<ComparedGroup> groups = compared_groups(results);
-  if (count <= most_whole_points) return {results, "", std::move(groups)};
+  ShownPoints shown;
+  shown.groups = compared_groups(results);
+  const std::vector<Recommendation> good = good_choices(shown.groups);
+  shown.recommended = recommend(results, good);
+  shown.accurate = recommend_accurate(results, good);
+  for (const ComparedGroup& group : shown.groups) shown.techniques.push_back(techniques_of(group, results));
+  shown.costs = costs_of(results);
+  shown.errors = errors_of(results);
+  shown.error_first = error_shown_first(results);
+  if (count <= most_whole_points) {
+    shown.results = results;
+    return shown;
+  }
   std::string said;
   std::vector<size_t> even = smaller_grid(results, said);
   if (even.empty()) {
@@ -111,17 +123,15 @@ ShownPoints shown_points(const Results& results) {
   }
   std::set<size_t> chosen(even.begin(), even.end());
   const size_t from_the_grid = chosen.size();
-  for (size_t i : spoken_of(results, groups)) {
+  for (size_t i : spoken_of(results, shown)) {
     if (chosen.size() == from_the_grid + max_marked_points) break;
     chosen.insert(i);
   }
-  ShownPoints shown;
   Results& out = shown.results;
   out.info = results.info;
   out.planned_points = results.planned_points;
   out.bounds = results.bounds;
   out.laws = results.laws;
-  shown.groups = std::move(groups);
   for (size_t i : chosen) out.points.push_back(results.points[i]);
   shown.note = paragraph(
       css("note thinned"),

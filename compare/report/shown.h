@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/judge/techniques.h"
 #include "compare/judge/tradeoff.h"
 #include "compare/report/element.h"
 #include "compare/results/records.h"
@@ -28,6 +29,11 @@ struct ShownPoints {
   Markup note;      // how many of how many, how they were chosen, and where all points are
   // All choices, also those that are not shown. They refer to the points that were given to shown_points().
   std::vector<ComparedGroup> groups;
+  // What several parts of the page say of all points, found once, because of thousands of points each takes its time.
+  std::vector<Techniques> techniques;      // of each group
+  Recommendation recommended, accurate;    // recommend(), recommend_accurate()
+  std::vector<std::string> costs, errors;  // costs_of(), errors_of() (compare/report/speed.h)
+  std::string error_first;                 // error_shown_first()
 };
 
 // A large sweep is thinned to a smaller grid: of the settings with the most values, some values are kept, evenly spaced

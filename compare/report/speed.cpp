@@ -158,10 +158,9 @@ json reading_data(const SpeedReadings& readings, const SpeedReading& reading, co
 
 // By cost, error and bias of the page. The curves of many pairs are the same and stand once. Of more than most_whole_points
 // choices only the pair that is shown first is read, because each takes time.
-void add_readings(json& out, const ComparedGroup& group, const Results& results, const Axes& axes,
-                  const ChoiceNames& names, const std::vector<int>& entry_of) {
-  const SpeedReadings readings(group, results);
-  const Techniques& techniques = readings.techniques();
+void add_readings(json& out, const ComparedGroup& group, const Techniques& techniques, const Results& results,
+                  const Axes& axes, const ChoiceNames& names, const std::vector<int>& entry_of) {
+  const SpeedReadings readings(group, techniques, results);
   out["scale"] = techniques.scale.empty() ? "" : setting_label(techniques.scale);
   for (size_t i = 0; i < entry_of.size(); ++i)
     if (entry_of[i] >= 0) out["entries"][static_cast<size_t>(entry_of[i])]["technique"] = techniques.of[i];
@@ -181,8 +180,8 @@ void add_readings(json& out, const ComparedGroup& group, const Results& results,
       }
 }
 
-json group_data(const ComparedGroup& group, const Results& results, const Axes& axes, const ChoiceNames& names,
-                const std::unordered_set<int64_t>& shown_ids) {
+json group_data(const ComparedGroup& group, const Techniques& techniques, const Results& results, const Axes& axes,
+                const ChoiceNames& names, const std::unordered_set<int64_t>& shown_ids) {
   const std::vector<Property> properties = properties_of(group, results);
   json out{{"choices", group.choices.size()}, {"entries", json::array()}, {"properties", json::array()}};
   for (const Property& property : properties) {
@@ -211,7 +210,7 @@ json group_data(const ComparedGroup& group, const Results& results, const Axes& 
     entry_of[i] = static_cast<int>(out["entries"].size());
     out["entries"].push_back(std::move(entry));
   }
-  if (!out["entries"].empty()) add_readings(out, group, results, axes, names, entry_of);
+  if (!out["entries"].empty()) add_readings(out, group, techniques, results, axes, names, entry_of);
   return out;
 }
 
@@ -303,18 +302,18 @@ const PointRecord* point_on_page(const ComparedChoice& one, const std::string& e
 }
 
 json speed_data(const Results& results, const ShownPoints& shown) {
-  json data{{"costs", costs_of(results)}, {"errors", errors_of(results)}, {"error", error_shown_first(results)}};
+  json data{{"costs", shown.costs}, {"errors", shown.errors}, {"error", shown.error_first}};
   data["groups"] = json::array();
   if (shown.groups.empty()) return data;
   const size_t first = group_shown_first(shown.groups);
   data["group"] = 0;
   const ChoiceNames names(results);
   const GroupNames group_names(results, shown.groups);
-  const Axes axes{costs_of(results), errors_of(results), error_shown_first(results)};
+  const Axes axes{shown.costs, shown.errors, shown.error_first};
   std::unordered_set<int64_t> shown_ids;
   for (const PointRecord& point : shown.results.points) shown_ids.insert(point.id);
   for (size_t i = 0; i < shown.groups.size(); ++i) {
-    json group = group_data(shown.groups[i], results, axes, names, shown_ids);
+    json group = group_data(shown.groups[i], shown.techniques[i], results, axes, names, shown_ids);
     if (group["entries"].empty()) continue;
     group["name"] = group_names.of(shown.groups[i]);
     if (i == first) data["group"] = data["groups"].size();

@@ -102,7 +102,10 @@ std::string cause_text(const std::string& cause) {
 }  // namespace
 
 SpeedReadings::SpeedReadings(const ComparedGroup& group, const Results& results)
-    : group_(group), techniques_(techniques_of(group, results)), is_incomplete_(is_incomplete(results)) {}
+    : SpeedReadings(group, techniques_of(group, results), results) {}
+
+SpeedReadings::SpeedReadings(const ComparedGroup& group, Techniques techniques, const Results& results)
+    : group_(group), techniques_(std::move(techniques)), is_incomplete_(is_incomplete(results)) {}
 
 SpeedReading SpeedReadings::of(const std::string& cost, const std::string& error, AtBias at) const {
   SpeedReading reading{cost, error, at, {}, {}, {}, {}};
@@ -178,10 +181,19 @@ std::vector<Phrase> SpeedReadings::why(const SpeedReading& reading, const Choice
 }
 
 std::vector<int64_t> answer_points(const std::vector<ComparedGroup>& groups, const Results& results) {
+  std::vector<Techniques> techniques;
+  for (const ComparedGroup& group : groups) techniques.push_back(techniques_of(group, results));
+  return answer_points(groups, techniques, results);
+}
+
+std::vector<int64_t> answer_points(const std::vector<ComparedGroup>& groups, const std::vector<Techniques>& techniques,
+                                   const Results& results) {
   const std::string error = error_shown_first(results);
   std::vector<int64_t> ids;
-  for (const ComparedGroup& group : groups) {
-    const SpeedReading reading = SpeedReadings(group, results).of(results.info.cost, error, AtBias::best);
+  for (size_t which = 0; which < groups.size(); ++which) {
+    const ComparedGroup& group = groups[which];
+    const SpeedReading reading =
+        SpeedReadings(group, techniques[which], results).of(results.info.cost, error, AtBias::best);
     if (!reading.answers) continue;
     for (size_t i : {reading.answers->least, reading.answers->balanced, reading.answers->best})
       if (const PointRecord* at = value_of(group.choices[i], error).at;

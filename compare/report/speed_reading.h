@@ -43,6 +43,8 @@ class SpeedReadings {
  public:
   // The group must live longer.
   SpeedReadings(const ComparedGroup& group, const Results& results);
+  // The same where techniques_of() is known already.
+  SpeedReadings(const ComparedGroup& group, Techniques techniques, const Results& results);
 
   SpeedReading of(const std::string& cost, const std::string& error, AtBias at) const;
   const Techniques& techniques() const { return techniques_; }
@@ -63,5 +65,8 @@ class SpeedReadings {
 // The points of the three answers of every group, for RunInfo::cost and error_shown_first(), each at the condition that is worst;
 // those of the first group first. Each id once.
 std::vector<int64_t> answer_points(const std::vector<ComparedGroup>& groups, const Results& results);
+// The same where techniques_of() of each group is known already.
+std::vector<int64_t> answer_points(const std::vector<ComparedGroup>& groups, const std::vector<Techniques>& techniques,
+                                   const Results& results);
 
 }  // namespace noonmark::report

@@ -193,8 +193,9 @@ FrontRows front_rows(const ComparedGroup& group, const std::string& name, const 
 
 // The front of one group: as set, and at the best bias of each choice. The page shows that of its bias. Empty if no
 // choice is on either.
-Markup front_table(const ComparedGroup& group, const std::string& name, const Plane& plane, bool open) {
-  const SpeedReadings readings(group, plane.results);
+Markup front_table(const ComparedGroup& group, const Techniques& techniques, const std::string& name,
+                   const Plane& plane, bool open) {
+  const SpeedReadings readings(group, techniques, plane.results);
   const auto rows_at = [&](AtBias at) {
     return front_rows(group, name, plane, readings.of(plane.cost, plane.error, at));
   };
@@ -221,24 +222,21 @@ Markup speed_chart() {
                      "Pareto front. Choices of equal cost and nearly equal error share one mark.");
 }
 
-bool compares_choices(const Results& results) {
-  const std::vector<std::vector<Choice>> groups = comparable_choices(results);
-  return std::any_of(groups.begin(), groups.end(), [](const auto& group) { return group.size() > 1; });
+bool compares_choices(const std::vector<ComparedGroup>& groups) {
+  return std::any_of(groups.begin(), groups.end(), [](const ComparedGroup& group) { return group.choices.size() > 1; });
 }
 
-bool has_speed_chart(const Results& results, const ShownPoints& shown) {
-  return compares_choices(results) && !shown.groups.empty() && !costs_of(results).empty() &&
-         !errors_of(results).empty();
+bool has_speed_chart(const ShownPoints& shown) {
+  return compares_choices(shown.groups) && !shown.costs.empty() && !shown.errors.empty();
 }
 
 Markup speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen) {
-  if (!has_speed_chart(results, shown)) return "";
-  const std::vector<std::string> costs = costs_of(results), errors = errors_of(results);
-  Plane plane{results, costs.front(), error_shown_first(results), ChoiceNames(results), {}};
+  if (!has_speed_chart(shown)) return "";
+  Plane plane{results, shown.costs.front(), shown.error_first, ChoiceNames(results), {}};
   for (const PointRecord& point : shown.results.points) plane.shown_ids.insert(point.id);
   const size_t first = group_shown_first(shown.groups);
   const ComparedGroup& group = shown.groups[first];
-  const SpeedReadings readings(group, results);
+  const SpeedReadings readings(group, shown.techniques[first], results);
   const auto words = [&](AtBias at) {
     const SpeedReading reading = readings.of(plane.cost, plane.error, at);
     Markup takeovers;
@@ -261,7 +259,8 @@ Markup speed_section(const Results& results, const ShownPoints& shown, bool on_f
   if (!on_first_screen) out += speed_chart();
   for (size_t i = 0; i < std::min(shown.groups.size(), most_tables); ++i) {
     const size_t which = i == 0 ? first : i <= first ? i - 1 : i;  // the one shown first, then the others
-    out += front_table(shown.groups[which], names.of(shown.groups[which]), plane, which == first);
+    out +=
+        front_table(shown.groups[which], shown.techniques[which], names.of(shown.groups[which]), plane, which == first);
   }
   if (shown.groups.size() > most_tables)
     out +=

@@ -12,10 +12,10 @@ namespace noonmark::report {
 Markup speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen);
 
 // Whether some choices can be compared with each other. One alone has no chart.
-bool compares_choices(const Results& results);
+bool compares_choices(const std::vector<ComparedGroup>& groups);
 
 // True if choices can be compared and at least one has a finite cost and a finite error. Otherwise there is no chart.
-bool has_speed_chart(const Results& results, const ShownPoints& shown);
+bool has_speed_chart(const ShownPoints& shown);
 Markup speed_chart();
 
 }  // namespace noonmark::report

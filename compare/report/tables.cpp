@@ -5,8 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
@@ -91,13 +96,27 @@ Markup sections_of(const PointRecord& point, const std::vector<std::string>& swe
          div(css("sections"), Attribute("data-point", point.id), "\n", figures) + "\n";
 }
 
-// A metric with the same value at every point needs no column.
-bool varies(const Results& results, const std::string& name) {
-  const auto text = [&](const PointRecord& point) {
-    return point.metrics.contains(name) ? fmt::format("{}", point.metrics.at(name)) : "";
+// The metrics that do not have the same value at every point: one with the same value needs no column. Each point is gone
+// through once, beside the first one, because both have their metrics in the same order.
+std::set<std::string, std::less<>> varying_metrics(const std::vector<PointRecord>& points) {
+  const auto same = [](double a, double b) {  // as text
+    return (a == b || (std::isnan(a) && std::isnan(b))) && std::signbit(a) == std::signbit(b);
   };
-  return std::any_of(results.points.begin(), results.points.end(),
-                     [&](const PointRecord& point) { return text(point) != text(results.points.front()); });
+  std::set<std::string, std::less<>> varying;
+  const std::map<std::string, double>& first = points.front().metrics;
+  for (const PointRecord& point : points) {
+    auto a = first.begin(), b = point.metrics.begin();
+    while (a != first.end() || b != point.metrics.end()) {
+      const int order = a == first.end() ? 1 : b == point.metrics.end() ? -1 : a->first.compare(b->first);
+      if (order != 0)
+        varying.insert(order < 0 ? (a++)->first : (b++)->first);
+      else if (const double one = (a++)->second, other = b->second; !same(one, other))
+        varying.insert((b++)->first);
+      else
+        ++b;
+    }
+  }
+  return varying;
 }
 
 Markup term_if_known(const std::string& name, const std::string& value) {
@@ -189,10 +208,11 @@ Markup points_section(const Results& results, const ShownPoints& shown) {
   if (results.points.empty()) return "";
   Columns columns{!results.points.front().part.empty(), text_classes(results), {}};
   const std::vector<Metric> metrics = metrics_of(results.points);
+  const auto varying = varying_metrics(results.points);
   std::string same;
   for (const Metric& metric : metrics) {
     const std::string name(metric.name);
-    if (results.points.size() == 1 || varies(results, name))
+    if (results.points.size() == 1 || varying.contains(name))
       columns.metrics.push_back(&metric);
     else if (results.points.front().metrics.contains(name))
       same += fmt::format("{}{} {}", same.empty() ? "" : ", ", metric_label(name),

@@ -76,7 +76,7 @@ std::string first_finding(const std::string& text) {
 
 }  // namespace
 
-void check_store(Database& db) {
+void check_tables(Database& db) {
   if (db.ask("PRAGMA application_id") != std::to_string(store_application_id))
     throw Error(ErrorKind::file,
                 fmt::format("{}: is a database, but not one of Noonmark's results; {}", db.path(), db.way_out()));
@@ -88,6 +88,10 @@ void check_store(Database& db) {
   if (const std::string found = difference(schema_of(db)); !found.empty())
     throw Error(ErrorKind::file, fmt::format("{}: holds other tables than the ones that this Noonmark makes ({}); {}",
                                              db.path(), found, db.way_out()));
+}
+
+void check_store(Database& db) {
+  check_tables(db);
   // integrity_check and not quick_check, because quick_check does not look at the order of rows, and a search does not
   // find rows that are out of order.
   if (const std::string found = db.ask("PRAGMA integrity_check(1)").value_or("?"); found != "ok")

@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <charconv>
+#include <exception>
 #include <map>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "base/error.h"
 #include "compare/store/record_tables.h"
+#include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
 #include "technique/settings.h"
 
@@ -49,19 +55,47 @@ void add_curve(Database& db, int64_t point, const BiasCurve& curve) {
   Table<WindowSteps>::Insert(db, curve_windows_table()).row({point}, curve.steps);
 }
 
-void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
-  curves_table().read(db, [&](std::span<const int64_t> key, BiasCurve curve) {
-    if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
-      throw std::runtime_error("a usable window with only one end");
-    if (curve.window_min_depth && *curve.window_min_depth > *curve.window_max_depth)
-      throw std::runtime_error("a usable window that ends before it begins");
-    points.at(key[0]).curve = std::move(curve);
-  });
-  read_series(db, [&](int64_t point) -> BiasCurve& { return points.at(point).curve.value(); });
-  curve_windows_table().read(db, [&](std::span<const int64_t> key, WindowSteps steps) {
-    points.at(key[0]).curve.value().steps = std::move(steps);
-  });
+BiasCurve curve_of(const Statement& row) {
+  BiasCurve curve = curves_table().record_of(row);
+  if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
+    throw std::runtime_error("a usable window with only one end");
+  if (curve.window_min_depth && *curve.window_min_depth > *curve.window_max_depth)
+    throw std::runtime_error("a usable window that ends before it begins");
+  return curve;
 }
+
+// How the rows of each table become part of a point's record. The rows of a table come in the order of its keys, so names
+// ascend and each is the last of its map.
+struct TableOfPoints {
+  std::string_view name;
+  void (*read)(const Statement& row, PointRecord& point);
+};
+constexpr TableOfPoints tables[] = {
+    {"finished",
+     [](const Statement& row, PointRecord& point) {
+       point = finished_table().record_of(row);
+       point.id = row.integer(0);
+     }},
+    {"settings",
+     [](const Statement& row, PointRecord& point) {
+       point.settings.emplace_hint(point.settings.end(), row.text_view(1), row.text_view(3));
+     }},
+    {"metrics",
+     [](const Statement& row, PointRecord& point) {
+       point.metrics.emplace_hint(point.metrics.end(), row.text_view(1), row.real(2));
+     }},
+    {"times", [](const Statement& row,
+                 PointRecord& point) { point.times.emplace_hint(point.times.end(), row.text_view(1), row.real(2)); }},
+    {"curves", [](const Statement& row, PointRecord& point) { point.curve = curve_of(row); }},
+    {"curve_points", [](const Statement& row, PointRecord& point) { read_series(row, point.curve.value()); }},
+    {"pictures",
+     [](const Statement& row, PointRecord& point) { point.pictures.push_back(pictures_table().record_of(row)); }},
+    {"images", [](const Statement& row, PointRecord& point) { point.images.push_back(images_table().record_of(row)); }},
+    {"curve_windows", [](const Statement& row,
+                         PointRecord& point) { point.curve.value().steps = curve_windows_table().record_of(row); }},
+    {"worst_pixels",
+     [](const Statement& row, PointRecord& point) { point.worst_of.push_back(worst_pixels_table().record_of(row)); }},
+};
 
 // A point has the causes whose metric it has.
 void load_causes(Database& db, std::map<int64_t, PointRecord>& points) {
@@ -100,30 +134,45 @@ void add_rows(Database& db, const PointRecord& point) {
   for (size_t i = 0; i < point.worst_of.size(); ++i) worst.row({point.id, static_cast<int64_t>(i)}, point.worst_of[i]);
 }
 
+StoredPoints read_points(Database& db) {
+  StoredPoints read;
+  std::map<int64_t, std::exception_ptr> faults;  // the first of each point
+  PointRecord* present = nullptr;                // the last of read.whole
+  const auto reader_of = [&](std::string_view table) -> RowReader {
+    const auto* const found =
+        std::find_if(std::begin(tables), std::end(tables), [&](const auto& one) { return one.name == table; });
+    if (found == std::end(tables)) throw std::logic_error(fmt::format("no reader for the table {}", table));
+    const bool begins = found == std::begin(tables);
+    return [&, found, begins](int64_t point, const Statement& row) {
+      try {
+        if (begins)
+          present = &read.whole.emplace_hint(read.whole.end(), point, PointRecord())->second;
+        else if (!present || present->id != point)
+          throw std::runtime_error(fmt::format("rows of point {}, which is not finished", point));
+        found->read(row, *present);
+      } catch (const Error&) {
+        throw;
+      } catch (const std::bad_alloc&) {
+        throw;
+      } catch (const std::exception&) {
+        faults.emplace(point, std::current_exception());
+      }
+    };
+  };
+  read.broken = broken_points(db, reader_of);
+  for (const int64_t point : read.broken) {
+    read.whole.erase(point);
+    faults.erase(point);
+  }
+  if (!faults.empty()) read.fault = faults.begin()->second;
+  load_causes(db, read.whole);
+  return read;
+}
+
 std::map<int64_t, PointRecord> load_points(Database& db) {
-  std::map<int64_t, PointRecord> points;
-  finished_table().read(db, [&](std::span<const int64_t> key, PointRecord point) {
-    point.id = key[0];
-    points.emplace(key[0], std::move(point));
-  });
-  for (Statement rows(db, "SELECT point, name, text FROM settings"); rows.step();)
-    points.at(rows.integer(0)).settings[rows.text(1)] = rows.text(2);
-  for (Statement rows(db, "SELECT point, name, value FROM metrics"); rows.step();)
-    points.at(rows.integer(0)).metrics[rows.text(1)] = rows.real(2);
-  for (Statement rows(db, "SELECT point, name, value FROM times"); rows.step();)
-    points.at(rows.integer(0)).times[rows.text(1)] = rows.real(2);
-  pictures_table().read(db, [&](std::span<const int64_t> key, PictureRecord picture) {
-    points.at(key[0]).pictures.push_back(std::move(picture));
-  });
-  images_table().read(db, [&](std::span<const int64_t> key, ImageRecord image) {
-    points.at(key[0]).images.push_back(std::move(image));
-  });
-  worst_pixels_table().read(db, [&](std::span<const int64_t> key, PointRecord::WorstOf worst) {
-    points.at(key[0]).worst_of.push_back(std::move(worst));
-  });
-  load_curves(db, points);
-  load_causes(db, points);
-  return points;
+  StoredPoints read = read_points(db);
+  if (read.fault) std::rethrow_exception(read.fault);
+  return std::move(read.whole);
 }
 
 }  // namespace noonmark

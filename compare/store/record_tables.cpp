@@ -142,8 +142,7 @@ const Table<BoundResult>& bounds_table() {
       {column("part", &B::part), column("metric", &B::metric), column("max", &B::max), column("min", &B::min),
        where_column, column("join_by", &B::join), column("placement", &B::placement), column("held", &B::held),
        column("found", &B::found), column("point", &B::point), column("points", &B::points),
-       column("reproduce", &B::reproduce), column("warns", &B::warns),
-       column("before", &B::before)});
+       column("reproduce", &B::reproduce), column("warns", &B::warns), column("before", &B::before)});
   return table;
 }
 
@@ -187,15 +186,11 @@ void add_series(Database& db, int64_t point, const BiasCurve& curve) {
   }
 }
 
-void read_series(Database& db, const std::function<BiasCurve&(int64_t)>& curve_of) {
-  for (Statement rows(db, fmt::format("SELECT point{} FROM curve_points ORDER BY point, i", series_names()));
-       rows.step();) {
-    BiasCurve& curve = curve_of(rows.integer(0));
-    int index = 1;
-    for (const CurveSeries& series : curve_series()) {
-      if (!is_absent(series, curve)) series.of(curve).push_back(rows.real(index));
-      ++index;
-    }
+void read_series(const Statement& row, BiasCurve& curve) {
+  int index = 2;  // after the point and the place
+  for (const CurveSeries& series : curve_series()) {
+    if (!is_absent(series, curve)) series.of(curve).push_back(row.real(index));
+    ++index;
   }
 }
 

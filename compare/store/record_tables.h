@@ -1,7 +1,6 @@
 // The tables of the store that hold records, each described once (table.h). The other tables hold names and values and
 // are described in schema.cpp.
 #pragma once
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -22,8 +21,8 @@ const Table<LawResult::Sample>& law_samples_table();
 
 // The series of a curve: one row for each bias, in the order of the biases.
 void add_series(sqlite::Database& db, int64_t point, const BiasCurve& curve);
-// Calls curve_of(point) for each row, and adds the row's values to that curve's series.
-void read_series(sqlite::Database& db, const std::function<BiasCurve&(int64_t)>& curve_of);
+// Adds a row's values to the curve's series. The row has all columns of the table curve_points, in its order.
+void read_series(const sqlite::Statement& row, BiasCurve& curve);
 
 // The SQL that makes all these tables, but finished_table().
 std::string record_tables();

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <deque>
 #include <optional>
-#include <set>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "base/digest.h"
 #include "base/error.h"
@@ -69,14 +71,58 @@ bool holds(Database& db, const std::string& name, const std::string& digest) {
 
 void seal(Database& db, const Sealed& what, int64_t id) { set_seal(db, what.seal(id), digest_of(db, what, id)); }
 
-std::vector<int64_t> broken(Database& db, const Sealed& what) {
-  std::set<int64_t> ids, found;
-  for (std::string_view table : what.tables)
-    for (Statement rows(db, fmt::format("SELECT DISTINCT {} FROM {}", what.name, table)); rows.step();)
-      ids.insert(rows.integer(0));
-  for (int64_t id : ids)
-    if (!holds(db, what.seal(id), digest_of(db, what, id))) found.insert(id);
-  return {found.begin(), found.end()};
+// All rows of a table, by their id. Those of one id come in the order in which digest_of() reads them.
+class RowsById {
+ public:
+  RowsById(Database& db, const Sealed& what, std::string_view table)
+      : table_(table), rows_(db, fmt::format("SELECT * FROM {} ORDER BY {}", table, what.order)) {
+    step();
+  }
+  std::string_view table() const { return table_; }
+  std::optional<int64_t> id() const { return id_; }  // of the present row; empty after the last
+  const Statement& row() const { return rows_; }
+  void step() {
+    id_.reset();
+    if (!rows_.step()) return;
+    if (!rows_.is_integer(0)) throw std::runtime_error(fmt::format("a row of {} without a number", table_));
+    id_ = rows_.integer(0);
+  }
+
+ private:
+  std::string_view table_;
+  Statement rows_;
+  std::optional<int64_t> id_;
+};
+
+// Reads each table once and all side by side: one question for each id and table would take several times as long.
+std::vector<int64_t> broken(Database& db, const Sealed& what,
+                            const std::function<RowReader(std::string_view table)>& reader_of = {}) {
+  std::unordered_map<std::string, std::string> seals;
+  for (Statement rows(db, "SELECT name, digest FROM seals"); rows.step();) seals[rows.text(0)] = rows.text(1);
+  std::deque<RowsById> tables;  // rows do not move
+  std::vector<RowReader> readers;
+  for (std::string_view table : what.tables) {
+    tables.emplace_back(db, what, table);
+    readers.push_back(reader_of ? reader_of(table) : nullptr);
+  }
+  std::vector<int64_t> found;
+  for (;;) {
+    std::optional<int64_t> id;
+    for (const RowsById& rows : tables)
+      if (rows.id() && (!id || *rows.id() < *id)) id = rows.id();
+    if (!id) return found;
+    Digest digest;
+    for (size_t i = 0; i < tables.size(); ++i) {
+      RowsById& rows = tables[i];
+      digest.text(rows.table());
+      for (; rows.id() == id; rows.step()) {
+        rows.row().add_to(digest);
+        if (readers[i]) readers[i](*id, rows.row());
+      }
+    }
+    const auto seal = seals.find(what.seal(*id));
+    if (seal == seals.end() || seal->second != digest.hex()) found.push_back(*id);
+  }
 }
 
 void remove(Database& db, const Sealed& what, int64_t id) {
@@ -92,20 +138,21 @@ void seal_phase(Database& db, int64_t phase) { seal(db, sealed_phases, phase); }
 void seal_info(Database& db) { set_seal(db, "info", digest_of(db, info_tables)); }
 void seal_verdict(Database& db) { set_seal(db, "verdict", digest_of(db, verdict_tables)); }
 
-std::vector<int64_t> broken_points(Database& db) { return broken(db, sealed_points); }
+std::vector<int64_t> broken_points(Database& db, const std::function<RowReader(std::string_view table)>& reader_of) {
+  return broken(db, sealed_points, reader_of);
+}
 std::vector<int64_t> broken_phases(Database& db) { return broken(db, sealed_phases); }
 
 bool verdict_holds(Database& db) { return holds(db, "verdict", digest_of(db, verdict_tables)); }
 
-void require_sealed(Database& db) {
+void require_sealed(Database& db, const std::vector<int64_t>& points) {
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::file,
                 fmt::format("{}: {} are not those that were stored (edited or lost, or from another store); run the "
                             "experiment into this folder again, which measures what is damaged anew",
                             db.path(), what));
   };
-  if (const std::vector<int64_t> points = broken_points(db); !points.empty())
-    refuse(fmt::format("the rows of point {}", fmt::join(points, ", ")));
+  if (!points.empty()) refuse(fmt::format("the rows of point {}", fmt::join(points, ", ")));
   if (const std::vector<int64_t> phases = broken_phases(db); !phases.empty())
     refuse(fmt::format("the rows of phase diagram {}", fmt::join(phases, ", ")));
   if (!holds(db, "info", digest_of(db, info_tables))) refuse("the facts of the run");

@@ -60,7 +60,9 @@ Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw Error(ErrorKind::file, fmt::format("{}: is not a regular file; {}", path, way_out()));
   require_files_beside(path, way_out());
-  const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
+  // Without SQLite's own locks against other threads: each column that is read would take one. No two threads use one
+  // connection at the same time.
+  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) {
     // A failed open leaves a handle that must be closed here, because the destructor does not run.
@@ -184,27 +186,34 @@ void Statement::finish() {
 bool Statement::null(int column) const { return sqlite3_column_type(handle_, column) == SQLITE_NULL; }
 int64_t Statement::integer(int column) const { return sqlite3_column_int64(handle_, column); }
 double Statement::real(int column) const {
-  const int type = sqlite3_column_type(handle_, column);
-  return type == SQLITE_FLOAT || type == SQLITE_INTEGER ? sqlite3_column_double(handle_, column)
+  sqlite3_value* const value = sqlite3_column_value(handle_, column);
+  const int type = sqlite3_value_type(value);
+  return type == SQLITE_FLOAT || type == SQLITE_INTEGER ? sqlite3_value_double(value)
                                                         : std::numeric_limits<double>::quiet_NaN();
 }
-std::string Statement::text(int column) const {
+std::string_view Statement::text_view(int column) const {
   const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
-  return data ? std::string(data, static_cast<size_t>(sqlite3_column_bytes(handle_, column))) : std::string();
+  return data ? std::string_view(data, static_cast<size_t>(sqlite3_column_bytes(handle_, column))) : std::string_view();
 }
+bool Statement::is_integer(int column) const { return sqlite3_column_type(handle_, column) == SQLITE_INTEGER; }
 
 void Statement::add_to(Digest& digest) const {
   const int columns = sqlite3_column_count(handle_);
   digest.value(columns);
   for (int column = 0; column < columns; ++column) {
-    const int type = sqlite3_column_type(handle_, column);
+    // The value is asked for once, because each sqlite3_column_...() looks the column up again. Without SQLite's locks
+    // (Database) it may be read like any other.
+    sqlite3_value* const value = sqlite3_column_value(handle_, column);
+    const int type = sqlite3_value_type(value);
     digest.value(type);
-    if (type == SQLITE_INTEGER)
-      digest.value(integer(column));
-    else if (type == SQLITE_FLOAT)
-      digest.value(real(column));
-    else if (type != SQLITE_NULL)
-      digest.text(text(column));
+    if (type == SQLITE_INTEGER) {
+      digest.value(int64_t{sqlite3_value_int64(value)});
+    } else if (type == SQLITE_FLOAT) {
+      digest.value(sqlite3_value_double(value));
+    } else if (type != SQLITE_NULL) {
+      const auto* const text = reinterpret_cast<const char*>(sqlite3_value_text(value));
+      digest.text(text ? std::string_view(text, static_cast<size_t>(sqlite3_value_bytes(value))) : std::string_view());
+    }
   }
 }
 

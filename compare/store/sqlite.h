@@ -102,7 +102,9 @@ class Statement {
   bool null(int column) const;
   int64_t integer(int column) const;
   double real(int column) const;  // NULL and text: NaN
-  std::string text(int column) const;
+  std::string text(int column) const { return std::string(text_view(column)); }
+  std::string_view text_view(int column) const;  // valid until the next step
+  bool is_integer(int column) const;             // not text, a real or NULL
   // Adds every column with its type.
   void add_to(Digest& digest) const;
 

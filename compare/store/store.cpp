@@ -222,11 +222,15 @@ std::vector<std::string> ResultStore::repair(int64_t planned_points,
       said.push_back(fmt::format("{}: the rows of point {} are {}; it is measured anew", db_->path(), point, why));
   };
   Transaction transaction(*db_);
-  for (int64_t point : broken_points(*db_)) {
+  const StoredPoints read = read_rows(*db_, [&] { return read_points(*db_); });
+  for (int64_t point : read.broken) {
     remove_point(*db_, point);
     say(point, "not those that were stored (edited or lost, or from another store)");
   }
-  for (const auto& [id, point] : read_rows(*db_, [&] { return load_points(*db_); })) {
+  read_rows(*db_, [&] {
+    if (read.fault) std::rethrow_exception(read.fault);
+  });
+  for (const auto& [id, point] : read.whole) {
     if (id >= 0 && expected(point)) continue;
     remove_point(*db_, id);
     say(id, "not those of a whole measurement");
@@ -365,10 +369,13 @@ Results ResultStore::load() const {
   Results results;
   db_->execute("BEGIN");  // a consistent state, even if another program writes meanwhile
   try {
-    require_sealed(*db_);
+    StoredPoints read = read_rows(*db_, [&] { return read_points(*db_); });
+    require_sealed(*db_, read.broken);
     read_rows(*db_, [&] {
       load_info(*db_, results);
-      for (auto& [id, point] : load_points(*db_))
+      if (read.fault) std::rethrow_exception(read.fault);
+      results.points.reserve(read.whole.size());
+      for (auto& [id, point] : read.whole)
         if (id < first_aside) results.points.push_back(std::move(point));
       results.bounds = load_bounds(*db_);
       results.laws = load_laws(*db_);
@@ -382,13 +389,21 @@ Results ResultStore::load() const {
   return results;
 }
 
+Results ResultStore::read(const std::string& path) {
+  auto db = std::make_unique<Database>(path, Database::Mode::existing);
+  check_tables(*db);
+  return ResultStore(std::move(db)).load();
+}
+
 Results ResultStore::facts() const {
   Results results;
   read_rows(*db_, [&] { load_info(*db_, results); });
   return results;
 }
 
-void ResultStore::require_whole() const { require_sealed(*db_); }
+void ResultStore::require_whole() const {
+  require_sealed(*db_, read_rows(*db_, [&] { return broken_points(*db_); }));
+}
 
 JoinedStore ResultStore::join(const std::string& path, const SceneName& scene_name) {
   return read_rows(*db_, [&] { return join_store(*db_, path, scene_name); });

@@ -104,6 +104,8 @@ class ResultStore {
 
   // Throws Error(file) if rows do not match their seal (compare/store/seals.h).
   Results load() const;
+  // open(path).load(), in half the time: damage is noticed by the seals alone.
+  static Results read(const std::string& path);
   // The facts of the run alone: its points are not read.
   Results facts() const;
   std::string fingerprint() const;

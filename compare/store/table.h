@@ -103,10 +103,16 @@ class Table {
          row.step();) {
       int index = 0;
       for (int64_t& k : key) k = row.integer(index++);
-      Record record;
-      for (const Column<Record>& column : columns_) column.read(row, index++, record);
-      use(std::span<const int64_t>(key), std::move(record));
+      use(std::span<const int64_t>(key), record_of(row));
     }
+  }
+
+  // The record of a row that has all columns of the table, in its order.
+  Record record_of(const sqlite::Statement& row) const {
+    Record record;
+    auto index = static_cast<int>(keys_.size());
+    for (const Column<Record>& column : columns_) column.read(row, index++, record);
+    return record;
   }
 
  private:

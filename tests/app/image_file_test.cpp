@@ -194,10 +194,6 @@ TEST_F(ImageFile, FailsWhereAFolderIsInTheWay) {
   }
 }
 
-TEST_F(ImageFile, FailsOnAnUnknownFormat) {
-  failure([&] { write_exr(folder.file("a.no-such-format"), one_channel); });
-}
-
 TEST_F(ImageFile, FailsWhereItMayNotWrite) {
   failure([&] { write_exr("/proc/self/a.exr", one_channel); });  // not even root may write there
   if (::geteuid() == 0) GTEST_SKIP() << "root may write into every folder on a disk";

@@ -122,7 +122,7 @@ TEST_F(StoreCheck, RefusesAStoreWhosePagesWereExchanged) {
   const auto what_sqlite_says = [&](const char* pragma) {
     return sqlite::Database(path, sqlite::Database::Mode::existing).ask(pragma);
   };
-  int found = 0;
+  int found = 0, noticed = 0;
   for (size_t at = page; at + 2 * page <= whole.size(); at += page) {
     if (whole[at] != leaf_of_rows_by_key || whole[at + page] != leaf_of_rows_by_key) continue;
     std::string bytes = whole;
@@ -136,8 +136,18 @@ TEST_F(StoreCheck, RefusesAStoreWhosePagesWereExchanged) {
     EXPECT_NE(message.find("is damaged: "), std::string::npos) << message;
     EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
     EXPECT_THROW(ResultStore::open(path), Error);
+    try {  // looks for no damage, but notices it where it reads
+      const Results read = ResultStore::read(path);
+      ASSERT_EQ(read.points.size(), 20u);
+      for (size_t i = 0; i < read.points.size(); ++i)
+        EXPECT_TRUE(same(read.points[i], sample_point(static_cast<int>(i)))) << "after page " << at / page;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::file);
+      ++noticed;
+    }
   }
   EXPECT_GT(found, 0);
+  EXPECT_GT(noticed, 0);
 }
 
 TEST_F(StoreCheck, SaysOfDamageWhatSqliteFound) {

@@ -1,6 +1,7 @@
 // The store notices a change of its rows, in every cell.
 #include <gtest/gtest.h>
 
+#include "base/digest.h"
 #include "base/error.h"
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
@@ -63,6 +64,33 @@ TEST_F(StoreSeals, HoldWhatWasStored) {
   EXPECT_EQ(ResultStore::open(path).load().points.size(), 3u);
   EXPECT_TRUE(ResultStore(path, "x = 1\n", Existing::resume).repair(3, any_point).empty());
   EXPECT_EQ(ResultStore::open(path).finished().size(), 3u);
+}
+
+// Seals of older stores must hold: a value is the bytes of it, however many of them are added at once.
+TEST(Digest, OfAValueIsThatOfItsBytes) {
+  const auto expect_same = [](const auto& value) {
+    Digest of_value, of_bytes;
+    of_value.text("before");
+    of_bytes.text("before");
+    of_value.value(value);
+    of_bytes.bytes(&value, sizeof value);
+    EXPECT_EQ(of_value.hex(), of_bytes.hex()) << +value << " of " << sizeof value << " bytes";
+  };
+  for (const int64_t value : {int64_t{0}, int64_t{1}, int64_t{255}, int64_t{256}, int64_t{-1}, int64_t{1} << 62}) {
+    expect_same(value);
+    expect_same(static_cast<int32_t>(value));
+    expect_same(static_cast<uint64_t>(value));
+    expect_same(static_cast<int16_t>(value));
+    expect_same(static_cast<uint8_t>(value));
+    expect_same(static_cast<int8_t>(value));
+    expect_same(value != 0);
+    expect_same(static_cast<double>(value));
+  }
+}
+
+TEST_F(StoreSeals, NoticeARowWithoutANumber) {
+  edit("UPDATE metrics SET point = 'one' WHERE point = 1 AND name = 'acne'");
+  EXPECT_NE(refusal().find("holds data that Noonmark did not write"), std::string::npos);
 }
 
 TEST_F(StoreSeals, NoticeEveryCellOfAPoint) {
