@@ -32,10 +32,12 @@ inline void intersect16(const int* valid, RTCScene scene, Context& context, RTCR
   arguments.context = &context;
   rtcIntersect16(valid, scene, &rays, &arguments);
 }
-inline void occluded16(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+// coherent: a hint that the rays are alike.
+inline void occluded16(const int* valid, RTCScene scene, Context& context, RTCRay16& rays, bool coherent = false) {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.context = &context;
+  if (coherent) arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   rtcOccluded16(valid, scene, &rays, &arguments);
 }
 #else
@@ -48,7 +50,8 @@ inline void occluded(RTCScene scene, Context& context, RTCRay& ray) { rtcOcclude
 inline void intersect16(const int* valid, RTCScene scene, Context& context, RTCRayHit16& rays) {
   rtcIntersect16(valid, scene, &context, &rays);
 }
-inline void occluded16(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+inline void occluded16(const int* valid, RTCScene scene, Context& context, RTCRay16& rays, bool coherent = false) {
+  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   rtcOccluded16(valid, scene, &context, &rays);
 }
 #endif

@@ -92,7 +92,8 @@ class Bench final : public Pipeline {
     auto tracer = std::make_unique<raytrace::Tracer>(*scene);
     renderer.load_scene(*scene);
     std::string identity = scene_digest(*scene);
-    return {std::move(scene), std::move(identity), std::move(tracer), 0};
+    std::vector<uint32_t> surfaces = surfaces_of(*scene);
+    return {std::move(scene), std::move(identity), std::move(tracer), 0, std::move(surfaces)};
   }
   ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings) override {
     scene_ = &scene;

@@ -98,7 +98,8 @@ class FloorOfPoints {
   using Rays = std::vector<raytrace::BareRays::Ray>;
   void cast(const Rays& rays) {
     floor_.ray_count += rays.size();
-    timed(floor_.rays, [&] { bare_->cast(rays); });
+    const raytrace::BareRays::Packets packets(rays);
+    timed(floor_.rays, [&] { bare_->cast(packets); });
   }
 
   template <class Visit>

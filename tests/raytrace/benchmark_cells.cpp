@@ -66,6 +66,7 @@ class Bench {
     std::vector<Bare> rays;
     for (uint32_t i : facing_)
       rays.push_back({receivers_.position[i], frame_.light().way_to_centre(frame_, receivers_.position[i]).direction});
+    const BareRays::Packets packets(rays);
     StageTime kept, first;
     const auto judge = [&](StageTime& stage) {
       stage = {};
@@ -73,7 +74,7 @@ class Bench {
     };
     const LightFrame other = test::frame_of(test::builtin("plane"), 1);
     const std::vector<double> ms = medians(rounds_, {
-                                                        [&] { cast(rays); },
+                                                        [&] { bare_.cast(packets); },
                                                         [&] { judge(kept); },
                                                         [&] { tracer_->receiver_truth({}, other, {}); },  // forgets
                                                         [&] { judge(first); },
@@ -118,9 +119,11 @@ class Bench {
         if (const glm::dvec3 offset = probe.offset(i, tap); offset != glm::dvec3(0))
           add(view_.normal_place(frame_.tap_place(frame_.to_light(receivers_.position[i]), offset)));
       }
+    const BareRays::Packets packets(rays);
     LookupTruth truth;
     const std::vector<double> ms = medians(
-        rounds_, {[&] { cast(rays); }, [&] { truth = tracer_->lookup_truth(receivers_, truth_, probe, frame_, {}); }});
+        rounds_,
+        {[&] { bare_.cast(packets); }, [&] { truth = tracer_->lookup_truth(receivers_, truth_, probe, frame_, {}); }});
     row(name, ms[1], ms[0], truth.texel_stage.rays + truth.tap_stage.rays, rays.size());
   }
 
@@ -134,8 +137,6 @@ class Bench {
         what, ms, floor, ms / floor, floor / ms, static_cast<double>(cast) / static_cast<double>(bare));
     std::fflush(stdout);
   }
-
-  void cast(const std::vector<Bare>& rays) const { bare_.cast(rays); }
 
   int rounds_;
   Scene scene_;
@@ -157,6 +158,7 @@ void measure(const std::string& name, int rounds, bool only_r1) {
   bench.taps("taps: no filter", {});
   bench.taps("taps: box 3 x 3", test::box(3));
   bench.taps("taps: box 7 x 7", test::box(7));
+  bench.taps("taps: box 15 x 15", test::box(15));
   bench.soft_truth();
 }
 
@@ -175,5 +177,6 @@ int main(int argc, char** argv) {
       "Prints CPU time beside that of bare rays.\n",
       5, {"cube-room", "hills"});
   if (!asked) return 0;
+  fmt::print("{}\n", noonmark::test::processor_name());
   for (const std::string& scene : asked->what) noonmark::raytrace::measure(scene, asked->rounds, only_r1);
 }
