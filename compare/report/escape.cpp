@@ -14,17 +14,19 @@ bool is_number(std::string_view text) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
+// A spreadsheet takes a cell that begins so for a formula.
+bool may_be_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
+}
+
 }  // namespace
 
 std::string csv_text(std::string_view text) {
   // Most cells are plain words and numbers, which nothing below would change.
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != ',' && c != '"' && c != ':'; };
-  if (std::all_of(text.begin(), text.end(), is_plain) &&
-      (text.empty() || std::string_view("=+-@").find(text.front()) == std::string_view::npos))
-    return std::string(text);
+  if (std::all_of(text.begin(), text.end(), is_plain) && !may_be_formula(text)) return std::string(text);
   std::string cell = printable(text);
-  if (!cell.empty() && std::string_view("=+-@").find(cell.front()) != std::string_view::npos && !is_number(cell))
-    cell.insert(0, 1, '\'');
+  if (may_be_formula(cell) && !is_number(cell)) cell.insert(0, 1, '\'');
   if (cell.find_first_of(",\"") == std::string::npos) return cell;
   std::string quoted = "\"";
   for (char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

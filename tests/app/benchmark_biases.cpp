@@ -15,6 +15,7 @@
 #include "compare/ladder/receiver_taps.h"
 #include "measure/workbench.h"
 #include "scenes/scene_digest.h"
+#include "scenes/surfaces.h"
 #include "tests/support/benchmark.h"
 
 namespace noonmark {
