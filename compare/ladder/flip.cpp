@@ -143,24 +143,38 @@ struct Features {
 constexpr int tile_side = 64;
 using Plane = Image<double>;
 
+// to[x] = the sum of weight[t] * row(t)[x] over all t in their order, for x from 0 to count - 1. Eight places at a time, so that
+// their sums stay in registers.
+template <class Row>
+void weighted_sum(const std::vector<double>& weights, int count, double* to, const Row& row) {
+  constexpr int lanes = 8;
+  int x = 0;
+  for (; x + lanes <= count; x += lanes) {
+    double sum[lanes] = {};
+    for (size_t t = 0; t < weights.size(); ++t) {
+      const double weight = weights[t];
+      const double* from = row(static_cast<int>(t)) + x;
+      for (int lane = 0; lane < lanes; ++lane) sum[lane] += weight * from[lane];
+    }
+    std::copy_n(sum, lanes, to + x);
+  }
+  for (; x < count; ++x) {
+    double sum = 0;
+    for (size_t t = 0; t < weights.size(); ++t) sum += weights[t] * row(static_cast<int>(t))[x];
+    to[x] = sum;
+  }
+}
+
 // One separable filter over a plane, without the margin.
 Plane filtered(const Plane& plane, int margin, const Taps& across, const Taps& down) {
   const int width = plane.width - 2 * margin, height = plane.height - 2 * margin;
   Plane rows(width, plane.height), made(width, height);
   for (int y = 0; y < plane.height; ++y)
-    for (int t = 0; t < static_cast<int>(across.weights.size()); ++t) {
-      const double weight = across.weights[static_cast<size_t>(t)];
-      const double* from = &plane.at(margin - across.radius() + t, y);
-      double* to = &rows.at(0, y);
-      for (int x = 0; x < width; ++x) to[x] += weight * from[x];
-    }
+    weighted_sum(across.weights, width, &rows.at(0, y),
+                 [&](int t) { return &plane.at(margin - across.radius() + t, y); });
   for (int y = 0; y < height; ++y)
-    for (int t = 0; t < static_cast<int>(down.weights.size()); ++t) {
-      const double weight = down.weights[static_cast<size_t>(t)];
-      const double* from = &rows.at(0, y + margin - down.radius() + t);
-      double* to = &made.at(0, y);
-      for (int x = 0; x < width; ++x) to[x] += weight * from[x];
-    }
+    weighted_sum(down.weights, width, &made.at(0, y),
+                 [&](int t) { return &rows.at(0, y + margin - down.radius() + t); });
   return made;
 }
 
@@ -168,6 +182,10 @@ Plane filtered(const Plane& plane, int margin, const Taps& across, const Taps& d
 struct Seen {
   std::array<Plane, 3> color;  // YCxCz
   Plane edge, point;           // strengths
+  bool same_at(size_t i, const Seen& other) const {
+    return color[0][i] == other.color[0][i] && color[1][i] == other.color[1][i] && color[2][i] == other.color[2][i] &&
+           edge[i] == other.edge[i] && point[i] == other.point[i];
+  }
 };
 
 class Evaluator {
@@ -185,6 +203,7 @@ class Evaluator {
                 int height, Image<float>& error) const {
     const Seen a = see(reference, left, top, width, height), b = see(test, left, top, width, height);
     for (size_t i = 0; i < a.edge.size(); ++i) {
+      if (a.same_at(i, b)) continue;  // no error: the filters read nothing that differs
       const auto lab = [&](const Seen& seen) {
         return hunt_lab(glm::clamp(rgb_of_ycxcz({seen.color[0][i], seen.color[1][i], seen.color[2][i]}), 0.0, 1.0));
       };
