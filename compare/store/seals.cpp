@@ -75,7 +75,7 @@ void seal(Database& db, const Sealed& what, int64_t id) { set_seal(db, what.seal
 class RowsById {
  public:
   RowsById(Database& db, const Sealed& what, std::string_view table)
-      : table_(table), rows_(db, fmt::format("SELECT * FROM {} ORDER BY {}", table, what.order)) {
+      : db_(db), table_(table), rows_(db, fmt::format("SELECT * FROM {} ORDER BY {}", table, what.order)) {
     step();
   }
   std::string_view table() const { return table_; }
@@ -84,11 +84,15 @@ class RowsById {
   void step() {
     id_.reset();
     if (!rows_.step()) return;
-    if (!rows_.is_integer(0)) throw std::runtime_error(fmt::format("a row of {} without a number", table_));
+    if (!rows_.is_integer(0))
+      throw Error(ErrorKind::file,
+                  fmt::format("{}: holds data that Noonmark did not write (a row of {} without a number); {}",
+                              db_.path(), table_, db_.way_out()));
     id_ = rows_.integer(0);
   }
 
  private:
+  const Database& db_;
   std::string_view table_;
   Statement rows_;
   std::optional<int64_t> id_;

@@ -184,14 +184,20 @@ def dependencies():
     for library, owner in sorted(owners_of(libraries).items()):
         expect(owner in directly, f"the package is linked with {library} of {owner}, and does not depend on it")
 
-    # What a picture opens: the loader tells of each library when it initialises it.
-    drawn = call(program, "render", "--out", work / "opened", "--set", "scene.name=plate", "--set", "view.width_px=32",
-                 "--set", "view.height_px=18", env=dict(os.environ, LD_DEBUG="files"))
+    # What drawing and reading a picture open: the loader tells of each library when it initialises it.
+    def opened_by(*words):
+        run = call(program, *words, env=dict(os.environ, LD_DEBUG="files"))
+        return run, set(re.findall(r"calling init: (/\S+)", run.stderr))
+
+    drawn, opened = opened_by("render", "--out", work / "opened", "--set", "scene.name=plate", "--set", "view.width_px=32",
+                              "--set", "view.height_px=18")
     if drawn.returncode == 4:
         skip("this machine cannot draw, so what is opened at run time is not known")
-    opened = sorted(set(re.findall(r"calling init: (/\S+)", drawn.stderr)))
     expect(drawn.returncode == 0 and len(opened) > 20, f"render ended with {drawn.returncode} after {len(opened)} libraries")
-    expect(any("noonmark_images" in name for name in opened), "pictures are written by the package's own library")
+    # A picture of colours is refused, after it has been read.
+    _, read = opened_by("judge", "plate", "--picture", work / "opened/point-classes.png", "--out", work / "judged")
+    expect(any("noonmark_images" in name for name in read), "pictures are read by the package's own library")
+    opened = sorted(opened | read)
     opened = [name for name in opened if not name.startswith(str(root))]
     covered, owners = reached(named), owners_of(opened)
     for library, owner in sorted(owners.items()):
