@@ -20,9 +20,11 @@ namespace {
 
 // Bytes. Found by counting the arrays that are alive at the same time, and compared with the peak (VmHWM) of runs in
 // which one of them dominates, on Debian 12 with llvmpipe. The measured numbers are in brackets.
-constexpr double program = 260e6;          // libraries, OpenGL's compiler, one empty picture [229e6]
+constexpr double program = 260e6;          // libraries, OpenGL's compiler, one empty picture [125e6]
 constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, on both sides of OpenGL [236]
-constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and their encoded bytes [245]
+// Pictures that are painted and encoded side by side, after much of the above has been freed: 3 bytes and the encoded ones
+// on each thread, and rows of the EXR files [7 on 2 threads].
+constexpr double per_picture_pixel = 60;
 // Of the map on the device. If it is small, the exact map, the tie map and, of a cube, the texture with which it is
 // probed are beside it; a large one is alone. The set of the texels that are asked for takes 2 bits of each.
 constexpr double per_kept_texel = 14, per_index_texel = 4, per_large_texel = 5;  // [12.6] [4] [4.3]
