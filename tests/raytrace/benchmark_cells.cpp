@@ -72,11 +72,16 @@ class Bench {
       stage = {};
       truth_ = tracer_->receiver_truth(receivers_, frame_, {}, &stage);
     };
-    const LightFrame other = test::frame_of(test::builtin("plane"), 1);
+    // A scene keeps what its last two lights see.
+    const LightFrame other = test::frame_of(test::builtin("plane"), 1),
+                     another = test::frame_of(test::builtin("wall"), 1);
     const std::vector<double> ms = medians(rounds_, {
                                                         [&] { bare_.cast(packets); },
                                                         [&] { judge(kept); },
-                                                        [&] { tracer_->receiver_truth({}, other, {}); },  // forgets
+                                                        [&] {  // forgets
+                                                          tracer_->receiver_truth({}, other, {});
+                                                          tracer_->receiver_truth({}, another, {});
+                                                        },
                                                         [&] { judge(first); },
                                                     });
     row("R1 and its certainty", ms[1], ms[0], kept.rays, facing_.size());
