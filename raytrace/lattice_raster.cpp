@@ -88,7 +88,7 @@ class TileIndex {
   glm::ivec2 low, high;  // of all tiles
 
  private:
-  static constexpr int64_t most_in_table = int64_t{1} << 21;  // 8 MB
+  static constexpr int64_t most_in_table = int64_t{1} << 21;  // tiles; the table takes 4 bytes for each
 
   size_t place(glm::ivec2 tile) const {
     return static_cast<size_t>(tile.y - low.y) * columns_ + static_cast<size_t>(tile.x - low.x);

@@ -1,6 +1,6 @@
-// What a light sees of a scene through the lattice of a map's placements (technique/placements.h): the scene in the
-// lattice's frame, its silhouettes and its triangles as scan conversion reads them. It follows from the scene and that frame
-// alone, so the views of a scene share it (TracedScene::lattice_side).
+// The scene in the frame of a lattice (technique/placements.h): the scene as this light sees it, its silhouettes, and its
+// triangles for scan conversion. It depends on the scene and the frame only, not on the camera. So several views of a scene
+// use the same one (TracedScene::lattice_side).
 #pragma once
 #include "raytrace/lattice_raster.h"
 #include "raytrace/light_view.h"

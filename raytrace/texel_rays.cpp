@@ -186,7 +186,7 @@ void TexelRays::trace_flat(const OwnSurface* by_rays) {
   struct Tile {
     glm::ivec2 at{0};
     size_t in_set = none;           // the number of the tile in the set
-    std::vector<size_t> outside{};  // indexes in outside_, in their order
+    std::vector<size_t> outside{};  // the indexes of its rows in outside_, ascending
     bool clipped = false;           // a hit of it
   };
   std::vector<Tile> tiles;

@@ -73,7 +73,7 @@ class TexelRays {
   FirstHit outside_hit(glm::ivec2 texel) const;
   // Up to 64 texels of a row beside the map, from a multiple of 64 on: so a row of a wide kernel takes one or two entries.
   struct OutsideRow {
-    uint64_t key = 0;   // row, then column; of the first texel
+    uint64_t key = 0;   // of the first texel: its row in the high half, its column in the low half
     uint64_t bits = 0;  // a bit for each texel
     size_t first = 0;   // after trace(): the index of the first hit in outside_hits_
   };

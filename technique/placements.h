@@ -105,7 +105,8 @@ struct LatticeBox {
   // Of TapBits: tap_texel_lit, tap_near_clipped, tap_texel_unsure. A point that no tap reads has any.
   std::vector<uint8_t> bits;
   std::vector<float> depth;  // what the exact map of the placement holds at the texel that the lookup reads there
-  // True only if all points have the same bits. Then a point that no tap reads is at least as deep as all others.
+  // If true, all points have the same bits. The depth of a point that no tap reads is then not less than any depth that a
+  // tap reads, so that the least depth of the box is one that a tap reads.
   bool alike = false;
 };
 inline constexpr uint8_t lattice_unknown = 128;  // not judged

@@ -12,9 +12,9 @@ namespace noonmark {
 // Of recommended.txt: the whole text of an answer, also why what is simpler does not do.
 std::string whole_text(const Advice& advice);
 
-// Prints what to type into the engines that are shown, each with what it gave in the engine itself, if it was tried there; where the
-// lines of the others are; what to know of the scenes; and which files are written. shown: engine_word(). no_lines: why there are
-// no lines; empty: there are.
+// Prints, for each engine in `shown`, the lines to type into it, and the error that the engine itself had with them if it was
+// run. Then it prints where the lines of the other engines are, notes about the scenes, and the files that are written.
+// shown: names as engine_word() gives them. no_lines: the reason if there are no lines; otherwise empty.
 void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines, std::span<const std::string> shown,
                   const std::string& no_lines, Workbench& bench, const std::string& out);
 

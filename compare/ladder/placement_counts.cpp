@@ -141,8 +141,8 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   const glm::ivec2 size = e.map_size;
   std::optional<TapThreshold> threshold;
   if (varied_) threshold.emplace(probe, e.bias, *varied_, pixel);
-  // Two steps of the format: a depth is rounded by half a step, and two sums to float. A tap that should be lit and reads
-  // such a depth inside the map is lit at every bias, so nothing is booked of it.
+  // From this depth on, a tap is lit at every bias, so a tap that should be lit is right and nothing is booked. Two steps of
+  // the format are more than all rounding together: the stored depth is rounded by half a step, and two sums to float.
   const bool by_reference = asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane;
   const float lit_from = static_cast<float>(probe.reference[pixel] + 2 * depth_step(e.map.format));
   const auto add_tap = [&](int t, size_t i, size_t j, OfReceiver& receiver) {

@@ -99,7 +99,8 @@ class ReceiverTaps {
     uint32_t first, length;
   };
 
-  // Lists the texels that the taps read. Returns whether all taps read inside the map, or all of them beside it.
+  // Lists the texels that the taps read. Returns true if all taps lie inside the map, or if all taps lie outside it; false if
+  // some lie inside and some outside.
   bool list_texels(const LookupProbe& probe, const MapSettings& settings, size_t i) {
     const TexelSet& texels = *map_->texels;
     const glm::ivec2 map_size = texels.size();

@@ -25,8 +25,9 @@ namespace {
 // Numbers need no quotes.
 void add_number(double value, std::string& csv) { fmt::format_to(std::back_inserter(csv), "{}", value); }
 
-// The values of a point by the place of their name in a list of names; null: the point has none. Points mostly have the same
-// names in the same order, so that a name is compared with that of the point before and seldom looked up.
+// The values of a point. at(i) is the value whose name is number i in a list of names; null if the point has no such value.
+// Most points have the same names in the same order. So each name is first compared with the name that the point before had at
+// this place, and is searched for in the list only if they differ. The list holds the names of all points.
 template <class Value>
 class Places {
  public:
@@ -78,7 +79,7 @@ struct Table {
 Table table_of(const Results& results) {
   std::set<std::string> present_settings, present_metrics;
   const auto add_names = [](const auto& values, std::set<std::string>& present) {
-    auto next = present.begin();  // both in order, so that a name that is there already is seldom looked up
+    auto next = present.begin();  // both are sorted, so most names are found without a search
     for (const auto& [name, value] : values) {
       if (next == present.end() || *next != name) next = present.insert(name).first;
       ++next;

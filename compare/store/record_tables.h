@@ -21,7 +21,7 @@ const Table<LawResult::Sample>& law_samples_table();
 
 // The series of a curve: one row for each bias, in the order of the biases.
 void add_series(sqlite::Database& db, int64_t point, const BiasCurve& curve);
-// Adds a row's values to the curve's series. The row has all columns of the table curve_points, in its order.
+// Appends the values of one row to the series of a curve. row: all columns of the table curve_points, in the table's order.
 void read_series(const sqlite::Statement& row, BiasCurve& curve);
 
 // The SQL that makes all these tables, but finished_table().
