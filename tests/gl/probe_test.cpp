@@ -241,13 +241,15 @@ TEST_F(GlProbeTest, GivesTheSameNumbersInBands) {
     Settings settings;
     settings.map.resolution = 100;
     if (kind == LightKind::point) {
-      settings.filter.kind = "cube_disk";  // its radius grows with the distance from the view
+      settings.filter.kind = "cube_disk";
+      settings.filter["disk"] = 1;  // the radius grows with the distance from the view
     } else {
       settings.bias.reference = "receiver_plane";
     }
     const LightFrame frame = make_light_frame(scene, settings);
     const LookupProbe whole = renderer.probe({settings, frame});
     ASSERT_EQ(whole.reference.size(), size_t{width} * height);
+    ASSERT_EQ(whole.radius.size(), kind == LightKind::point ? size_t{width} * height : 0);
     size_t asked = 0;
     for (const auto& [first, end] : {std::pair(0, upper), std::pair(upper, height)}) {
       const auto rows = [&, first = first, end = end](const auto& image) {
