@@ -67,9 +67,9 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
       other += dark == light;
     }
     all += checked;
-    // In the built-in scenes shadows fall on planes. On a model's curved surface, the plane of the receiver's triangle
-    // is not the surface at c.
-    if (name.ends_with(".gltf")) {
+    // In the built-in scenes but one shadows fall on planes. On the curved surface of that and of a model, the plane of
+    // the receiver's triangle is not the surface at c.
+    if (name.ends_with(".gltf") || name == "hills-walk") {
       EXPECT_LE(static_cast<double>(other), 0.2 * static_cast<double>(checked));
     } else {
       EXPECT_EQ(other, 0u);
