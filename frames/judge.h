@@ -35,7 +35,7 @@ struct FrameClassRow {
   FrameClass what;
   std::string_view metric;  // its mean size over the counted receivers
   std::string_view label;
-  std::array<uint8_t, 3> color;  // sRGB, as in compare/report/cause_colors.h where the causes are kin
+  std::array<uint8_t, 3> color;  // sRGB, as in compare/results/causes.h where the causes are kin
 };
 inline constexpr std::array<FrameClassRow, 5> frame_classes{{
     {FrameClass::penumbra, "frame_penumbra", "Penumbra", {202, 186, 60}},

@@ -11,6 +11,7 @@
 #include "scenes/lab.h"
 #include "scenes/library.h"
 #include "scenes/shapes.h"
+#include "scenes/walks.h"
 
 namespace noonmark {
 namespace {
@@ -254,6 +255,10 @@ constexpr BuiltinScene scenes[] = {
      point_room},
     {"lab", "a furnished room with three lights: a sun through windows, a spotlight on a drone, a lamp beside a cube",
      lab},
+    {"street", "80 m in one picture, from a railing at the eye to houses: texels of one map against those of several",
+     street},
+    {"hills-walk", "80 m of hills with posts under a low sun: every slope at every distance, so one bias fits none",
+     hills_walk},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/results/causes.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -127,8 +128,10 @@ std::optional<Interval> span_over_window(const ComparedChoice& one, const std::s
 }
 
 std::vector<std::string> joined_causes(std::initializer_list<const ComparedChoice*> choices) {
-  std::vector<std::string> names{"acne",   "peter_panning", "aliasing",  "coverage",
-                                 "filter", "displacement",  "precision", "undecided"};
+  std::vector<std::string> names;
+  for (const bool of_taps : {true, false})
+    for (const CauseRow& row : causes_as_in_legends)
+      if (row.sum.empty() && row.place != CausePlace::light && is_of_taps(row) == of_taps) names.emplace_back(row.name);
   for (const ComparedChoice* one : choices)
     for (const PointRecord* point : one->choice.points)
       for (const RungCause& cause : point->causes)

@@ -3,19 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
+#include "compare/results/causes.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {
 
-// The metrics to which an undecided tap may belong.
-constexpr std::array<std::string_view, 11> causes = {
-    "filter",        "displacement", "aliasing",      "aliasing_dark",  "aliasing_light",   "acne",
-    "peter_panning", "coverage",     "coverage_dark", "coverage_light", "peter_panning_lit"};
+// Whether an undecided tap may belong to the metric.
+bool may_hold_undecided(std::string_view metric) {
+  return metric == "peter_panning_lit" || std::any_of(cause_rows.begin(), cause_rows.end(), [&](const CauseRow& row) {
+           return row.place == CausePlace::technique && row.name == metric;
+         });
+}
 
 }  // namespace
 
@@ -41,7 +43,7 @@ std::string undecided_note(std::span<const PointRecord> points) {
 
 std::string undecided_note(const BoundResult& bound, const PointRecord& point) {
   if (!bound.held || !bound.max || bound.join != "worst") return "";
-  if (std::find(causes.begin(), causes.end(), bound.metric) == causes.end()) return "";
+  if (!may_hold_undecided(bound.metric)) return "";
   const double undecided = metric_of(point, bound.placement == "worst" ? "undecided_worst" : "undecided");
   if (!(bound.found + undecided > *bound.max)) return "";
   return fmt::format("it would be broken if all that is undecided there, {}, were {}",

@@ -127,8 +127,7 @@ void BiasCounts::Adding::end_batch() {
 double BiasCounts::caused(Cause cause, float x) const {
   if (cause == Cause::undecided) return sums_[undecided_dark].above(x) + sums_[undecided_light].up_to(x);
   const ThresholdSums& list = sums_[of_cause(cause)];
-  const bool darkens = cause == Cause::acne || cause == Cause::aliasing_dark || cause == Cause::coverage_dark;
-  return darkens ? list.above(x) : list.up_to(x);
+  return find_cause(cause)->effect == CauseEffect::darkens ? list.above(x) : list.up_to(x);
 }
 
 float BiasCounts::acne_free_from(double share) const {

@@ -1,23 +1,17 @@
 #include "compare/ladder/flicker.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+
+#include "compare/ladder/lasting_steps.h"
 
 namespace noonmark {
 
 std::array<double, flicker_steps> flicker_parts(const std::array<double, flicker_steps + 1>& r) {
-  const double change = r[flicker_steps] - r[0], sign = change < 0 ? -1 : 1;
-  // How much of the change is there from this lookup on, at the least.
-  std::array<double, flicker_steps> lasting{};
-  double least = std::abs(change);
-  for (size_t i = flicker_steps; i-- > 0;) {
-    const double there = sign * (r[i + 1] - r[0]);
-    if (!(there >= least)) least = std::isnan(there) ? there : std::max(there, 0.0);
-    lasting[i] = least;
-  }
   std::array<double, flicker_steps> parts{};
-  for (size_t i = 0; i < flicker_steps; ++i) parts[i] = lasting[i] - (i == 0 ? 0 : lasting[i - 1]);
+  lasting_steps(r, parts);
+  for (double& part : parts) part = std::abs(part);
   return parts;
 }
 

@@ -42,13 +42,6 @@ bool inside(const LookupProbe& probe, size_t i, const MapDepths& map) {
 
 }  // namespace
 
-std::string_view cause_name(Cause cause) {
-  static constexpr std::string_view names[cause_count] = {
-      "none", "light_size",    "filter",        "displacement",   "aliasing_dark", "aliasing_light",
-      "acne", "peter_panning", "coverage_dark", "coverage_light", "undecided",     "precision"};
-  return names[static_cast<size_t>(cause)];
-}
-
 void require_strip(const LookupEvidence& e, PixelRange strip) {
   if (e.taps.taps_per_receiver != e.probe.taps()) throw std::logic_error("the truth's taps are not the probe's");
   if (!e.taps.holds(strip) || !e.probe.holds(strip)) throw std::logic_error("not the strip that the evidence holds");
@@ -169,10 +162,11 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
   set(Cause::undecided, share(before_exact + before_moved + before_r4));
   ladder.doubt[i] = share(unsure);
   set(Cause::precision, r[5] - r[4]);
-  for (Cause dark : {Cause::acne, Cause::aliasing_dark, Cause::coverage_dark})
-    set(dark, -share(booked[static_cast<size_t>(dark)]));
-  for (Cause light : {Cause::peter_panning, Cause::aliasing_light, Cause::coverage_light})
-    set(light, share(booked[static_cast<size_t>(light)]));
+  for (const CauseRow& row : cause_rows) {
+    if (row.effect == CauseEffect::either) continue;
+    const float size = share(booked[static_cast<size_t>(*row.cause)]);
+    set(*row.cause, row.effect == CauseEffect::darkens ? -size : size);
+  }
 
   double all = 0, classes = 0;
   for (const Ladder::CauseImage& c : ladder.causes) all += c.step[i];

@@ -1,7 +1,8 @@
 // compare/ladder/: why a pixel is wrong: rungs, causes, metrics, bias curves, flicker, law 1's bias. Pure functions of
 // images and evidence. May include base, scenes, technique and compare/results; no store, no ray, no OpenGL.
 //
-// The ladder: why each pixel is wrong. Every cause is defined here, and nowhere else.
+// The ladder: why each pixel is wrong. Every cause is defined here, and nowhere else; their names, texts and colours are the
+// rows of compare/results/causes.h.
 //
 //   Ladder ladder = climb({truth, probe, taps, exact_map, settings.map, bias, r4, r5});
 //   std::map<std::string, double> metrics = measure_ladder({ladder, ...});   // compare/ladder/measure.h
@@ -44,6 +45,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "compare/results/causes.h"
 #include "compare/results/records.h"
 #include "technique/bias.h"
 #include "technique/evidence.h"
@@ -53,26 +55,9 @@
 
 namespace noonmark {
 
-// The causes of a lookup that compares depths, in the order of their steps. They are the first of Ladder::causes.
-enum class Cause : uint8_t {
-  none,
-  light_size,  // R1 - R0
-  filter,      // R2 - R1, without the taps that are undecided at their exact place
-  displacement,
-  aliasing_dark,
-  aliasing_light,
-  acne,
-  peter_panning,
-  coverage_dark,
-  coverage_light,
-  undecided,  // at taps whose truth float error can change
-  precision,  // R5 - R4
-};
-inline constexpr int cause_count = 12;
-// The rungs of such a lookup. They are the first of Ladder::rungs.
+// The rungs of a lookup that compares depths. They are the first of Ladder::rungs.
 enum class Rung : uint8_t { soft_truth, truth, filtered, snapped, on_exact_map, shown };
 inline constexpr std::string_view rung_names[] = {"R0", "R1", "R2", "R3", "R4", "R5"};
-std::string_view cause_name(Cause cause);
 
 // The data from which a lookup is judged. All images have the picture's size. The exact map has the texels that the taps
 // of the facing receivers read.
@@ -148,7 +133,7 @@ struct RungOnTop {
 void add_rung(Ladder& ladder, RungOnTop rung);
 
 // For causes that are not built in. Under the common colour-vision deficiencies (Machado et al. 2009) they differ from
-// each other and from all colours of compare/report/cause_colors.h by 15 or more in CIELAB.
+// each other and from all colours of cause_rows by 15 or more in CIELAB.
 inline constexpr std::array<std::array<uint8_t, 3>, 4> spare_colors{
     {{180, 80, 255}, {34, 34, 170}, {102, 17, 0}, {64, 0, 64}}};
 

@@ -122,7 +122,6 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   // Without a counted receiver nothing was measured, and no metric may look like a perfect result.
   const auto measured = [&](double value) { return base == 0 ? std::numeric_limits<double>::quiet_NaN() : value; };
   const auto share = [&](double sum) { return measured(sum / static_cast<double>(base)); };
-  const auto caused = [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); };
   std::map<std::string, double> metrics = {
       {"error", error_of(ladder)},
       {"error_soft", share(error_soft)},
@@ -130,21 +129,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"wrong_patch", measured(largest_wrong_patch(ladder) / static_cast<double>(ladder.flags.size()))},
       {"pcf_error", share(pcf)},
       {"pcf_error_soft", share(pcf_soft)},
-      {"light_size", caused(Cause::light_size)},
-      {"filter", caused(Cause::filter)},
-      {"displacement", caused(Cause::displacement)},
-      {"aliasing", caused(Cause::aliasing_dark) + caused(Cause::aliasing_light)},
-      {"aliasing_dark", caused(Cause::aliasing_dark)},
-      {"aliasing_light", caused(Cause::aliasing_light)},
       {"aliasing_rms", std::sqrt(share(aliasing_squares))},
-      {"acne", caused(Cause::acne)},
-      {"peter_panning", caused(Cause::peter_panning)},
       {"peter_panning_lit", share(panning_lit)},
-      {"coverage", caused(Cause::coverage_dark) + caused(Cause::coverage_light)},
-      {"coverage_dark", caused(Cause::coverage_dark)},
-      {"coverage_light", caused(Cause::coverage_light)},
-      {"precision", caused(Cause::precision)},
-      {"undecided", caused(Cause::undecided)},
       {"undecided_taps", share(doubt)},
       {"peter_panning_gap_m", measured(gap)},
       {"edge_displacement_texels", measured(edge_max)},
@@ -166,6 +152,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"residual", ladder.residual},
       {"tap_residual", ladder.tap_residual},
   };
+  for (const CauseRow& row : cause_rows)
+    metrics.emplace(row.name, sum_of(row, [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); }));
   for (size_t c = cause_count; c < size.size(); ++c) metrics[ladder.causes[c].name] = share(size[c]);
   return metrics;
 }
@@ -204,8 +192,9 @@ std::vector<PointRecord::WorstOf> worst_pixels(const MeasureInput& in) {
   };
   add("pcf_error", pcf(ladder.truth()));
   add("pcf_error_soft", pcf(ladder.soft_truth()));
-  add("aliasing", [&](size_t i) { return step(Cause::aliasing_dark, i) + step(Cause::aliasing_light, i); });
-  add("coverage", [&](size_t i) { return step(Cause::coverage_dark, i) + step(Cause::coverage_light, i); });
+  for (const CauseRow& row : cause_rows)
+    if (!row.cause)
+      add(std::string(row.name), [&](size_t i) { return sum_of(row, [&](Cause cause) { return step(cause, i); }); });
   add("peter_panning_lit", [&](size_t i) { return ladder.truth()[i] != 0 ? step(Cause::peter_panning, i) : 0; });
   add("undecided_taps", [&](size_t i) { return static_cast<double>(ladder.doubt[i]); });
   add("peter_panning_gap_m", [&](size_t i) { return in_gap(ladder, i) ? gap_m(in, i) : 0; });

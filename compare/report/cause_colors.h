@@ -1,7 +1,5 @@
-// The colour of each cause, defined once for the report's charts and legends and for the PNG of the classes. Warm
-// colours mean falsely dark, cool ones falsely lit, greys and pinks neither. The hues are Okabe and Ito's ("Color
-// Universal Design", 2008) and two of Paul Tol's. They differ under the common colour-vision deficiencies, on a white
-// and on a near-black page.
+// Colours and labels for legends, charts, pages and pictures: of the causes, of pixels without a cause, of the classes of
+// flicker.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "base/srgb.h"
+#include "compare/results/causes.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -20,21 +19,15 @@ struct CauseColor {
   std::string_view label;
 };
 
-inline constexpr std::array<CauseColor, 13> cause_colors{{
-    {"acne", 213, 94, 0, "Acne (too dark)"},
-    {"peter_panning", 0, 114, 178, "Peter Panning (too light)"},
-    {"aliasing_dark", 230, 159, 0, "Aliasing, too dark"},
-    {"aliasing_light", 86, 180, 233, "Aliasing, too light"},
-    {"coverage_dark", 170, 51, 119, "Coverage, too dark"},
-    {"coverage_light", 0, 158, 115, "Coverage, too light"},
-    {"filter", 150, 155, 162, "Filter (blur by design)"},
-    {"displacement", 136, 84, 56, "Displacement (moved lookup)"},
-    {"precision", 204, 121, 167, "Precision"},
-    {"undecided", 240, 228, 66, "Undecided (truth of a tap unsure)"},
-    {"light_size", 202, 186, 60, "Light size"},
-    {"aliasing", 158, 170, 117, "Aliasing"},  // for dark and light together
-    {"coverage", 0, 158, 115, "Coverage"},    // for dark and light together
-}};
+// Of the causes (compare/results/causes.h), in the order of legends.
+inline constexpr auto cause_colors = [] {
+  std::array<CauseColor, cause_rows.size()> colors{};
+  for (size_t i = 0; i < colors.size(); ++i) {
+    const CauseRow& row = causes_as_in_legends[i];
+    colors[i] = {row.name, row.color[0], row.color[1], row.color[2], row.label};
+  }
+  return colors;
+}();
 
 // The colour of a pixel in a class picture that has no cause.
 inline constexpr std::array<CauseColor, 5> pixel_state_colors{{

@@ -52,13 +52,13 @@ std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points,
   std::vector<CauseShare> shares;
   double sum = 0;
   std::vector<std::string> names;
-  for (const CauseColor& cause : cause_colors) names.emplace_back(cause.name);
+  // Light size is not part of the error. Sums are already included as dark and light.
+  for (const CauseRow& cause : causes_as_in_legends)
+    if (cause.cause && cause.place != CausePlace::light) names.emplace_back(cause.name);
   for (const PointRecord* point : points)
     for (const RungCause& cause : point->causes)
       if (std::find(names.begin(), names.end(), cause.name) == names.end()) names.push_back(cause.name);
   for (const std::string& name : names) {
-    // Light size is not part of the error. Joined causes are already included as dark and light.
-    if (name == "light_size" || name == "aliasing" || name == "coverage") continue;
     CauseShare share{name, 0, 0};
     size_t finite = 0;
     for (const PointRecord* point : points) {

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "compare/results/causes.h"
 #include "technique/settings.h"
 
 namespace noonmark {
 namespace {
 
-constexpr Metric measured_once[] = {
+constexpr Metric before_causes[] = {
     {"error", "fraction", "Mean |R5 - R1| over the counted receivers: what the GPU shows compared with the hard truth.",
      true},
     {"error_soft", "fraction",
@@ -32,48 +34,26 @@ constexpr Metric measured_once[] = {
      "of "
      "R5.",
      true},
-    {"light_size", "fraction", "Mean |R1 - R0|: the error of a hard shadow, which ignores the size of the light.",
-     true},
-    {"filter", "fraction",
-     "Mean |R2 - R1| without the taps whose truth is undecided at their exact place: the blur that the filter makes on "
-     "purpose.",
-     true},
-    {"displacement", "fraction",
-     "Mean |change of visibility| because the lookup is moved (normal offset), at the exact places of the taps: how "
-     "far shadows are moved.",
-     true},
-    {"aliasing", "fraction",
-     "Weight of the wrong taps that give the true answer for their texel's centre, but not for their exact place; dark "
-     "and light.",
-     true},
-    {"aliasing_dark", "fraction", "The part of aliasing that is too dark.", true},
-    {"aliasing_light", "fraction", "The part of aliasing that is too light.", true},
-    {"aliasing_rms", "fraction",
-     "Root mean square of aliasing over the receivers. A filter spreads jagged edges over more pixels, each less "
-     "wrong: that lowers this number and leaves the mean as it is.",
-     true},
-    {"acne", "fraction",
-     "Weight of the taps that are falsely dark although no shadow edge lies between the pixel and the texel's centre.",
-     true},
-    {"peter_panning", "fraction", "Weight of the taps that are falsely lit because the bias reaches past the occluder.",
-     true},
-    {"peter_panning_lit", "fraction",
-     "The part of peter_panning at receivers that are lit in truth. Without a filter and without a normal offset it is "
-     "0; anything else is a defect.",
-     true},
-    {"coverage", "fraction",
-     "Weight of the wrong taps outside the map, beyond its far plane, or whose blocker lies before its near plane.",
-     true},
-    {"coverage_dark", "fraction", "The part of coverage that is too dark.", true},
-    {"coverage_light", "fraction", "The part of coverage that is too light.", true},
-    {"precision", "fraction", "Mean |R5 - R4|: the error of the depth format, the rasteriser and float arithmetic.",
-     true},
-    {"undecided", "fraction",
-     "Error at taps whose truth changes within float error. It belongs to the filter or to one of the causes, and it "
-     "is not known to which.",
-     true},
-    {"undecided_taps", "fraction",
-     "Weight of the taps whose truth changes within float error, whether they are right or wrong.", true},
+};
+
+// After the row of a cause.
+constexpr std::pair<std::string_view, Metric> beside_causes[] = {
+    {"aliasing_light",
+     {"aliasing_rms", "fraction",
+      "Root mean square of aliasing over the receivers. A filter spreads jagged edges over more pixels, each less "
+      "wrong: that lowers this number and leaves the mean as it is.",
+      true}},
+    {"peter_panning",
+     {"peter_panning_lit", "fraction",
+      "The part of peter_panning at receivers that are lit in truth. Without a filter and without a normal offset it "
+      "is 0; anything else is a defect.",
+      true}},
+    {"undecided",
+     {"undecided_taps", "fraction",
+      "Weight of the taps whose truth changes within float error, whether they are right or wrong.", true}},
+};
+
+constexpr Metric measured_with_causes[] = {
     {"peter_panning_gap_m", "m",
      "Largest width of a lit gap between an occluder and its shadow, along the light's trace on the surface (at a "
      "corner it is wider than along the wall).",
@@ -425,7 +405,13 @@ struct MetricTable {
 const MetricTable& table() {
   static const MetricTable made = [] {
     MetricTable t;
-    t.rows.assign(std::begin(measured_once), std::end(measured_once));
+    t.rows.assign(std::begin(before_causes), std::end(before_causes));
+    for (const CauseRow& cause : cause_rows) {
+      t.rows.push_back({cause.name, "fraction", cause.help, true});
+      for (const auto& [name, row] : beside_causes)
+        if (name == cause.name) t.rows.push_back(row);
+    }
+    t.rows.insert(t.rows.end(), std::begin(measured_with_causes), std::end(measured_with_causes));
     const auto text = [&](const std::string& made_text) -> std::string_view { return t.texts.emplace_back(made_text); };
     for (const auto& [name, what] : timed) {
       const std::string stem(name);

@@ -66,7 +66,7 @@ struct BiasCurve : CauseBounds {
 };
 
 // A cause that a rung on top of R5 brought (add_rung, compare/ladder/ladder.h). Its share is the metric of its name. The
-// built-in causes are described in metrics.h and compare/report/cause_colors.h.
+// built-in causes are described in causes.h.
 struct RungCause {
   std::string name;                // "elsewhere": lower-case letters, digits and _; not the name of another metric
   std::string label;               // for legends: "Elsewhere (not from the shadow map)"

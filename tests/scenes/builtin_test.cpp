@@ -83,7 +83,8 @@ TEST(BuiltinScenes, AreFiniteAndInRange) {
 }
 
 TEST(BuiltinScenes, SolidsAreClosedAndTurnedOutward) {
-  const std::set<std::string> open = {"floor", "plane", "bowl", "wall piece", "pane", "reveal", "frond", "front wall"};
+  const std::set<std::string> open = {"floor",  "plane", "bowl",       "wall piece", "pane",
+                                      "reveal", "frond", "front wall", "ground"};
   std::set<std::string> met;
   for (const Scene& scene : all_scenes()) {
     for (const Part& part : scene.parts) {
@@ -178,6 +179,81 @@ TEST(BuiltinScenes, ThePointRoomIsTheTutorialsRoom) {
   for (size_t i = 0; i < 5; ++i)
     EXPECT_NEAR(signed_volume(scene, scene.parts[i + 1]), std::pow(sides[i], 3), 1e-5) << i;
   EXPECT_TRUE(glm::all(glm::lessThan(glm::abs(scene.camera.eye_m), glm::dvec3(5)))) << "the camera is inside";
+}
+
+// Scenes for several maps along one view. From 2 m on each doubling of the distance holds something that casts a
+// shadow, so that every map of a split has shadows.
+TEST(BuiltinScenes, TheWalksReachFromTheEyeToEightyMetres) {
+  struct Walk {
+    const char* name;
+    double nearest_m;
+    size_t triangles;
+    glm::dvec3 low, high;  // of the scene's box; those of the hills within 0.1 m
+  };
+  for (const auto& [name, nearest_m, triangles, low, high] :
+       {Walk{"street", 0.3, 2 + 77 * 12, {-12, 0, -78}, {12, 6.5, 2}},
+        Walk{"hills-walk", 2.9, 36 * 84 * 2 + 24 * 12, {-18, -0.8, -80}, {18, 4.4, 4}}}) {
+    const Scene scene = make_scene({.name = name});
+    EXPECT_EQ(scene.triangles.size(), triangles) << name;
+    glm::vec3 least(1e9f), most(-1e9f);
+    for (const glm::vec3& p : scene.positions) least = glm::min(least, p), most = glm::max(most, p);
+    for (const int axis : {0, 1, 2}) {
+      const double off_m = axis == 1 && name != std::string("street") ? 0.1 : 0;
+      EXPECT_NEAR(least[axis], low[axis], off_m) << name << ' ' << axis;
+      EXPECT_NEAR(most[axis], high[axis], off_m) << name << ' ' << axis;
+    }
+    const Camera camera = effective_camera(scene, {});
+    EXPECT_LT(*camera.near_m, nearest_m) << name;
+    EXPECT_GT(*camera.far_m, 75) << name;
+    EXPECT_LT(*camera.far_m, 100) << name;
+    const CameraFrame frame = make_camera_frame(camera, 1280, 720);
+    std::set<int> octaves;  // of the distances of casters that are in the picture
+    for (const Part& part : scene.parts) {
+      if (part.name == "floor" || part.name == "ground") continue;
+      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+        const glm::dvec3 p = frame.in_axes((corner(scene, t, 0) + corner(scene, t, 1) + corner(scene, t, 2)) / 3.0);
+        if (p.z > 0 && std::abs(p.x) < frame.half_width * p.z) octaves.insert(static_cast<int>(std::log2(p.z)));
+      }
+    }
+    for (const int octave : {1, 2, 3, 4, 5}) EXPECT_TRUE(octaves.contains(octave)) << name << ": 2^" << octave << " m";
+    // The walkers stand on the ground: the eye is 1.6 m above what is below it.
+    double below = -1e9;
+    for (uint32_t t = 0; t < scene.parts[0].triangle_count; ++t) {
+      const glm::dvec3 a = corner(scene, t, 0), b = corner(scene, t, 1), c = corner(scene, t, 2),
+                       n = glm::cross(b - a, c - a);
+      const auto left_of = [&](glm::dvec3 from, glm::dvec3 to) {
+        return glm::cross(to - from, camera.eye_m - from).y >= 0;
+      };
+      if (left_of(a, b) && left_of(b, c) && left_of(c, a))
+        below = a.y - (n.x * (camera.eye_m.x - a.x) + n.z * (camera.eye_m.z - a.z)) / n.y;
+    }
+    EXPECT_NEAR(camera.eye_m.y - below, 1.6, 0.03) << name << ": of a mesh of 1 m";
+  }
+}
+
+// The sun does not reach the street below the roof, but through the slit.
+TEST(BuiltinScenes, TheStreetHasADarkPassageWithASlit) {
+  const Scene scene = make_scene({.name = "street"});
+  const glm::dvec3 sun = scene.light.position_m - scene.light.target_m;
+  const auto roofed = [&](double x, double z) {
+    for (const Part& part : scene.parts) {
+      if (part.name != "roof") continue;
+      glm::dvec3 low(1e9), high(-1e9);
+      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+        for (int i = 0; i < 3; ++i)
+          low = glm::min(low, corner(scene, t, i)), high = glm::max(high, corner(scene, t, i));
+      const glm::dvec3 at = glm::dvec3(x, 0, z) + sun * (high.y / sun.y);
+      if (at.x > low.x && at.x < high.x && at.z > low.z && at.z < high.z) return true;
+    }
+    return false;
+  };
+  const double across = -sun.x / sun.y * 3.25,
+               along = -sun.z / sun.y * 3.25;  // where a point of the roof throws its shadow
+  EXPECT_TRUE(roofed(across, along - 25));
+  EXPECT_TRUE(roofed(across, along - 29));
+  EXPECT_FALSE(roofed(across, along - 27.15));
+  EXPECT_FALSE(roofed(across, along - 21));
+  EXPECT_FALSE(roofed(across, along - 33));
 }
 
 TEST(BuiltinScenes, WallAndPlateHaveTheThicknessTheySay) {

@@ -13,6 +13,7 @@
 #include "compare/ladder/measure.h"
 #include "compare/ladder/receiver_taps.h"
 #include "compare/report/cause_colors.h"
+#include "compare/results/metrics.h"
 #include "scenes/receivers.h"
 #include "tests/compare/ladder/evidence.h"
 
@@ -440,10 +441,51 @@ TEST(Causes, HaveNamesAllDifferentAndAColourEach) {
   EXPECT_EQ(names.size(), cause_count);
   for (int c = 1; c < cause_count; ++c)
     EXPECT_TRUE(find_color(cause_name(static_cast<Cause>(c)))) << cause_name(static_cast<Cause>(c));
+  EXPECT_EQ(cause_name(Cause::none), "none");
   EXPECT_EQ(cause_name(Cause::acne), "acne");
   EXPECT_EQ(cause_name(Cause::peter_panning), "peter_panning");
   EXPECT_EQ(cause_name(Cause::precision), "precision");
   EXPECT_EQ(cause_name(Cause::light_size), "light_size");
+}
+
+// The metric, the image of the ladder and the colour are those of the row.
+TEST(Causes, AreOneRowEach) {
+  const Ladder ladder = empty_ladder(1, 1);
+  for (const CauseRow& row : cause_rows) {
+    EXPECT_EQ(find_metric(row.name).help, row.help);
+    EXPECT_EQ(find_metric(row.name).unit, "fraction");
+    if (row.cause) {
+      EXPECT_EQ(ladder.causes.at(static_cast<size_t>(*row.cause)).name, row.name);
+    }
+    const CauseColor* const color = find_color(row.name);
+    ASSERT_TRUE(color) << row.name;
+    EXPECT_EQ(color->label, row.label);
+    EXPECT_EQ((std::array{color->r, color->g, color->b}), row.color);
+  }
+  EXPECT_EQ(ladder.causes.size(), cause_count);
+}
+
+// A sum is of one cause that darkens and one that lightens, and a cause is part of one sum at most.
+TEST(Causes, OfASumAreOneThatDarkensAndOneThatLightens) {
+  std::set<std::string_view> sums;
+  for (const CauseRow& row : cause_rows) {
+    if (row.cause) {
+      EXPECT_EQ(sum_of(row, [](Cause cause) { return 10 * static_cast<int>(cause); }),
+                10 * static_cast<int>(*row.cause));
+      continue;
+    }
+    sums.insert(row.name);
+    int darkens = 0, lightens = 0;
+    const double parts = sum_of(row, [&](Cause cause) {
+      darkens += find_cause(cause)->effect == CauseEffect::darkens;
+      lightens += find_cause(cause)->effect == CauseEffect::lightens;
+      return 1.0;
+    });
+    EXPECT_EQ(parts, 2) << row.name;
+    EXPECT_EQ(darkens, 1) << row.name;
+    EXPECT_EQ(lightens, 1) << row.name;
+  }
+  for (const CauseRow& row : cause_rows) EXPECT_TRUE(row.sum.empty() || sums.contains(row.sum)) << row.sum;
 }
 
 }  // namespace
