@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 
 #include "compare/ladder/receiver_taps.h"
 
@@ -165,13 +166,12 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
     book(j * side + i, truth, bias, threshold, exact, shown, e.map.format != DepthFormat::d32f, receiver);
   };
 
-  // Of most receivers nothing but a tap's depth decides whether it is lit: neither the map's border, nor a plane, nor a
-  // weight.
-  const bool flat = asks && !probe.tap_reference->plane && !probe.pattern.bilinear();
+  // Of most receivers nothing but a tap's depth decides whether it is lit: neither the map's border nor a plane.
+  const bool flat = asks && !probe.tap_reference->plane, blended = probe.pattern.bilinear();
   const bool beyond_far = probe.reference[pixel] > 1.0f;
   const glm::ivec2 low = placements_.texel_of(taps.low), high = placements_.texel_of(taps.high);
   const bool depth_is_known = beyond_far ? e.map.lit_beyond_far : beside_map(low, high, size);
-  if (flat && box.alike && depth_is_known && alike(e.taps, pixel)) {
+  if (flat && !blended && box.alike && depth_is_known && alike(e.taps, pixel)) {
     book_beside(e, pixel, box, truth, bias, threshold);
     return;
   }
@@ -185,14 +185,23 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
       }
     return;
   }
-  // The weights are whole numbers, so their order changes no sum.
+  // Each placement gets its taps in their order, as above, so that the sums of a sampler's weights are the same floats.
   thread_local std::vector<OfReceiver> receivers;
   receivers.assign(count_, {});
   const auto other = [&](int t, size_t i, size_t j) { add_tap(t, i, j, receivers[j * side + i]); };
-  if (truth)
-    book_by_depth<true>(e, pixel, taps, box, bias, lit_from, threshold, receivers, other);
+  const auto book_taps = [&](auto lit, auto weighted) {
+    book_by_depth<lit.value, weighted.value>(e, pixel, taps, box, bias, lit_from, threshold, receivers, other);
+  };
+  const auto book_lit_or_dark = [&](auto weighted) {
+    if (truth)
+      book_taps(std::true_type(), weighted);
+    else
+      book_taps(std::false_type(), weighted);
+  };
+  if (blended)
+    book_lit_or_dark(std::true_type());
   else
-    book_by_depth<false>(e, pixel, taps, box, bias, lit_from, threshold, receivers, other);
+    book_lit_or_dark(std::false_type());
   for (size_t placement = 0; placement < count_; ++placement) book(placement, receivers[placement]);
 }
 
@@ -219,7 +228,7 @@ void PlacementCounts::book_beside(const PlacementEvidence& e, size_t pixel, cons
 }
 
 // A tap that should be lit is acne where it is dark, and one that should be dark is Peter Panning where it is lit.
-template <bool lit, class Other>
+template <bool lit, bool weighted, class Other>
 void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, const PlacedTaps& taps,
                                     const LatticeBox& box, float bias, float lit_from,
                                     const std::optional<TapThreshold>& threshold, std::vector<OfReceiver>& receivers,
@@ -239,7 +248,7 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
     // Where all depths say the same, all taps of all placements are booked at once.
     const auto [nearest, farthest] = bounds(box.depth);
     if (lit && nearest >= lit_from) return;
-    if (!lit && (!threshold || farthest < infinity_f)) {
+    if (!lit && !weighted && (!threshold || farthest < infinity_f)) {
       const float shown[2] = {stored_depth(nearest, format), stored_depth(farthest, format)};
       const bool own = biased > nearest, own_shown = biased > shown[0];
       std::array<size_t, 2> bin{}, bin_shown{};
@@ -280,20 +289,29 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
         const float exact = depth[n];
         if (lit && exact >= lit_from) continue;
         const float shown = stored_depth(exact, format);
-        if ((biased > exact) == lit) ++own_[cause][placement];
+        double weight = 1;
+        if constexpr (weighted) {
+          if (compares_clamped(true, format, shown)) {
+            other(t, i, j);
+            continue;
+          }
+          weight = e.probe.weight_at({taps.x[i], taps.y[j]}, t);
+          if (weight == 0) continue;
+        }
+        if ((biased > exact) == lit) own_[cause][placement] += weight;
         if ((biased > shown) == lit) {
-          ++own_[error][placement];
-          ++receivers[placement].wrong_weight;
+          own_[error][placement] += weight;
+          receivers[placement].wrong_weight += weight;
         }
         if (!threshold) continue;
         if (!lit || without_bias > exact) {
           if (!of_exact) of_exact.emplace(biases, reference, bins_.of(threshold->at(reference, exact)));
-          ++cell(cause, placement, of_exact->of(exact));
+          cell(cause, placement, of_exact->of(exact)) += weight;
           least = std::min(least, exact);
         }
         if (!lit || without_bias > shown) {
           if (!of_shown) of_shown.emplace(biases, reference, bins_.of(threshold->at(reference, shown)));
-          ++cell(error, placement, of_shown->of(shown));
+          cell(error, placement, of_shown->of(shown)) += weight;
         }
       }
     }

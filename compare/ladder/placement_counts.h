@@ -174,8 +174,9 @@ class PlacementCounts {
   void book_beside(const PlacementEvidence& evidence, size_t pixel, const LatticeBox& box, bool truth, float bias,
                    const std::optional<TapThreshold>& threshold);
   // Books the taps of a receiver whose truth is `lit`, if nothing but their depth decides whether they are. Calls
-  // other(tap, column, row) for each tap whose own truth differs from the receiver's, or is not sure.
-  template <bool lit, class Other>
+  // other(tap, column, row) for each tap whose own truth differs from the receiver's, or is not sure, and for one whose depth
+  // a sampler clamps. weighted: a sampler weighs the taps.
+  template <bool lit, bool weighted, class Other>
   void book_by_depth(const PlacementEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
                      float bias, float lit_from, const std::optional<TapThreshold>& threshold,
                      std::vector<OfReceiver>& receivers, const Other& other);
