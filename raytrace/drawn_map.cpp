@@ -93,7 +93,7 @@ float DrawnMap::depth_of(uint32_t hit, glm::dvec3 place) const {
     if (!behind) return 1;
     depth = *behind;
   }
-  return static_cast<float>(std::clamp(view_.tile_at(place).window_depth(depth), 0.0, 1.0));
+  return static_cast<float>(std::clamp(view_.window_depth(depth, place), 0.0, 1.0));
 }
 
 }  // namespace noonmark::raytrace

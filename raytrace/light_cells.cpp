@@ -384,20 +384,24 @@ LightCells::Answer LightCells::Reader::disc_at(glm::dvec3 at, uint32_t primitive
   return centre;
 }
 
+template <class Holds>
+bool LightCells::all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds) {
+  Four* const four = cell.divisions > 0 ? parts_of(cell, x, y) : nullptr;
+  if (!four) return false;
+  const uint32_t half = 1u << (cell.divisions - 1);
+  for (uint32_t i = 0; i < 4; ++i)
+    if (!holds(four->cell[i], x + i % 2 * half, y + i / 2 * half)) return false;
+  return true;
+}
+
 bool LightCells::disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent) {
   if (cell.kind == Kind::nothing) return true;
   const Square square = square_at(x, y, cell.divisions);
   const glm::dvec2 beside = glm::abs(glm::dvec2(at) - square.middle) - square.half;
   if ((at.z - cell.nearest_m) * tangent * rounded_up + reach_m_ < std::max(beside.x, beside.y)) return true;
   if (cell.kind != Kind::mixed) return cell.slope * tangent <= 0.5;
-  if (cell.divisions == 0) return false;
-  Four* four = cell.four.load(std::memory_order_acquire);
-  if (!four) four = divide(cell, x, y);
-  if (!four) return false;
-  const uint32_t half = 1u << (cell.divisions - 1);
-  for (uint32_t i = 0; i < 4; ++i)
-    if (!disc_is_certain(four->cell[i], x + i % 2 * half, y + i / 2 * half, at, tangent)) return false;
-  return true;
+  return all_parts_hold(
+      cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return disc_is_certain(part, px, py, at, tangent); });
 }
 
 std::optional<uint32_t> LightCells::Reader::front_in(glm::dvec2 low, glm::dvec2 high) {
@@ -422,14 +426,8 @@ bool LightCells::is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triang
       square.middle.y - square.half > high.y || square.middle.y + square.half < low.y)
     return true;
   if (cell.kind != Kind::mixed) return cell.kind == Kind::triangle && cell.front == triangle;
-  if (cell.divisions == 0) return false;
-  Four* four = cell.four.load(std::memory_order_acquire);
-  if (!four) four = divide(cell, x, y);
-  if (!four) return false;
-  const uint32_t half = 1u << (cell.divisions - 1);
-  for (uint32_t i = 0; i < 4; ++i)
-    if (!is_front_in(four->cell[i], x + i % 2 * half, y + i / 2 * half, triangle, low, high)) return false;
-  return true;
+  return all_parts_hold(
+      cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return is_front_in(part, px, py, triangle, low, high); });
 }
 
 void LightCells::Reader::find(uint32_t x, uint32_t y) {
@@ -442,8 +440,7 @@ void LightCells::Reader::find(uint32_t x, uint32_t y) {
 const LightCells::Cell& LightCells::cell_at(uint32_t x, uint32_t y) {
   Cell* cell = base_cell(x, y);
   while (cell->kind == Kind::mixed && cell->divisions > 0) {
-    Four* four = cell->four.load(std::memory_order_acquire);
-    if (!four) four = divide(*cell, x, y);
+    Four* const four = parts_of(*cell, x, y);
     if (!four) break;
     const int divisions = cell->divisions - 1;
     cell = &four->cell[(x >> divisions & 1) + 2 * (y >> divisions & 1)];

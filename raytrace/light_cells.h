@@ -180,7 +180,12 @@ class LightCells {
   std::optional<Lists> list_base() const;
   Cell* base_cell(uint32_t x, uint32_t y);
   Four* divide(Cell& cell, uint32_t x, uint32_t y);  // x, y: of a finest square in it
-  const Cell& cell_at(uint32_t x, uint32_t y);       // the smallest one
+  // Null if there is no memory to divide it.
+  Four* parts_of(Cell& cell, uint32_t x, uint32_t y) {
+    Four* const made = cell.four.load(std::memory_order_acquire);
+    return made ? made : divide(cell, x, y);
+  }
+  const Cell& cell_at(uint32_t x, uint32_t y);  // the smallest one
   void judge(Cell& cell, const Square& square) const;
   Part part(uint32_t triangle, const Outline& outline, const Square& square) const;
   // parts: of all triangles that touch the square, but perhaps without some that come no nearer to the light than
@@ -190,6 +195,9 @@ class LightCells {
   bool judge_sheet(const std::vector<Part>& parts, double others_m, const Square& square, Judged& judged) const;
   // The square without extent at this place of a cell.
   Judged judge_place(const Cell& cell, glm::dvec2 at) const;
+  // Whether holds(part, x, y) is true of the cell's four parts, each with its first finest square; false if it is not divided.
+  template <class Holds>
+  bool all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds);
   // Whether the cell is out of reach of the disc as `at` sees it, or good, or divided into such cells.
   bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
   // Whether this triangle is the front of the cell, or of all its parts that touch the rectangle.

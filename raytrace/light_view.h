@@ -41,9 +41,6 @@ class LightView {
     // The places of a flat map's texels are normalised already.
     return only_tile_ ? only_tile_->place_of(texel) : normal_place(frame_.texel_place(texel));
   }
-  // The tile that a lookup at this place reads.
-  MapTile tile_at(glm::dvec3 x) const { return only_tile_ ? *only_tile_ : frame_.tile_at(x); }
-
   double orientation(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) const { return rays_.orientation(p, a, b); }
   double orientation(uint32_t triangle) const {
     return orientation(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
@@ -110,8 +107,17 @@ class LightView {
     return only_tile_ ? only_tile_->near_depth(x) : frame_.tile_at(x).near_depth(x);
   }
 
+  // MapTile::window_depth of the tile that a lookup at this place reads.
+  double window_depth(double depth_m, glm::dvec3 x) const {
+    return only_tile_ ? only_tile_->window_depth(depth_m) : frame_.tile_at(x).window_depth(depth_m);
+  }
+
   // Whether this first hit at x, or no_primitive, lies before the map's near plane.
-  bool clipped(uint32_t hit, glm::dvec3 x) const { return hit != no_primitive && hit_depth(hit, x) < near_depth(x); }
+  bool clipped(uint32_t hit, glm::dvec3 x) const {
+    if (hit == no_primitive) return false;
+    const double near = near_depth(x);
+    return nearest_m(hit) < near && hit_depth(hit, x) < near;  // hit_depth is at least nearest_m
+  }
 
   // No point of the triangle has less depth.
   double nearest_m(uint32_t triangle) const { return planes_[triangle].low; }

@@ -171,8 +171,7 @@ void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, co
     drawn_.depths(count, places, &tile.hit[first], &tile.depth[first], no_silhouettes);
     for (int i = 0; i < count; ++i) {
       const auto at_place = first + static_cast<size_t>(i);
-      tile.clipped[at_place] = !depth_clamp_ && tile.hit[at_place] != no_primitive &&
-                               view_.hit_depth(tile.hit[at_place], places[i]) < view_.near_depth(places[i]);
+      tile.clipped[at_place] = !depth_clamp_ && view_.clipped(tile.hit[at_place], places[i]);
       tile.any_clipped |= tile.clipped[at_place] != 0;
     }
     first += static_cast<size_t>(count);

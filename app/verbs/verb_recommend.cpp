@@ -340,7 +340,8 @@ int recommend(const RecommendOptions& options) {
     const std::string stem =
         &answer == advice.answer() ? "recommended" : "recommended-" + answer_name(answer.kinds.front());
     write_file_atomically(out + "/" + stem + ".toml", advice_experiment(answer, advice, out));
-    write_pictures(bench.measure(answer.tried.settings, std::nullopt), out, ".", stem);
+    // Pictures show no metric, so none that costs a pass is computed.
+    write_pictures(bench.measure(answer.tried.settings, std::nullopt, MetricSet::searched), out, ".", stem);
   }
   if (no_lines.empty()) write_file_atomically(out + "/engines.txt", advice_engines(engines));
   write_file_atomically(out + "/recommended.txt", whole_text(advice));

@@ -44,7 +44,7 @@ std::vector<std::string> number_names() {
 }
 
 // NaN if the point has no such number: a setting that is `auto`, a window that is empty.
-double named_number(const PointRecord& point, const std::string& name) {
+double number_in(const PointRecord& point, const std::string& name) {
   if (const auto setting = point.settings.find(name); setting != point.settings.end()) {
     if (setting->second == "true") return 1;
     if (setting->second == "false") return 0;
@@ -161,7 +161,7 @@ class Reader {
     std::map<std::string, double> defined;
     const auto value_of = [&](const std::string& name) {
       const auto found = defined.find(name);
-      return found == defined.end() ? named_number(point, name) : found->second;
+      return found == defined.end() ? number_in(point, name) : found->second;
     };
     for (const auto& [name, definition] : definitions_) defined[name] = definition.value(value_of);
     return formula.value(value_of);
@@ -214,7 +214,7 @@ std::vector<LawResult::Sample> samples_of(const Law& law, const Reader& reader, 
     LawResult::Sample sample{point.id, other ? reader.predicted(*other) : not_a_number, reader.measured(point), 0};
     sample.allowed = law.within * std::abs(sample.predicted) + reader.slack(point);
     each.push_back(sample);
-    if (law.join == "slope") by_setting[named_number(point, law.over)].push_back(sample.measured);
+    if (law.join == "slope") by_setting[number_in(point, law.over)].push_back(sample.measured);
   }
   if (law.join == "each" || each.empty()) return each;
 

@@ -1,23 +1,16 @@
 #include "compare/ladder/placement_counts.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 
 #include "compare/ladder/receiver_taps.h"
 
 namespace noonmark {
 namespace {
-
-constexpr int least_edges_per_octave = 16;
-// The leading bits of a float that choose where ThresholdBins::of begins: sign, exponent and three bits of the fraction.
-constexpr int leading_shift = 20;
 
 double depth_steps(DepthFormat format) { return format == DepthFormat::d16 ? 0xffff : 0xffffff; }  // fixed-point
 double depth_step(DepthFormat format) { return format == DepthFormat::d32f ? 0 : 1 / depth_steps(format); }
@@ -34,58 +27,9 @@ float stored_depth(float depth, DepthFormat format) {
 
 constexpr uint8_t of_texel = tap_texel_lit | tap_near_clipped | tap_texel_unsure;
 
-// The least and the largest of these numbers. Eight at a time, so that one comparison need not wait for another.
-std::pair<float, float> bounds(const std::vector<float>& values) {
-  constexpr size_t lanes = 8;
-  std::array<float, lanes> least, most;
-  least.fill(infinity_f);
-  most.fill(-infinity_f);
-  const auto take = [&](size_t lane, float value) {
-    least[lane] = value < least[lane] ? value : least[lane];
-    most[lane] = value > most[lane] ? value : most[lane];
-  };
-  size_t i = 0;
-  for (; i + lanes <= values.size(); i += lanes)
-    for (size_t lane = 0; lane < lanes; ++lane) take(lane, values[i + lane]);
-  for (; i < values.size(); ++i) take(0, values[i]);
-  return {*std::min_element(least.begin(), least.end()), *std::max_element(most.begin(), most.end())};
-}
-
 bool within_one_float(float a, float b) { return a == b || std::nextafter(a, b) == b; }
 
 }  // namespace
-
-ThresholdBins::ThresholdBins(std::vector<float> edges) : edges_(std::move(edges)) {
-  if (edges_.empty() || !std::is_sorted(edges_.begin(), edges_.end()) || !(edges_.front() >= 0))
-    throw std::logic_error("the edges of thresholds are not in ascending order from 0");
-  first_.resize((std::bit_cast<uint32_t>(std::numeric_limits<float>::infinity()) >> leading_shift) + 1);
-  for (size_t key = 0; key < first_.size(); ++key) {
-    const float least = std::bit_cast<float>(static_cast<uint32_t>(key) << leading_shift);
-    first_[key] = static_cast<uint32_t>(std::lower_bound(edges_.begin(), edges_.end(), least) - edges_.begin());
-  }
-}
-
-size_t ThresholdBins::of(float threshold) const {
-  size_t at = first_[std::bit_cast<uint32_t>(threshold) >> leading_shift];
-  while (at < edges_.size() && edges_[at] < threshold) ++at;
-  return at;
-}
-
-std::vector<float> placement_edges(const std::vector<double>& bias_depth, double depth_per_unit) {
-  std::vector<float> edges;
-  for (size_t i = 0; i < bias_depth.size(); ++i) {
-    edges.push_back(static_cast<float>(bias_depth[i] / depth_per_unit));
-    if (i + 1 == bias_depth.size() || !(bias_depth[i] > 0)) continue;
-    const double ratio = bias_depth[i + 1] / bias_depth[i];
-    const int parts = static_cast<int>(std::ceil(std::log2(ratio) * least_edges_per_octave));
-    for (int k = 1; k < parts; ++k)
-      edges.push_back(
-          static_cast<float>(bias_depth[i] * std::pow(ratio, static_cast<double>(k) / parts) / depth_per_unit));
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
 
 PlacementCounts::PlacementCounts(const Placements& placements, const LookupProbe& probe, const BiasPart* varied,
                                  std::vector<float> edges)
@@ -165,13 +109,12 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
     book(j * side + i, truth, bias, threshold, exact, shown, e.map.format != DepthFormat::d32f, receiver);
   };
 
-  // Of most receivers nothing but a tap's depth decides whether it is lit: neither the map's border, nor a plane, nor a
-  // weight.
-  const bool flat = asks && !probe.tap_reference->plane && !probe.pattern.bilinear();
+  // Of most receivers nothing but a tap's depth decides whether it is lit: neither the map's border nor a plane.
+  const bool flat = asks && !probe.tap_reference->plane, blended = probe.pattern.bilinear();
   const bool beyond_far = probe.reference[pixel] > 1.0f;
   const glm::ivec2 low = placements_.texel_of(taps.low), high = placements_.texel_of(taps.high);
   const bool depth_is_known = beyond_far ? e.map.lit_beyond_far : beside_map(low, high, size);
-  if (flat && box.alike && depth_is_known && alike(e.taps, pixel)) {
+  if (flat && !blended && box.alike && depth_is_known && alike(e.taps, pixel)) {
     book_beside(e, pixel, box, truth, bias, threshold);
     return;
   }
@@ -185,14 +128,23 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
       }
     return;
   }
-  // The weights are whole numbers, so their order changes no sum.
+  // Each placement gets its taps in their order, as above, so that the sums of a sampler's weights are the same floats.
   thread_local std::vector<OfReceiver> receivers;
   receivers.assign(count_, {});
   const auto other = [&](int t, size_t i, size_t j) { add_tap(t, i, j, receivers[j * side + i]); };
-  if (truth)
-    book_by_depth<true>(e, pixel, taps, box, bias, lit_from, threshold, receivers, other);
+  const auto book_taps = [&](auto lit, auto weighted) {
+    book_by_depth<lit.value, weighted.value>(e, pixel, taps, box, bias, lit_from, threshold, receivers, other);
+  };
+  const auto book_lit_or_dark = [&](auto weighted) {
+    if (truth)
+      book_taps(std::true_type(), weighted);
+    else
+      book_taps(std::false_type(), weighted);
+  };
+  if (blended)
+    book_lit_or_dark(std::true_type());
   else
-    book_by_depth<false>(e, pixel, taps, box, bias, lit_from, threshold, receivers, other);
+    book_lit_or_dark(std::false_type());
   for (size_t placement = 0; placement < count_; ++placement) book(placement, receivers[placement]);
 }
 
@@ -219,7 +171,7 @@ void PlacementCounts::book_beside(const PlacementEvidence& e, size_t pixel, cons
 }
 
 // A tap that should be lit is acne where it is dark, and one that should be dark is Peter Panning where it is lit.
-template <bool lit, class Other>
+template <bool lit, bool weighted, class Other>
 void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, const PlacedTaps& taps,
                                     const LatticeBox& box, float bias, float lit_from,
                                     const std::optional<TapThreshold>& threshold, std::vector<OfReceiver>& receivers,
@@ -230,41 +182,14 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
   const float reference = e.probe.reference[pixel], biased = reference - bias;
   const DepthFormat format = e.map.format;
   const float without_bias = threshold ? reference - threshold->bias_at(0) : 0;
-  const std::span<const float> biases = threshold ? edge_biases_.of(*threshold, bins_) : std::span<const float>();
   std::optional<BinsByDepth> of_exact, of_shown;
   float least = infinity_f;  // of the depths that should be lit
   const float* const depth = box.depth.data();
   const bool same_bits = box.alike && box.bits.front() == texel_bits;
-  if (same_bits && (e.taps.bits(pixel, 0) & ~of_texel) == exact_bits && alike(e.taps, pixel)) {
-    // Where all depths say the same, all taps of all placements are booked at once.
-    const auto [nearest, farthest] = bounds(box.depth);
-    if (lit && nearest >= lit_from) return;
-    if (!lit && (!threshold || farthest < infinity_f)) {
-      const float shown[2] = {stored_depth(nearest, format), stored_depth(farthest, format)};
-      const bool own = biased > nearest, own_shown = biased > shown[0];
-      std::array<size_t, 2> bin{}, bin_shown{};
-      if (threshold)
-        for (size_t end = 0; end < 2; ++end) {
-          bin[end] = bins_.of(threshold->at(reference, end == 0 ? nearest : farthest));
-          bin_shown[end] = bins_.of(threshold->at(reference, shown[end]));
-        }
-      if (own == (biased > farthest) && own_shown == (biased > shown[1]) && bin[0] == bin[1] &&
-          bin_shown[0] == bin_shown[1]) {
-        const double weight = e.probe.taps();
-        for (size_t placement = 0; placement < count_; ++placement) {
-          if (!own) own_[cause][placement] += weight;
-          if (!own_shown) {
-            own_[error][placement] += weight;
-            receivers[placement].wrong_weight += weight;
-          }
-          if (!threshold) continue;
-          cell(cause, placement, bin[0]) += weight;
-          cell(error, placement, bin_shown[0]) += weight;
-        }
-        return;
-      }
-    }
-  }
+  // Of most lit receivers no tap is dark at any bias.
+  if (lit && same_bits && (e.taps.bits(pixel, 0) & ~of_texel) == exact_bits && alike(e.taps, pixel) &&
+      std::all_of(box.depth.begin(), box.depth.end(), [&](float at) { return at >= lit_from; }))
+    return;
   for (int t = 0; t < e.probe.taps(); ++t) {
     const bool as_receiver = (e.taps.bits(pixel, t) & ~of_texel) == exact_bits;
     const int* const column = &taps.column[static_cast<size_t>(t) * side];
@@ -280,20 +205,29 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
         const float exact = depth[n];
         if (lit && exact >= lit_from) continue;
         const float shown = stored_depth(exact, format);
-        if ((biased > exact) == lit) ++own_[cause][placement];
+        double weight = 1;
+        if constexpr (weighted) {
+          if (compares_clamped(true, format, shown)) {
+            other(t, i, j);
+            continue;
+          }
+          weight = e.probe.weight_at({taps.x[i], taps.y[j]}, t);
+          if (weight == 0) continue;
+        }
+        if ((biased > exact) == lit) own_[cause][placement] += weight;
         if ((biased > shown) == lit) {
-          ++own_[error][placement];
-          ++receivers[placement].wrong_weight;
+          own_[error][placement] += weight;
+          receivers[placement].wrong_weight += weight;
         }
         if (!threshold) continue;
         if (!lit || without_bias > exact) {
-          if (!of_exact) of_exact.emplace(biases, reference, bins_.of(threshold->at(reference, exact)));
-          ++cell(cause, placement, of_exact->of(exact));
+          if (!of_exact) of_exact.emplace(*threshold, bins_, reference, bins_.of(threshold->at(reference, exact)));
+          cell(cause, placement, of_exact->of(exact)) += weight;
           least = std::min(least, exact);
         }
         if (!lit || without_bias > shown) {
-          if (!of_shown) of_shown.emplace(biases, reference, bins_.of(threshold->at(reference, shown)));
-          ++cell(error, placement, of_shown->of(shown));
+          if (!of_shown) of_shown.emplace(*threshold, bins_, reference, bins_.of(threshold->at(reference, shown)));
+          cell(error, placement, of_shown->of(shown)) += weight;
         }
       }
     }
@@ -445,75 +379,6 @@ uint64_t disagreements(const LookupEvidence& e, size_t pixel, const PlacedTaps& 
     count += differs && !on_edge({taps.column[first], taps.row[first]});
   }
   return count;
-}
-
-int worst_placement(const PlacementCounts& counts) {
-  const std::vector<double> error = counts.shares().at("error");
-  return static_cast<int>(std::max_element(error.begin(), error.end()) - error.begin());
-}
-
-std::map<std::string, double> placement_metrics(const PlacementCounts& counts, std::span<const PlacementFact> worst) {
-  std::map<std::string, double> metrics;
-  const auto shares = counts.shares();
-  for (const auto& [name, values] : shares) {
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());  // all are NaN, or none is
-    metrics[name + "_mean"] = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
-    metrics[name + "_worst"] = sorted.back();
-    metrics[name + "_best"] = sorted.front();
-  }
-  for (const PlacementFact& fact : worst) metrics[fmt::format("worst_{}", fact.name)] = fact.value;
-  return metrics;
-}
-
-void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per_unit) {
-  curve.placements = static_cast<uint64_t>(counts.placements().count());
-  const std::vector<float>& edges = counts.edges();
-  const auto band_at = [&](const auto& of, size_t edge, Band& band) {
-    double sum = 0, worst = 0, best = std::numeric_limits<double>::infinity();
-    for (int p = 0; p < counts.placements().count(); ++p) {
-      const double share = of(p, edge) / counts.taps();
-      sum += share;
-      worst = std::max(worst, share);
-      best = std::min(best, share);
-    }
-    band.mean.push_back(sum / counts.placements().count());
-    band.worst.push_back(worst);
-    band.best.push_back(best);
-  };
-  const auto caused = [&](Cause cause) {
-    return [&counts, cause](int p, size_t edge) { return counts.caused(cause, p, edge); };
-  };
-  const auto aliasing = [&](int p, size_t edge) {
-    return counts.caused(Cause::aliasing_dark, p, edge) + counts.caused(Cause::aliasing_light, p, edge);
-  };
-  for (double bias : curve.bias_depth) {
-    const auto at = std::find(edges.begin(), edges.end(), static_cast<float>(bias / depth_per_unit));
-    if (at == edges.end()) throw std::logic_error("a bias of the curve is no edge of the placements' counts");
-    const auto edge = static_cast<size_t>(at - edges.begin());
-    band_at([&](int p, size_t e) { return counts.wrong_taps(p, e); }, edge, curve.error_band);
-    band_at(caused(Cause::acne), edge, curve.acne_band);
-    band_at(caused(Cause::peter_panning), edge, curve.peter_panning_band);
-    band_at(aliasing, edge, curve.aliasing_band);
-  }
-
-  if (std::isfinite(counts.acne_free_from()))
-    curve.acne_free_bias_worst_depth = counts.acne_free_from() * depth_per_unit;
-
-  // The window at every placement, between two edges. Acne falls with the amount and Peter Panning grows.
-  const auto worst_at = [&](Cause cause, size_t edge) {
-    double worst = 0;
-    for (int p = 0; p < counts.placements().count(); ++p) worst = std::max(worst, counts.caused(cause, p, edge));
-    return WindowSteps::Step{edges[edge], worst};
-  };
-  WindowSteps& steps = curve.steps;
-  const auto within = [&](const WindowSteps::Step& step) { return step.taps / steps.taps <= steps.most_share; };
-  for (size_t edge = 0; edge < edges.size(); ++edge) {
-    if (const auto acne_there = worst_at(Cause::acne, edge); within(acne_there)) steps.acne_worst.push_back(acne_there);
-    if (const auto there = worst_at(Cause::peter_panning, edge); within(there))
-      steps.peter_panning_worst.push_back(there);
-  }
-  judge_window(curve, curve);
 }
 
 }  // namespace noonmark

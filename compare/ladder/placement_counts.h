@@ -30,76 +30,11 @@
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/numbers.h"
 #include "compare/ladder/tap_threshold.h"
+#include "compare/ladder/threshold_bins.h"
 #include "compare/results/records.h"
 #include "technique/placements.h"
 
 namespace noonmark {
-
-// Ascending floats, and the first of them that is not less than a number.
-class ThresholdBins {
- public:
-  explicit ThresholdBins(std::vector<float> edges);
-  const std::vector<float>& edges() const { return edges_; }
-  // edges().size() if all edges are less. threshold: not NaN, at least 0.
-  size_t of(float threshold) const;
-
- private:
-  std::vector<float> edges_;
-  std::vector<uint32_t> first_;  // for the leading bits of a float
-};
-
-// The bias at each edge, by TapThreshold::bias_at(). It is kept, because most receivers have the same as the one before.
-class EdgeBiases {
- public:
-  std::span<const float> of(const TapThreshold& threshold, const ThresholdBins& bins) {
-    if (!of_ || !of_->has_bias_of(threshold) || biases_.size() != bins.edges().size()) {
-      biases_.clear();
-      for (const float amount : bins.edges()) biases_.push_back(threshold.bias_at(amount));
-      of_ = threshold;
-    }
-    return biases_;
-  }
-
- private:
-  std::optional<TapThreshold> of_;
-  std::vector<float> biases_;
-};
-
-// The bins of the thresholds of one receiver's taps, from their depths alone: the bin is the first edge at which the tap is
-// lit. The search begins at the last answer, because neighbouring taps have neighbouring depths.
-class BinsByDepth {
- public:
-  // biases: EdgeBiases::of the receiver's thresholds. reference: of the taps. bin: that of any depth, to begin with.
-  BinsByDepth(std::span<const float> biases, float reference, size_t bin)
-      : biases_(biases), reference_(reference), at_(bin) {
-    before_ = at_ == 0 ? -infinity_f : compared_at(at_ - 1);
-    here_ = compared_at(at_);
-  }
-  // ThresholdBins::of(TapThreshold::at(reference, depth)).
-  size_t of(float depth) {
-    while (here_ > depth) {
-      before_ = here_;
-      here_ = compared_at(++at_);
-    }
-    while (at_ > 0 && !(before_ > depth)) {
-      here_ = before_;
-      before_ = --at_ == 0 ? -infinity_f : compared_at(at_ - 1);
-    }
-    return at_;
-  }
-
- private:
-  // What is compared with a depth at this edge. Beyond the last edge every tap counts as lit.
-  float compared_at(size_t edge) const { return edge < biases_.size() ? reference_ - biases_[edge] : -infinity_f; }
-  std::span<const float> biases_;
-  float reference_;
-  size_t at_ = 0;
-  float before_ = 0, here_ = 0;  // what is compared at the edge before, and at this one
-};
-
-// The edges for a curve over these biases (in window depth, ascending, from 0): its own, and others between them, so
-// that there are at least 16 in an octave. In units of the part's amount.
-std::vector<float> placement_edges(const std::vector<double>& bias_depth, double depth_per_unit);
 
 // What PlacementCounts reads besides the lattice.
 struct PlacementEvidence {
@@ -174,8 +109,9 @@ class PlacementCounts {
   void book_beside(const PlacementEvidence& evidence, size_t pixel, const LatticeBox& box, bool truth, float bias,
                    const std::optional<TapThreshold>& threshold);
   // Books the taps of a receiver whose truth is `lit`, if nothing but their depth decides whether they are. Calls
-  // other(tap, column, row) for each tap whose own truth differs from the receiver's, or is not sure.
-  template <bool lit, class Other>
+  // other(tap, column, row) for each tap whose own truth differs from the receiver's, or is not sure, and for one whose depth
+  // a sampler clamps. weighted: a sampler weighs the taps.
+  template <bool lit, bool weighted, class Other>
   void book_by_depth(const PlacementEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
                      float bias, float lit_from, const std::optional<TapThreshold>& threshold,
                      std::vector<OfReceiver>& receivers, const Other& other);
@@ -192,7 +128,6 @@ class PlacementCounts {
   size_t count_;  // of placements
   const BiasPart* varied_;
   ThresholdBins bins_;
-  EdgeBiases edge_biases_;
   double whole_ = 1;
   uint64_t receivers_ = 0;
   float acne_free_from_ = 0;

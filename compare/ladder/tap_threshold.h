@@ -44,11 +44,6 @@ class TapThreshold {
     for (const float part : after_) sum += part;
     return sum * unit_;
   }
-  // Whether bias_at() is the same for every amount.
-  bool has_bias_of(const TapThreshold& other) const {
-    return unit_ == other.unit_ && factor_ == other.factor_ && varied_.floor == other.varied_.floor &&
-           varied_.cap == other.varied_.cap && before_ == other.before_ && after_ == other.after_;
-  }
   // Of a tap that compares these finite depths.
   float at(float reference, float depth) const {
     const float needed = lit_threshold(reference, depth);

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "compare/ladder/placement_counts.h"
+#include "compare/ladder/threshold_bins.h"
 #include "tests/compare/ladder/evidence.h"
 
 namespace noonmark {
@@ -26,7 +26,6 @@ RC_GTEST_PROP(BinsByDepth, AreThoseOfTheThresholds, (uint64_t seed)) {
   const BiasPart* const varied = curve_part(s.bias);
   if (!varied) return;
   const ThresholdBins bins(random_edges(random));
-  EdgeBiases edge_biases;         // kept from receiver to receiver, as the counts keep it
   int wrong = 0, wrong_bias = 0;  // one assertion for all taps: each takes long
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
     if (!s.truth.facing[i]) continue;
@@ -36,7 +35,7 @@ RC_GTEST_PROP(BinsByDepth, AreThoseOfTheThresholds, (uint64_t seed)) {
       const float d = s.exact[random() % s.exact.size()];
       return random() % 2 ? d : reference - d / 1024;
     };
-    BinsByDepth by_depth(edge_biases.of(threshold, bins), reference, bins.of(threshold.at(reference, depth())));
+    BinsByDepth by_depth(threshold, bins, reference, bins.of(threshold.at(reference, depth())));
     for (int k = 0; k < 200; ++k) {
       const float d = depth(), needed = threshold.at(reference, d);
       wrong += by_depth.of(d) != bins.of(needed);
