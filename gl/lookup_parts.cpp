@@ -36,8 +36,17 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
 
   ShaderSlots slots = receiver_slots(programs, technique.frame, technique.bias);
   slots["filter"] = "filter " + name;
+  slots["cascade"] = technique.cascade ? "shaders/cascade/by_depth.glsl" : "shaders/cascade/single.glsl";
   programs.define(slots["filter"], text);
   return slots;
+}
+
+void set_cascade_uniforms(Program& program, const CascadePlace& cascade) {
+  program.set_if_used("this_cascade", cascade.index);
+  program.set("cascade_bounds", static_cast<int>(cascade.bounds_m.size()));
+  for (size_t k = 0; k < cascade.bounds_m.size(); ++k)
+    program.set_if_used(fmt::format("cascade_bound_m[{}]", k).c_str(), cascade.bounds_m[k]);
+  program.set_if_used("view_forward", cascade.forward);
 }
 
 void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings) {

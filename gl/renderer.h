@@ -81,6 +81,8 @@ class ShadowMap {
   std::unique_ptr<Impl> impl_;
 };
 
+inline constexpr uint8_t no_cascade = 255;
+
 class Renderer {
  public:
   // Throws Error(usage) if a replaced file is not a file of the program.
@@ -143,6 +145,10 @@ class Renderer {
   // the light have 0. time_ms: as in render_map. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
   Image<float> lookup(const ShadowMap& map, const Technique& technique, double* time_ms = nullptr);
+
+  // The cascade of each receiver, as the lookup chooses it (shaders/cascade/by_depth.glsl); no_cascade where there is no
+  // receiver. technique: of any of the cascades.
+  Image<uint8_t> choose_cascades(const Technique& technique);
 
   // The numbers that lookup computes before it compares. They do not depend on the contents of the map. Of the bias,
   // they depend only on the parts that move the lookup.

@@ -126,6 +126,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const Technique& technique, 
   r.set_receiver_uniforms(program, technique);
   r.set_pattern(program, pattern);
   set_filter_uniforms(program, *technique.filter, technique.settings.filter);
+  if (technique.cascade) set_cascade_uniforms(program, *technique.cascade);
   program.set("lit_beyond_far", technique.settings.map.lit_beyond_far ? 1 : 0);
   glBindTextureUnit(2, map.impl_->depth.id());
   if (pattern.bilinear()) {

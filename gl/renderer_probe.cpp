@@ -99,6 +99,28 @@ LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
   return probe;
 }
 
+Image<uint8_t> Renderer::choose_cascades(const Technique& technique) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  if (!technique.cascade) throw std::logic_error("choose_cascades: a technique without cascades");
+  if (!r.position_image.texture) throw std::logic_error("load_receivers comes before choose_cascades");
+  Program& program = r.programs.get({"shaders/screen.vert", "shaders/choose_cascade.frag"});
+  set_cascade_uniforms(program, *technique.cascade);
+  program.set("eye_m", r.eye_m);
+  glBindTextureUnit(0, r.position_image.texture.id());
+  const int width = r.position_image.width, height = r.position_image.height;
+  r.require(r.lit, GL_R32F, width, height);
+  r.draw_into({r.lit.texture.id()}, 0, width, height);
+  r.draw_screen(program);
+  r.detach(1);
+  const Image<float> chosen = read_back<float>(r.lit, GL_RED, GL_FLOAT);
+  r.context->check("choose_cascades");
+  Image<uint8_t> cascades(width, height, no_cascade);
+  for (size_t i = 0; i < chosen.size(); ++i)
+    if (chosen[i] >= 0) cascades[i] = static_cast<uint8_t>(chosen[i]);
+  return cascades;
+}
+
 void Renderer::probe_strip(LookupProbe& probe, const Technique& technique, PixelRange strip) {
   if (technique.frame.map_shape() == MapShape::flat) return;
   Impl& r = *impl_;

@@ -7,6 +7,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/library.h"
+#include "technique/cascades.h"
 
 namespace noonmark {
 namespace {
@@ -32,10 +33,10 @@ bool same_light(const LightFrame& a, const LightFrame& b) {
 // Whether two frames have the same map and the same lookup, bit for bit.
 bool same_map(const LightFrame& a, const LightFrame& b) {
   return a.kind == b.kind && a.origin_m == b.origin_m && a.anchor_m == b.anchor_m &&
-         a.anchor_texels == b.anchor_texels && a.ray_direction == b.ray_direction && a.right == b.right &&
-         a.up == b.up && a.forward == b.forward && a.extent_m == b.extent_m && a.tan_half_fov == b.tan_half_fov &&
-         a.cos_half_cone == b.cos_half_cone && a.shift_texels == b.shift_texels && a.cube_axes == b.cube_axes &&
-         a.near_m == b.near_m && a.far_m == b.far_m && a.tile_size() == b.tile_size();
+         a.anchor_texels == b.anchor_texels && a.centre_m == b.centre_m && a.ray_direction == b.ray_direction &&
+         a.right == b.right && a.up == b.up && a.forward == b.forward && a.extent_m == b.extent_m &&
+         a.tan_half_fov == b.tan_half_fov && a.cos_half_cone == b.cos_half_cone && a.shift_texels == b.shift_texels &&
+         a.cube_axes == b.cube_axes && a.near_m == b.near_m && a.far_m == b.far_m && a.tile_size() == b.tile_size();
 }
 
 // How far from the place looked up a tap may read, in texels of a flat map: its offset, the texel that it snaps to or
@@ -89,12 +90,13 @@ Settings next_frame(const Settings& settings) {
 Flicker trace_flicker(const FlickerInput& in) {
   const ReceiverImage& receivers = in.view.receivers;
   const int width = receivers.width(), height = receivers.height();
-  const Settings next = next_frame(in.technique.settings);
+  const Settings& settings = in.techniques.front().settings;
+  const Settings next = next_frame(settings);
   std::optional<Scene> moved;
-  if (in.technique.settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, next.scene);
+  if (settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, next.scene);
   const Scene& scene = moved ? *moved : *in.loaded.scene;
-  const LightFrame& now_frame = in.technique.frame;
-  const Technique next_technique(scene, next);
+  const std::vector<Technique> next_techniques = cascades_of(scene, next);
+  const Technique& next_technique = next_techniques.front();
   const LightFrame& next_light = next_technique.frame;
 
   // The receivers that count.
@@ -104,13 +106,20 @@ Flicker trace_flicker(const FlickerInput& in) {
   std::optional<raytrace::SeenReceivers> seen;
   std::optional<ReceiverTruth> truth;
   if (!still) seen = in.loaded.tracer->seen_by(receivers, camera);
-  if (!same_light(now_frame, next_light))
+  if (!same_light(in.techniques.front().frame, next_light))
     truth = in.loaded.tracer->receiver_truth(receivers, next_light, {effective_light(scene, next)});
   const ReceiverTruth& before = in.truth.receivers;
   const ReceiverTruth& after = truth ? *truth : before;
   FlickerPoints points{Image<uint8_t>(width, height, 0), Image<uint8_t>(width, height, 0)};
   const double reach = reach_of_taps(next_technique.taps);
   Image<uint32_t> pixels(width, height, 0);
+  const auto map_of = [](std::span<const Technique> techniques, const Image<uint8_t>* cascades,
+                         size_t i) -> const LightFrame& { return techniques[cascades ? (*cascades)[i] : 0].frame; };
+  std::optional<Image<uint8_t>> next_cascades;  // as the next frame's camera chooses them
+  if (in.cascades) {
+    in.renderer.load_receivers(receivers, camera.eye_m);
+    next_cascades = in.renderer.choose_cascades(next_technique);
+  }
   for (size_t i = 0; i < pixels.size(); ++i) {
     pixels[i] = static_cast<uint32_t>(i);
     if (!before.facing[i] || before.ambiguous[i]) continue;
@@ -137,27 +146,48 @@ Flicker trace_flicker(const FlickerInput& in) {
     }
     points.counted[i] = 1;
     const glm::dvec3 place(receivers.position[i]);
-    points.held[i] = holds(now_frame, place, reach) && holds(next_light, place, reach);
+    points.held[i] = holds(map_of(in.techniques, in.cascades, i), place, reach) &&
+                     holds(map_of(next_techniques, next_cascades ? &*next_cascades : nullptr, i), place, reach);
   }
 
-  // The lookups, each of which differs from the one before in one respect.
-  const auto shown = [&](const Technique& technique) {
-    MapStage map = in.stages.draw_map(in.renderer, scene, technique);
-    return in.stages.look_up(in.renderer, *map.map, technique);
+  // The lookups, each of which differs from the one before in one respect. Of cascades each receiver is looked up in one
+  // map, and 0 in the others.
+  const auto shown = [&](std::span<const Technique> techniques) {
+    Image<float> all(width, height, 0);
+    for (const Technique& technique : techniques) {
+      MapStage map = in.stages.draw_map(in.renderer, scene, technique);
+      const Image<float> one = in.stages.look_up(in.renderer, *map.map, technique);
+      for (size_t i = 0; i < all.size(); ++i) all[i] += one[i];
+    }
+    return all;
   };
-  Settings same_depths = next;
-  same_depths.map.near_m = now_frame.near_m;
-  same_depths.map.far_m = now_frame.far_m;
-  const Technique on_grid(scene, same_depths);
-  const Image<float> grid = same_map(on_grid.frame, now_frame) ? in.r5 : shown(on_grid);
-  const Image<float> depth = same_map(next_light, on_grid.frame) ? grid : shown(next_technique);
-  Image<float> last = depth;
-  if (next_technique.taps.variants > 1 || next_technique.taps.scaled_by_view) {
-    in.renderer.load_receivers(receivers, camera.eye_m, &pixels);
-    last = shown(next_technique);
-    in.renderer.load_receivers(receivers, in.view.camera.eye_m);
+  const auto same_maps = [](std::span<const Technique> a, std::span<const Technique> b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Technique& x, const Technique& y) { return same_map(x.frame, y.frame); });
+  };
+  std::optional<Image<float>> choice;
+  std::vector<Technique> same_depths = next_techniques;
+  for (size_t k = 0; k < same_depths.size(); ++k) {
+    const LightFrame& now = in.techniques[k].frame;
+    same_depths[k].frame.near_m = now.near_m;
+    same_depths[k].frame.far_m = now.far_m;
   }
-  return flicker_of({in.r5, grid, depth, last}, std::move(points));
+  if (in.cascades) {  // the next frame's choice, with its eye, in this frame's maps
+    std::vector<Technique> chosen(in.techniques.begin(), in.techniques.end());
+    for (size_t k = 0; k < chosen.size(); ++k) chosen[k].cascade = next_techniques[k].cascade;
+    choice = shown(chosen);
+  }
+  const Image<float>& before_grid = choice ? *choice : in.r5;
+  const Image<float> grid = same_maps(same_depths, in.techniques) ? before_grid : shown(same_depths);
+  const Image<float> depth = same_maps(next_techniques, same_depths) ? grid : shown(next_techniques);
+  Image<float> last = depth;
+  const bool turns = next_technique.taps.variants > 1 || next_technique.taps.scaled_by_view;
+  if (turns) {
+    in.renderer.load_receivers(receivers, camera.eye_m, &pixels);
+    last = shown(next_techniques);
+  }
+  if (turns || in.cascades) in.renderer.load_receivers(receivers, in.view.camera.eye_m);
+  return flicker_of({in.r5, before_grid, grid, depth, last}, std::move(points));
 }
 
 }  // namespace noonmark

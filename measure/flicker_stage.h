@@ -1,7 +1,9 @@
 // The stage of a measurement that compares a frame of a motion ([motion]) with the next one.
 //
-//   if (settings.view.motion.any()) Flicker flicker = trace_flicker({stages, renderer, loaded, view, truth, technique, r5});
+//   if (settings.view.motion.any()) Flicker flicker = trace_flicker({stages, renderer, loaded, view, truth, techniques, nullptr, r5});
 #pragma once
+#include <span>
+
 #include "compare/ladder/flicker.h"
 #include "measure/stages.h"
 
@@ -14,8 +16,9 @@ struct FlickerInput {
   gl::Renderer& renderer;
   const SceneStage& loaded;
   const ViewStage& view;
-  const TruthStage& truth;
-  const Technique& technique;
+  const TruthStage& truth;                // of all receivers
+  std::span<const Technique> techniques;  // one, or one for each cascade
+  const Image<uint8_t>* cascades;         // the cascade of each receiver; null with one map
   const Image<float>& r5;
 };
 

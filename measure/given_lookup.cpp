@@ -65,8 +65,12 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   made.ladder = std::move(climbed.ladder);
   const Image<float> occluders =
       impl_->tracer.occluder_distance(view.receivers, technique.frame, peter_panning_mask(made.ladder));
-  made.metrics = measure_ladder({made.ladder, view.receivers, technique.frame, lookup.probe, technique.bias,
-                                 lookup.edge_distance_texels, occluders, technique.moves_casters(), impl_->surfaces});
+  made.metrics = measure_ladder({made.ladder,
+                                 view.receivers,
+                                 {{technique.frame, lookup.probe, technique.bias, lookup.edge_distance_texels}},
+                                 occluders,
+                                 technique.moves_casters(),
+                                 impl_->surfaces});
   made.metrics.insert(climbed.soundness.begin(), climbed.soundness.end());
   std::vector<double> off, depths;
   for (size_t texel = 0; texel < lookup.exact_depth.depth.size(); ++texel) {

@@ -135,12 +135,13 @@ LightsFrame measure_lights(std::span<const LightPart> parts) {
   };
   double sum_of_parts = 0;
   for (const double one : errors) sum_of_parts += one;
-  frame.metrics = {{"lights_error", mean(error)},
-                   {"lights_error_soft", mean(error_soft)},
-                   {"lights_rmse", std::sqrt(mean(squares))},
-                   {"lights_flip", counted == 0 ? std::numeric_limits<double>::quiet_NaN() : flip(frame.truth, frame.shown).mean},
-                   {"lights_counted", static_cast<double>(counted)},
-                   {"lights_ambiguous", static_cast<double>(ambiguous)}};
+  frame.metrics = {
+      {"lights_error", mean(error)},
+      {"lights_error_soft", mean(error_soft)},
+      {"lights_rmse", std::sqrt(mean(squares))},
+      {"lights_flip", counted == 0 ? std::numeric_limits<double>::quiet_NaN() : flip(frame.truth, frame.shown).mean},
+      {"lights_counted", static_cast<double>(counted)},
+      {"lights_ambiguous", static_cast<double>(ambiguous)}};
   for (size_t l = 0; l < parts.size(); ++l)
     frame.of_light[l] = {{"light_error", mean(errors[l])},
                          {"light_share", sum_of_parts > 0 ? errors[l] / sum_of_parts

@@ -20,8 +20,8 @@ namespace {
 
 // Bytes. Found by counting the arrays that are alive at the same time, and compared with the peak (VmHWM) of runs in
 // which one of them dominates, on Debian 12 with llvmpipe. The measured numbers are in brackets.
-constexpr double program = 260e6;          // libraries, OpenGL's compiler, one empty picture [125e6]
-constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, on both sides of OpenGL [236]
+constexpr double program = 260e6;  // libraries, OpenGL's compiler, one empty picture [125e6]
+constexpr double per_pixel = 260;  // receivers, truth, probe, ladder, on both sides of OpenGL [236]
 // Pictures that are painted and encoded side by side, after much of the above has been freed: 3 bytes and the encoded ones
 // on each thread, and rows of the EXR files [7 on 2 threads].
 constexpr double per_picture_pixel = 60;
@@ -63,6 +63,8 @@ constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, fo
 // answer for each threshold, which are two for each tap (compare/ladder/live_picture.h), in a list that grows by doubling.
 // A stack of pictures (compare/ladder/picture_stack.h) has an answer for each picture in its place.
 constexpr double per_live_answer = 2 * sizeof(LiveAnswer), per_stacked_answer = 2 * sizeof(PictureStack::Answer);
+// Of each cascade but the first: its probe, its truth, and the ladder of its receivers before it is joined.
+constexpr double per_cascade_pixel = 130;
 // Of the flicker to the next frame: four lookups and what is booked of them, which pixels see a receiver and which light
 // reaches it there, and the receivers as they are uploaded again.
 constexpr double per_flicker_pixel = 90;
@@ -114,6 +116,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   if (two_lights) scene += per_light_triangle * static_cast<double>(input.scene.triangles);
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 
+  const double maps = s.cascades.count;
   double curve = 0;
   if (input.curve && curve_part(s.bias))
     curve = std::min<double>(taps, batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +
@@ -150,12 +153,13 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
       {"the program itself", "use a machine with more memory, or raise its limit", program},
       {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},
       {"the picture", "lower view.width_px and view.height_px",
-       pixels * (per_pixel + (input.pictures ? per_picture_pixel : 0)) + motion},
+       pixels * (per_pixel + (maps - 1) * per_cascade_pixel + (input.pictures ? per_picture_pixel : 0)) + motion},
       {"the taps",
        curve > outside ? "lower filter.size, view.width_px or view.height_px, or set curve.enabled = false"
                        : "lower filter.size, view.width_px or view.height_px, or widen map.extent_m",
-       strip + beside},
-      {"the shadow map", "lower map.resolution", map + more_maps},
+       maps * (strip + outside) + beside - outside},
+      {"the shadow map", maps > 1 ? "lower map.resolution or cascades.count" : "lower map.resolution",
+       maps * map + more_maps},
   }};
 }
 

@@ -183,6 +183,7 @@ std::string technique_text(const Settings& settings) {
 }  // namespace
 
 Settings phase_settings(const Settings& given, const Scene& scene) {
+  require_one_map(given, "a phase diagram");
   Settings settings = given;
   const LightKind light = effective_light(scene, settings).kind;
   if (!kind_of_light(light).placements_form_lattice())

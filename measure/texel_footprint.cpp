@@ -32,6 +32,13 @@ double pixel_width_m(const CameraFrame& camera, glm::dvec3 p, int height) {
 
 TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame& camera, const LightFrame& frame,
                                const Image<uint8_t>& facing) {
+  const LightFrame* const only = &frame;
+  return texel_footprint(receivers, camera, {&only, 1}, nullptr, facing);
+}
+
+TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame& camera,
+                               std::span<const LightFrame* const> frames, const Image<uint8_t>* cascades,
+                               const Image<uint8_t>& facing) {
   const int width = receivers.width(), height = receivers.height();
   const auto none = static_cast<float>(std::numeric_limits<double>::quiet_NaN());
   TexelFootprint footprint{{width, height, none}, {width, height, none}};
@@ -40,6 +47,7 @@ TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame
       for (int x = 0; x < width; ++x) {
         const size_t i = facing.index(x, y);
         if (!facing[i]) continue;
+        const LightFrame& frame = *frames[cascades ? (*cascades)[i] : 0];
         const glm::dvec3 p(receivers.position[i]), normal(receivers.normal[i]), light = frame.to_light(p);
         const MapTile tile = frame.tile_at(light);
         const auto texels = [&](glm::dvec3 world) { return tile.texels(frame.place(frame.to_light(world))); };

@@ -8,6 +8,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 
 #include "base/image.h"
@@ -23,6 +24,10 @@ struct TexelFootprint {
   Image<float> perspective;  // w over the width of a pixel there, both across their rays
 };
 TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame& camera, const LightFrame& frame,
+                               const Image<uint8_t>& facing);
+// The same of several maps. cascades: the one that each receiver is looked up in; null: the first.
+TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame& camera,
+                               std::span<const LightFrame* const> frames, const Image<uint8_t>* cascades,
                                const Image<uint8_t>& facing);
 
 // undersampled, perspective_aliasing, perspective_aliasing_p95 (compare/results/metrics.cpp); NaN if nothing faces the light.

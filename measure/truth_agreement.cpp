@@ -1,8 +1,10 @@
 #include "measure/truth_agreement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace noonmark {
 namespace {
@@ -10,14 +12,16 @@ namespace {
 // What is kept of a measurement: the next one frees the scene that it refers to.
 struct Kept {
   Ladder ladder;
-  MapDepths exact_map;
+  std::vector<MapDepths> exact;  // of each map
   std::map<std::string, double> metrics;
 };
 
 Kept measured(Workbench& bench, Settings& settings, TruthMethod method) {
   settings.truth.method = method;
   Measurement m = bench.measure(settings, std::nullopt);
-  return {std::move(m.ladder), std::move(m.exact_map), std::move(m.record.metrics)};
+  Kept kept{std::move(m.ladder), {}, std::move(m.record.metrics)};
+  for (const MeasuredMap& map : m.maps) kept.exact.push_back(map.exact);
+  return kept;
 }
 
 bool is_compared(const std::string& metric) { return !metric.ends_with("_ms") && !metric.starts_with("truth_by_"); }
@@ -39,7 +43,9 @@ TruthAgreement compare_truth_methods(Workbench& bench, Settings settings) {
   compare(a.ladder.cause.pixels == b.ladder.cause.pixels, "the cause of each pixel");
   compare(a.ladder.flags.pixels == b.ladder.flags.pixels, "what is ambiguous");
   compare(a.ladder.doubt.pixels == b.ladder.doubt.pixels, "what is undecided");
-  compare(a.exact_map.depth == b.exact_map.depth, "the exact map");
+  compare(std::equal(a.exact.begin(), a.exact.end(), b.exact.begin(), b.exact.end(),
+                     [](const MapDepths& x, const MapDepths& y) { return x.depth == y.depth; }),
+          "the exact map");
   for (const auto& [name, value] : a.metrics)
     if (is_compared(name)) compare(b.metrics.contains(name) && same(value, b.metrics.at(name)), name);
   found.by_cells = a.metrics.at("truth_by_cells");

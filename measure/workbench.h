@@ -21,21 +21,34 @@
 
 namespace noonmark {
 
+// One map of a measured point.
+struct MeasuredMap {
+  Technique technique;       // with the frame of this map
+  const LookupProbe& probe;  // of all receivers, also of those that are looked up in another map
+  MapDepths stored;          // as the lookup's sampler returns it, at the texels that taps of facing receivers read
+  const MapDepths& exact;
+  // The whole stored map, by rows from the lowest v on: (first row, number of rows). It is read from the device, and a
+  // large map is drawn again for it.
+  std::function<Image<float>(int, int)> stored_rows;
+};
+
 // One measured point with the images behind its numbers. The references are valid until the bench's next measurement.
 struct Measurement {
   PointRecord record;  // without id and pictures
+  // Of cascades: with the frame of one map for the whole view, of which only the light is meant.
   Technique technique;
   Ladder ladder;
   Camera camera;
   const Scene& scene;
   const ReceiverImage& receivers;
-  const LookupProbe& probe;
+  std::vector<MeasuredMap> maps;   // one, or one for each cascade
+  Image<uint8_t> cascades;         // the map that each receiver is looked up in; empty with one map
   std::optional<Flicker> flicker;  // from this frame to the next, if the settings have a motion
-  MapDepths stored_map;  // as the lookup's sampler returns it, at the texels that taps of facing receivers read
-  const MapDepths& exact_map;
-  // The whole stored map, by rows from the lowest v on: (first row, number of rows). It is read from the device, and a
-  // large map is drawn again for it.
-  std::function<Image<float>(int, int)> stored_rows;
+
+  const MeasuredMap& map() const { return maps.front(); }  // of a point with one map
+  const MeasuredMap& map_of(size_t i) const { return maps[cascades.size() == 0 ? 0 : cascades[i]]; }
+  // Whether the size of a texel and the step of depth are the same at all receivers.
+  bool uniform() const { return maps.size() == 1 && technique.frame.uniform(); }
 };
 
 // Milliseconds by gl::DeviceInfo::times. Empty: not asked for.

@@ -66,7 +66,8 @@ ChosenLight chosen_light(const Scene& scene, const LightSettings& settings) {
 
 std::string first_of_several_note(const Scene& scene, const Settings& settings) {
   const LightSettings& s = settings.light;
-  if (scene.lights.size() < 2 || s.name != LightSettings().name || s.index || s.kind != LightChoice::automatic) return "";
+  if (scene.lights.size() < 2 || s.name != LightSettings().name || s.index || s.kind != LightChoice::automatic)
+    return "";
   return fmt::format(
       "{}: has {} lights, and this is the first; light.name or light.index gives another, and lights = \"all\" in an "
       "experiment measures all",

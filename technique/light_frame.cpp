@@ -59,6 +59,7 @@ glm::dmat4 LightFrame::clip_from_world(const MapTile& t) const {
 
 glm::dmat4 LightFrame::drawn_clip_from_world(const MapTile& t) const {
   const glm::dvec3 from = drawn_origin_m();
+  const glm::dvec2 centre = anchor_m ? glm::dvec2(0) : t.centre_m;  // a snapped map's place is anchor_texels
   const auto in_world = [&](glm::dvec3 axis) { return axis.x * right + axis.y * up + axis.z * forward; };
   const glm::dvec3 axes[3] = {in_world(t.right), in_world(t.up), in_world(t.forward)};
   const double range = t.far_m - t.near_m;
@@ -70,8 +71,8 @@ glm::dmat4 LightFrame::drawn_clip_from_world(const MapTile& t) const {
     rows[1] = axes[1] * (1 / half.y);
     rows[2] = axes[2] * (2 / range);
     rows[3] = glm::dvec3(0);
-    offsets[0] -= t.centre_m.x / half.x;
-    offsets[1] -= t.centre_m.y / half.y;
+    offsets[0] -= centre.x / half.x;
+    offsets[1] -= centre.y / half.y;
     offsets[2] = -2 * t.near_m / range - 1;
     offsets[3] = 1;
   } else {
@@ -219,9 +220,10 @@ Light effective_light(const Scene& scene, const Settings& settings) {
 
 namespace {
 
-std::optional<FittedMap> moved_fit(const Scene& scene, const Settings& settings, const LightFrame& axes) {
-  if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, settings.map, axes);
-  if (settings.map.fit == MapFit::sphere) return fit_to_sphere(scene, settings.view, settings.map, axes);
+std::optional<FittedMap> moved_fit(const Scene& scene, const Settings& settings, const LightFrame& axes,
+                                   const ViewSlice* slice) {
+  if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, settings.map, axes, slice);
+  if (settings.map.fit == MapFit::sphere) return fit_to_sphere(scene, settings, axes, slice);
   if (settings.map.fit == MapFit::casters) return fit_to_casters(scene, settings.map, axes);
   return std::nullopt;
 }
@@ -251,9 +253,21 @@ std::string map_fit_note(const Scene& scene, const Settings& settings) {
                      why, fmt::join(keeps, ", "), fitted.size() == 1 ? "it" : "them");
 }
 
+namespace {
+
+// Law 33 wants one extent in every frame.
+std::string moving_splits_note(const Scene& scene, const Settings& settings) {
+  if (settings.cascades.count == 1 || !settings.view.motion.any() || settings.view.near_m || scene.camera.near_m)
+    return "";
+  return "cascades begin at the camera's near plane, which is fitted anew in each frame, so that their sizes change from "
+         "frame to frame and their texels flicker; set view.near_m";
+}
+
+}  // namespace
+
 std::vector<std::string> light_notes(const Scene& scene, const Settings& settings) {
   std::vector<std::string> notes;
-  for (const auto& note_of : {first_of_several_note, made_up_light_note, map_fit_note})
+  for (const auto& note_of : {first_of_several_note, made_up_light_note, map_fit_note, moving_splits_note})
     if (std::string note = note_of(scene, settings); !note.empty()) notes.push_back(std::move(note));
   return notes;
 }
@@ -275,8 +289,9 @@ struct LaidMap {
   glm::dvec2 middle_m{0};
 };
 
-LaidMap laid_map(const Scene& scene, const Settings& settings, const KindOfLight& kind, const LightFrame& axes) {
-  if (const std::optional<FittedMap> moved = moved_fit(scene, settings, axes))
+LaidMap laid_map(const Scene& scene, const Settings& settings, const KindOfLight& kind, const LightFrame& axes,
+                 const ViewSlice* slice) {
+  if (const std::optional<FittedMap> moved = moved_fit(scene, settings, axes, slice))
     return {axes, moved->volume, moved->middle_m};
   // The scene's own map volume fits only the scene's own light.
   if (scene.map && settings.map.fit == MapFit::scene && why_not_the_scenes(scene, settings).empty())
@@ -287,15 +302,16 @@ LaidMap laid_map(const Scene& scene, const Settings& settings, const KindOfLight
 // Of all rotations the one whose texels are smallest, or of which a map of the box's own shape needs the fewest. A square
 // repeats after 90 degrees, a rectangle after 180. There are several minima, each narrower than a step of 3 degrees only
 // where it is shallow too.
-LaidMap smallest_map(const Scene& scene, const Settings& settings, const KindOfLight& kind, const LightFrame& axes) {
+LaidMap smallest_map(const Scene& scene, const Settings& settings, const KindOfLight& kind, const LightFrame& axes,
+                     const ViewSlice* slice) {
   constexpr double coarse_deg = 3, fine_deg = 0.5;
   double best_deg = 0;
-  LaidMap best = laid_map(scene, settings, kind, axes);
+  LaidMap best = laid_map(scene, settings, kind, axes, slice);
   const auto size = [&](const MapVolume& volume) {
     return settings.map.aspect ? volume.extent_m : volume.extent_m * volume.height_m.value_or(volume.extent_m);
   };
   const auto try_at = [&](double deg) {
-    LaidMap one = laid_map(scene, settings, kind, rolled(axes, deg));
+    LaidMap one = laid_map(scene, settings, kind, rolled(axes, deg), slice);
     if (size(one.volume) < size(best.volume)) best = one, best_deg = deg;
   };
   for (double deg = coarse_deg; deg < (settings.map.aspect == 1 ? 90 : 180); deg += coarse_deg) try_at(deg);
@@ -306,15 +322,15 @@ LaidMap smallest_map(const Scene& scene, const Settings& settings, const KindOfL
 
 }  // namespace
 
-LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
+LightFrame make_light_frame(const Scene& scene, const Settings& settings, const ViewSlice* slice) {
   const Light light = effective_light(scene, settings);
   validate(settings, light.kind);
   const KindOfLight& kind = kind_of_light(light.kind);
   const bool cube = kind.map_shape() == MapShape::cube;
   const LightFrame axes = kind.axes(light);
   LaidMap laid = settings.map.roll_deg
-                     ? laid_map(scene, settings, kind, cube ? axes : rolled(axes, *settings.map.roll_deg))
-                     : smallest_map(scene, settings, kind, axes);
+                     ? laid_map(scene, settings, kind, cube ? axes : rolled(axes, *settings.map.roll_deg), slice)
+                     : smallest_map(scene, settings, kind, axes, slice);
   LightFrame frame = laid.axes;
   MapVolume volume = laid.volume;
   if (settings.map.depth_range == DepthRange::scene && kind.rays().have_one_direction()) {
@@ -333,6 +349,11 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
                                       "map.near_m and map.far_m",
                                       frame.near_m, frame.far_m));
   kind.lay_map(frame, light, volume, settings.map);
+  if (settings.cascades.count > 1) {  // the middle as centre_m
+    const glm::dvec3 middle = frame.origin_m - axes.origin_m;
+    frame.centre_m = {glm::dot(middle, frame.right), glm::dot(middle, frame.up)};
+    frame.origin_m = axes.origin_m;
+  }
   return frame;
 }
 

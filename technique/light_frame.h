@@ -33,13 +33,16 @@ struct LightFrame {
   LightKind kind = LightKind::directional;
   // Spot and point: the light's position. It is exactly a float, because every ray starts there. Directional: the point
   // where u, v and z are 0. It is the light's position moved, in its plane, to the middle of the map (map.fit = view) and
-  // by map.shift_*_texels and map.snap.
+  // by map.shift_*_texels and map.snap; of a cascade the light's position (centre_m).
   glm::dvec3 origin_m{0};
   // Directional with map.snap: the origin of OpenGL's matrix. It does not move with the camera, and its texel grid is
   // that of the map: origin_m is a whole number of texels from it. So the matrix is bit for bit the same in every frame,
   // and the map's place is an exact number that the shaders subtract (drawn_clip_from_world).
   std::optional<glm::dvec3> anchor_m;
-  glm::dvec2 anchor_texels{0};  // whole texels from the anchor to origin_m, along right and up
+  glm::dvec2 anchor_texels{0};  // whole texels from the anchor to the map's middle, along right and up
+  // Directional: the map's middle, along right and up from origin_m. It is 0 but in a cascade: the frames of all cascades
+  // have one origin, so that what the light sees of a scene (raytrace/traced_scene.h) is the same for all of them.
+  glm::dvec2 centre_m{0};
   // Unit vectors. For a point light they are the axes of the world.
   glm::dvec3 right{1, 0, 0};
   glm::dvec3 up{0, 1, 0};
@@ -153,9 +156,15 @@ int cube_face_of(glm::dvec3 direction);
 // The scene's light, changed by settings.light.
 Light effective_light(const Scene& scene, const Settings& settings);
 
-// Throws Error(usage) if near >= far, if the extent is not positive, if near is not before a spot or point light, or if
-// the position of a directional or spot light is its target.
-LightFrame make_light_frame(const Scene& scene, const Settings& settings);
+// A part of the view, by the depth along the view's direction, in metres.
+struct ViewSlice {
+  double begin_m = 0, end_m = 0;
+};
+
+// slice: the part of the view that the map is for, which map.fit = view and sphere read; null: all of it. Throws
+// Error(usage) if near >= far, if the extent is not positive, if near is not before a spot or point light, or if the
+// position of a directional or spot light is its target.
+LightFrame make_light_frame(const Scene& scene, const Settings& settings, const ViewSlice* slice = nullptr);
 
 // What stands in the place of the scene's own map volume, and why, where the settings make its light another one:
 // "point-room: near, far of the map are fitted in place of the scene's own 1 m, 25 m, because light.position_m moves the
@@ -163,8 +172,8 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings);
 // settings give all of it, and if map.fit asks for a fit.
 std::string map_fit_note(const Scene& scene, const Settings& settings);
 
-// What a user must know of the light and its map volume, one sentence each: first_of_several_note and made_up_light_note (technique/chosen_light.h), and
-// map_fit_note.
+// What a user must know of the light and its map volume, one sentence each: first_of_several_note and made_up_light_note
+// (technique/chosen_light.h), map_fit_note, and that the splits of cascades move with a fitted near plane.
 std::vector<std::string> light_notes(const Scene& scene, const Settings& settings);
 
 // The smallest map volume around the scene: extent, near and far are such that everything the light can reach is

@@ -38,20 +38,17 @@ Box box_of(const Corners& corners) {
   return box;
 }
 
-std::array<glm::dvec4, 6> frustum_planes(const CameraFrame& frame) {
+std::array<glm::dvec4, 6> frustum_planes(const CameraFrame& frame, const ViewSlice* slice) {
   const std::array<glm::dvec4, 4> sides = side_planes(frame, 0);
-  return {sides[0],
-          sides[1],
-          sides[2],
-          sides[3],
-          glm::dvec4(0, 0, 1, -*frame.camera.near_m),
-          glm::dvec4(0, 0, -1, *frame.camera.far_m)};
+  double near_m = *frame.camera.near_m, far_m = *frame.camera.far_m;
+  if (slice) near_m = std::max(near_m, slice->begin_m), far_m = std::min(far_m, slice->end_m);
+  return {sides[0], sides[1], sides[2], sides[3], glm::dvec4(0, 0, 1, -near_m), glm::dvec4(0, 0, -1, far_m)};
 }
 
 // The part in view, in the light's axes. A corner that clipping made is kept inside its triangle's box, which rounding
 // could leave: so the fit is never larger than that of the whole scene.
-Box part_in_view(const Scene& scene, const CameraFrame& camera, const LightFrame& axes) {
-  const std::array<glm::dvec4, 6> planes = frustum_planes(camera);
+Box part_in_view(const Scene& scene, const CameraFrame& camera, const LightFrame& axes, const ViewSlice* slice) {
+  const std::array<glm::dvec4, 6> planes = frustum_planes(camera, slice);
   Box part;
   for (const glm::uvec3& t : scene.triangles) {
     const auto in_view = clipped(planes, corners_of(scene, t, [&](glm::dvec3 p) { return camera.in_axes(p); }));
@@ -89,9 +86,9 @@ Depths depths_inside(const Scene& scene, const LightFrame& axes, glm::dvec2 midd
 }  // namespace
 
 std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& view, const MapSettings& map,
-                                     const LightFrame& axes) {
+                                     const LightFrame& axes, const ViewSlice* slice) {
   const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
-  const Box part = part_in_view(scene, camera, axes);
+  const Box part = part_in_view(scene, camera, axes, slice);
   if (!(part.low.x <= part.high.x)) return std::nullopt;
   const glm::dvec3 size = part.high - part.low;
   const glm::dvec2 area = lights::area_around(0.5 * glm::dvec2(size), 0, map);
@@ -114,20 +111,31 @@ struct Sphere {
   double radius = 0;
 };
 
-// The least sphere of the frustum from the eye to `reach`.
-Sphere sphere_of_frustum(const CameraFrame& camera, double reach) {
+// The least sphere of the frustum from the depth `begin` to `end`: its middle lies on the axis where the near and the far
+// corners are equally far, but never beyond the far rectangle, whose corners alone then touch it (law 29).
+Sphere sphere_of_frustum(const CameraFrame& camera, double begin, double end) {
   const double k2 = camera.half_width * camera.half_width + camera.half_height * camera.half_height;
-  if (camera.camera.projection != Projection::perspective) return {reach / 2, std::sqrt(k2 + reach * reach / 4)};
-  if (k2 >= 1) return {reach, std::sqrt(k2) * reach};
-  const double along = reach * (1 + k2) / 2;
-  return {along, along};  // through the eye and the four far corners
+  if (camera.camera.projection != Projection::perspective) {
+    const double half = (end - begin) / 2;
+    return {begin + half, std::sqrt(k2 + half * half)};
+  }
+  if (begin == 0 ? k2 >= 1 : k2 * (end + begin) >= end - begin) return {end, std::sqrt(k2) * end};
+  const double along = (end + begin) * (1 + k2) / 2;
+  if (begin == 0) return {along, along};  // through the eye and the four far corners
+  return {along, std::sqrt((end - along) * (end - along) + k2 * end * end)};
 }
 
 }  // namespace
 
-FittedMap fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapSettings& map, const LightFrame& axes) {
+FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const LightFrame& axes, const ViewSlice* slice) {
+  const ViewSettings& view = settings.view;
+  const MapSettings& map = settings.map;
   const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
-  const Sphere sphere = sphere_of_frustum(camera, map.reach_m.value_or(diagonal_of(scene)));
+  const ViewSlice whole{0, slice ? 0 : map.reach_m.value_or(diagonal_of(scene))};
+  if (!slice) slice = &whole;
+  Sphere sphere = sphere_of_frustum(camera, slice->begin_m, slice->end_m);
+  if (const double step = settings.cascades.radius_round_m; step > 0)
+    sphere.radius = step * std::ceil(sphere.radius / step);
   const glm::dvec2 area = lights::area_around(glm::dvec2(sphere.radius), 1, map);
   const glm::dvec3 middle = axes.to_light(camera.eye_m + sphere.along * camera.forward);
   const double near_m =

@@ -14,6 +14,7 @@
 namespace noonmark {
 
 struct LightFrame;
+struct ViewSlice;
 
 struct FittedMap {
   MapVolume volume;
@@ -31,15 +32,18 @@ struct FittedMap {
 // The fit reads the camera and the shape of the picture, but neither the number of its pixels nor the filter; of the map
 // only its shape. A tap that leaves the square, as at the edge of the picture, is outside the map (cause: coverage).
 // Nothing if no part of the scene is in view. Throws Error(usage) as effective_camera() does.
+// slice: the part of the frustum that is in view for this map; null: all of it.
 std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& view, const MapSettings& map,
-                                     const LightFrame& axes);
+                                     const LightFrame& axes, const ViewSlice* slice = nullptr);
 
 // map.fit = sphere: the square around the least sphere that holds the picture's frustum from the eye to map.reach_m (the
 // square of a perspective camera, law 29 with near = 0). The sphere's radius reads the angle of view, the shape of the
 // picture and map.reach_m, and neither place nor direction of the camera; the square is one texel wider, so that snapping
 // (map.snap) never uncovers its edge. Near and far hold the sphere, and near all of the scene that can cast a shadow into
-// it.
-FittedMap fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapSettings& map, const LightFrame& axes);
+// it. slice: the sphere holds this part of the frustum, from begin_m to end_m (law 29); null: from the eye to map.reach_m.
+// cascades.radius_round_m rounds the radius.
+FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const LightFrame& axes,
+                        const ViewSlice* slice = nullptr);
 
 // map.fit = casters: the smallest square, with the margin of a tight fit and one texel on each side, that holds every triangle
 // that can cast a shadow, also where the map is moved by up to a texel (map.snap, placements); near and far hold the scene

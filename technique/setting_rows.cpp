@@ -25,20 +25,43 @@ double parse_real(const Setting& row, std::string_view text) {
   return *value;
 }
 
-glm::dvec3 parse_point(const Setting& row, std::string_view text) {
-  glm::dvec3 point;
-  std::string_view rest = text;
-  for (int axis = 0; axis < 3; ++axis) {
+namespace {
+
+// Numbers with commas between them, each perhaps after spaces.
+std::vector<double> parse_numbers(const Setting& row, std::string_view text) {
+  std::vector<double> numbers;
+  for (std::string_view rest = text;;) {
     const size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (axis == 2)) refuse(row, text);
     std::string_view part = rest.substr(0, comma);
     while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
     const std::optional<double> value = parse_number<double>(part);
     if (!value || !std::isfinite(*value)) refuse(row, text);
-    point[axis] = *value;
-    if (axis < 2) rest.remove_prefix(comma + 1);
+    numbers.push_back(*value);
+    if (comma == std::string_view::npos) return numbers;
+    rest.remove_prefix(comma + 1);
   }
-  return point;
+}
+
+}  // namespace
+
+glm::dvec3 parse_point(const Setting& row, std::string_view text) {
+  const std::vector<double> numbers = parse_numbers(row, text);
+  if (numbers.size() != 3) refuse(row, text);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::vector<double> parse_list(const Setting& row, std::string_view text) {
+  std::vector<double> numbers = parse_numbers(row, text);
+  for (size_t i = 0; i < numbers.size(); ++i)
+    if (numbers[i] < row.min || numbers[i] > row.max || (i > 0 && !(numbers[i] > numbers[i - 1]))) refuse(row, text);
+  return numbers;
+}
+
+std::string list_text(const std::vector<double>& list) {
+  if (list.empty()) return "auto";
+  std::string text;
+  for (const double number : list) text += (text.empty() ? "" : ",") + number_text(number);
+  return text;
 }
 
 std::string point_text(glm::dvec3 p) {

@@ -1,6 +1,5 @@
 // Functions that make the rows of technique/settings.cpp. There is one for each kind of member; it makes the functions
-// that read and write the member as text. Only settings.cpp and motion_rows.cpp include
-// this file.
+// that read and write the member as text. Only settings.cpp and the *_rows.cpp include this file.
 #pragma once
 #include <fmt/format.h>
 
@@ -29,10 +28,12 @@ std::optional<T> parse_number(std::string_view text) {
 // The shortest decimal that reads back as the same double. -0 becomes 0, so that equal values have equal keys.
 std::string number_text(double value);
 std::string point_text(glm::dvec3 p);
+std::string list_text(const std::vector<double>& list);  // "5,15,50"; empty: "auto"
 
-// Throw Error(usage) if the text is not a number or a point, or is outside the row's range.
+// Throw Error(usage) if the text is not a number, a point or an ascending list, or is outside the row's range.
 double parse_real(const Setting& row, std::string_view text);
 glm::dvec3 parse_point(const Setting& row, std::string_view text);
+std::vector<double> parse_list(const Setting& row, std::string_view text);  // "5, 15, 50"
 
 // Each function below makes a row for one kind of member. `member` maps Settings& to a reference.
 
@@ -143,6 +144,21 @@ Setting text(std::string_view name, std::string_view help, Member member) {
   return row;
 }
 
+// A list of ascending numbers between min and max. An empty list is "auto".
+template <class Member>
+Setting ascending_list(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
+                       Member member) {
+  Setting row{name, unit, ValueType::list, min, max, true, {}, std::string(help), {}, {}};
+  row.get = [member](const Settings& s) { return list_text(member(const_cast<Settings&>(s))); };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    if (text == "auto")
+      member(s).clear();
+    else
+      member(s) = parse_list(row, text);
+  };
+  return row;
+}
+
 // A choice whose values are the names of the rows of a table. The help text is `help` and then the help of each row.
 template <class Rows, class Member>
 Setting named(std::string_view name, std::string_view help, const Rows& rows, Member member) {
@@ -160,6 +176,7 @@ Setting named(std::string_view name, std::string_view help, const Rows& rows, Me
   return row;
 }
 
-std::vector<Setting> motion_rows();  // technique/motion_rows.cpp
+std::vector<Setting> motion_rows();   // technique/motion_rows.cpp
+std::vector<Setting> cascade_rows();  // technique/cascade_rows.cpp
 
 }  // namespace noonmark::setting_rows

@@ -152,6 +152,9 @@ std::string casters_without_lit_border(const Settings& s, std::optional<LightKin
 std::string without_sphere(const Settings& s, LightKind) {
   return s.map.fit == MapFit::sphere ? "" : "with map.fit = " + find_setting("map.fit").get(s);
 }
+std::string without_reach(const Settings& s, LightKind light) {
+  return s.cascades.count > 1 ? "" : without_sphere(s, light);
+}
 std::string without_motion(const Settings& s, LightKind) { return s.view.motion.any() ? "" : "without a motion"; }
 std::string without_turning_light(const Settings& s, LightKind) {
   return s.view.motion.light_turn_deg ? "" : "without motion.light_turn_deg";
@@ -245,6 +248,13 @@ void validate(const Settings& settings, std::optional<LightKind> light) {
   for (const Setting& row : settings_table())
     if (row.why_refused)
       if (const std::string why = row.why_refused(settings, light); !why.empty()) throw SettingConflict(row.name, why);
+}
+
+void require_one_map(const Settings& settings, std::string_view who) {
+  if (settings.cascades.count > 1)
+    throw SettingConflict(
+        "cascades.count",
+        fmt::format("{} is of one map, and cascades.count = {}; set cascades.count = 1", who, settings.cascades.count));
 }
 
 std::vector<IdleSetting> idle_settings(LightKind light, const Settings& settings) {

@@ -34,6 +34,9 @@ class SettingConflict : public Error {
 // is empty while the scene is not loaded. Then the rules that hold for some kinds of light only are not checked.
 void validate(const Settings& settings, std::optional<LightKind> light = std::nullopt);
 
+// Throws SettingConflict if the settings have several cascades. who: what is made for one map, "a phase diagram".
+void require_one_map(const Settings& settings, std::string_view who);
+
 struct IdleSetting {
   std::string name;  // "map.extent_m"
   std::string why;   // "on a point light"
@@ -66,6 +69,7 @@ std::string without_size_of_light(const Settings&, LightKind);
 std::string without_part_in_unit(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
 std::string without_sphere(const Settings&, LightKind);
+std::string without_reach(const Settings&, LightKind);  // of the map: neither a sphere nor cascades
 std::string without_motion(const Settings&, LightKind);
 std::string without_turning_light(const Settings&, LightKind);
 std::string without_moving_light(const Settings& s, LightKind light);

@@ -119,7 +119,7 @@ Stages stages_of_group(std::string_view group) {
   if (group == "view") return {Stage::view};
   if (group == "motion") return {Stage::view, Stage::truth, Stage::map, Stage::lookup};
   if (group == "light") return {Stage::truth, Stage::map, Stage::lookup};
-  if (group == "map") return {Stage::map, Stage::lookup};
+  if (group == "map" || group == "cascades") return {Stage::map, Stage::lookup};
   if (group == "bias" || group == "filter") return {Stage::lookup};
   if (group == "truth") return {Stage::truth};
   if (group == "given") return {Stage::scene};  // another frame is another scene (app/sweep/frame_run.h)
@@ -299,9 +299,9 @@ std::vector<Setting> make_table() {
       real(
           "map.reach_m", "m", 1e-6, 1e9,
           "map.fit = sphere: how far from the camera the map covers what is in view; auto: the diagonal of the scene's "
-          "box.",
+          "box. With cascades, also of map.fit = view: where the last one ends; auto: the camera's far plane.",
           MEMBER(map.reach_m))
-          .idle(without_sphere),
+          .idle(without_reach),
       choice("map.depth_range", {"fit", "scene"},
              "directional: what near and far are if they are auto. fit: by map.fit; scene: those of the whole scene, "
              "whatever the camera sees, so that depths are rounded alike in every frame.",
@@ -423,6 +423,9 @@ std::vector<Setting> make_table() {
   table.insert(std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "light.name"; }),
                motion.begin(), motion.end());
   after("filter.kind", filter_parameters(), [](const FilterParameter* parameter) { return filter_row(*parameter); });
+  const std::vector<Setting> cascades = cascade_rows();
+  table.insert(std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.unit"; }),
+               cascades.begin(), cascades.end());
   for (Setting& row : table)
     if (row.read_by.bits == 0) row.read_by = stages_of_group(row.name.substr(0, row.name.find('.')));
   return table;
@@ -476,6 +479,8 @@ std::string Setting::bare_range() const {
       return "a name or a path";
     case ValueType::point:
       return "x,y,z";
+    case ValueType::list:
+      return fmt::format("ascending numbers, {:g} ... {:g}", min, max);
   }
   throw std::logic_error("unknown value type");
 }

@@ -92,6 +92,18 @@ struct MapSettings {
   int rows() const { return aspect ? static_cast<int>(std::max(1.0, std::round(resolution / *aspect))) : resolution; }
 };
 
+// Cascades: the map of a directional light as several maps, each for a slice of the view's depth (technique/cascades.h).
+struct CascadeSettings {
+  int count = 1;                     // 1: one map for all of the view
+  std::string splits = "practical";  // the name of one of cascade_splits() (technique/cascade_splits.h)
+  double lambda = 0.5;               // practical: 0 even, 1 logarithmic
+  double exponent = 3;               // exponent: how much deeper each slice is than the one before
+  std::optional<double> first_m;     // first_bound: the end of the first slice
+  std::vector<double> bounds_m;      // manual: the ends of all slices but the last, ascending; empty: not given
+  double radius_round_m = 0;         // map.fit = sphere: the radius is rounded up to a multiple of it; 0: not rounded
+};
+inline constexpr int most_cascades = 8;
+
 // A bias is the sum of its parts (technique/bias_parts.h). Each part is 0 unless it is set.
 struct BiasSettings {
   BiasUnit unit = BiasUnit::depth;       // the unit of the parts whose own unit is "bias.unit"
@@ -149,6 +161,7 @@ struct Settings {
   ViewSettings view;
   LightSettings light;
   MapSettings map;
+  CascadeSettings cascades;
   BiasSettings bias;
   FilterSettings filter;
   TruthSettings truth;
@@ -166,16 +179,16 @@ struct Stages {
   constexpr bool has(Stage stage) const { return (bits & static_cast<uint8_t>(stage)) != 0; }
 };
 
-enum class ValueType { integer, real, flag, choice, text, point };
+enum class ValueType { integer, real, flag, choice, text, point, list };
 
-// One row of the table. A value is stored as text in one canonical form: "auto" for an empty optional, "x,y,z" for a
-// point, the shortest decimal that reads back as the same double. So the same value always has the same key in the
+// One row of the table. A value is stored as text in one canonical form: "auto" for an empty optional or list, "x,y,z" for a
+// point, "5,15,50" for a list of ascending numbers, the shortest decimal that reads back as the same double. So the same value always has the same key in the
 // store.
 struct Setting {
   std::string_view name;  // "map.resolution"
   std::string_view unit;  // "texels", "m", "deg", "" ...
   ValueType type;
-  double min = 0, max = 0;                // integer, real: inclusive limits
+  double min = 0, max = 0;                // integer, real, and each number of a list: inclusive limits
   bool may_be_auto = false;               // "auto" is a value
   std::vector<std::string_view> choices;  // choice
   std::string help;                       // one sentence
@@ -195,6 +208,9 @@ struct Setting {
   Setting idle(std::function<std::string(const Settings&, LightKind)> why) const;
   Setting refused(std::function<std::string(const Settings&, std::optional<LightKind>)> why) const;
   Setting only_read_by(Stages stages) const;
+
+  // True if a value is several numbers: an experiment file may give them as an array.
+  bool is_of_numbers() const { return type == ValueType::point || type == ValueType::list; }
 
   std::string range_text() const;       // "1 ... 170 or auto", "16 | 24 | 32f", "x,y,z" ...
   std::string range_with_unit() const;  // "1 ... 170 deg, or auto"

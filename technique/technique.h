@@ -15,6 +15,14 @@
 
 namespace noonmark {
 
+// A cascade's place among the others: what the lookup chooses by.
+struct CascadePlace {
+  int index = 0;                  // 0 is the nearest
+  std::vector<ViewSlice> slices;  // of all cascades
+  std::vector<float> bounds_m;    // the ends of all slices but the last, as the shader compares them
+  glm::vec3 forward{0};           // the view's direction, as the shader has it
+};
+
 struct Technique {
   Technique(const Scene& scene, const Settings& settings);
   // With a frame that is known already. Throws SettingConflict.
@@ -30,6 +38,7 @@ struct Technique {
   Bias bias;             // with its reference of a tap
   const Filter* filter;  // the row of settings.filter.kind; never null
   TapPattern taps;
+  std::optional<CascadePlace> cascade;  // empty: the map is for all receivers
 };
 
 }  // namespace noonmark

@@ -19,6 +19,7 @@
 #include "scenes/library.h"
 #include "technique/light_frame.h"
 #include "technique/placements.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -92,6 +93,7 @@ class Divider {
   // The settings with this resolution and the bias of least error there.
   Settings measured(size_t light, int resolution) {
     Settings settings = lights_[light].second;
+    require_one_map(settings, "a budget of texels");
     settings.map.resolution = resolution;
     settings.map.placements = 1;
     say_(fmt::format("{}: a map of {} texels", lights_[light].first, resolution));

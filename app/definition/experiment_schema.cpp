@@ -54,6 +54,13 @@ Json form_of(const Setting& row) {
       form = any_of({{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}},
                      {{"type", "string"}, {"pattern", "^[^,]+,[^,]+,[^,]+$"}}});
       break;
+    case ValueType::list: {
+      const Json number = {{"type", "number"}, {"minimum", row.min}, {"maximum", row.max}};
+      form = any_of({{{"type", "array"}, {"items", number}, {"minItems", 1}},
+                     number,
+                     {{"type", "string"}, {"pattern", "^[^,]+(,[^,]+)*$"}}});
+      break;
+    }
   }
   if (row.may_be_auto) form = any_of({form, {{"const", "auto"}}});
   if (row.name == "scene.name") {

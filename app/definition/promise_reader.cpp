@@ -82,8 +82,8 @@ Conditions PromiseReader::read_conditions(const toml::node& node, const std::str
 void PromiseReader::condition(const std::string& name, const toml::node& value) {
   const Setting& row = find_setting(name);
   if (where_->contains(name)) fail(value, fmt::format("where names {} twice", name));
-  // A list is a list of values, except for settings that are points, where a list of numbers is one value.
-  const bool many = value.is_array() && !(row.type == ValueType::point && !value.as_array()->empty() &&
+  // A list is a list of values, except for settings that are points or lists, where a list of numbers is one value.
+  const bool many = value.is_array() && !(row.is_of_numbers() && !value.as_array()->empty() &&
                                           value.as_array()->front().is_number());
   const std::vector<const toml::node*> nodes = many ? list(value, name) : std::vector<const toml::node*>{&value};
   for (const toml::node* node : nodes) {

@@ -20,7 +20,7 @@ class SettingsReader : protected TomlReader {
     if (node.is_integer()) return fmt::format("{}", node.as_integer()->get());
     if (node.is_floating_point()) return fmt::format("{}", node.as_floating_point()->get());
     if (node.is_boolean()) return node.as_boolean()->get() ? "true" : "false";
-    if (node.is_array() && row.type == ValueType::point) {
+    if (node.is_array() && row.is_of_numbers()) {
       std::vector<std::string> parts;
       for (const toml::node& part : *node.as_array())
         parts.push_back(fmt::format("{}", number(part, std::string(row.name))));

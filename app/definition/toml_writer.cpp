@@ -34,7 +34,7 @@ std::string toml_value(const Setting& row, const std::string& text) {
   const bool bare =
       text != "auto" && (row.type == ValueType::integer || row.type == ValueType::real || row.type == ValueType::flag);
   if (bare) return text;
-  if (row.type == ValueType::point && text != "auto") return "[" + text + "]";
+  if (row.is_of_numbers() && text != "auto") return "[" + text + "]";
   return toml_string(text);
 }
 

@@ -20,6 +20,7 @@
 #include "technique/bias.h"
 #include "technique/chosen_light.h"
 #include "technique/light_frame.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -213,6 +214,7 @@ std::string code(const Settings& settings) {
 }  // namespace
 
 std::string live_page(const Scene& scene, const Settings& settings, std::string_view version) {
+  require_one_map(settings, "a live page");
   make_light_frame(scene, settings);  // throws what is wrong with the settings
   return report::fill_template(file("live.html"), [&](std::string_view name) -> std::string {
     if (name == "title") return report::Markup(printable(scene.name)).html();

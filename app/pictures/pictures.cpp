@@ -24,7 +24,7 @@ namespace {
 
 // The receivers as grey clay under the light: ambient 0.15, the rest from the cosine and the visibility.
 double clay(const Measurement& m, size_t i, double visibility) {
-  return 0.15 + 0.75 * std::max(0.0f, m.probe.n_dot_l[i]) * visibility;
+  return 0.15 + 0.75 * std::max(0.0f, m.map().probe.n_dot_l[i]) * visibility;
 }
 
 Image<Color> paint(const Measurement& m, const std::function<Color(size_t)>& facing_color) {
@@ -50,7 +50,7 @@ Image<Color> classes(const Measurement& m) {
     if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
     if (m.ladder.flags[i] & flag_ambiguous) return named_color("ambiguous");
     // A little shading makes the shapes visible.
-    const float shade = 0.72f + 0.28f * m.probe.n_dot_l[i];
+    const float shade = 0.72f + 0.28f * m.map().probe.n_dot_l[i];
     const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.truth()[i] != 0 ? "lit" : "shadowed"));
     if (m.ladder.cause[i] == static_cast<uint8_t>(Cause::none)) return Color(right + 0.5f);
     const float wrong = std::abs(m.ladder.shown()[i] - m.ladder.truth()[i]);
@@ -76,8 +76,42 @@ Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
     const bool facing = m.ladder.flags[i] & flag_facing;
     return grey(0.35 + 0.5 * clay(m, i, facing ? m.ladder.truth()[i] : 0));
   });
-  draw_frustum(picture, m.technique.frame, camera, m.receivers);
+  for (const MeasuredMap& map : m.maps) draw_frustum(picture, map.technique.frame, camera, m.receivers);
   return picture;
+}
+
+// Of cascades, near ones first: neighbours are apart for people with colour-vision deficiencies (Okabe and Ito 2008).
+struct CascadeColor {
+  const char* name;
+  Color color;
+};
+constexpr CascadeColor cascade_colors[] = {
+    {"vermilion", {213, 94, 0}}, {"sky blue", {86, 180, 233}}, {"yellow", {240, 228, 66}}, {"blue", {0, 114, 178}},
+    {"orange", {230, 159, 0}},   {"green", {0, 158, 115}},     {"pink", {204, 121, 167}},  {"grey", {120, 120, 120}}};
+static_assert(std::size(cascade_colors) == most_cascades);
+
+Image<Color> tinted(const Measurement& m) {
+  return paint(m, [&](size_t i) {
+    const bool facing = m.ladder.flags[i] & flag_facing;
+    const glm::vec3 clay_there(grey(clay(m, i, facing ? m.ladder.shown()[i] : 0)));
+    if (m.cascades[i] >= m.maps.size()) return Color(clay_there);
+    const glm::vec3 tint = glm::vec3(cascade_colors[m.cascades[i]].color) / 255.0f;
+    return Color(glm::mix(clay_there, clay_there * tint, 0.75f) + 0.5f);
+  });
+}
+
+// "vermilion to 5 m, sky blue to 15 m, yellow to 80 m"
+std::string cascade_ranges(const Measurement& m) {
+  std::string text;
+  for (size_t k = 0; k < m.maps.size(); ++k)
+    text += fmt::format("{}{} to {:.3g} m", k == 0 ? "" : ", ", cascade_colors[k].name, m.record.cascades[k].end_m);
+  return text;
+}
+
+std::vector<StoredMap> stored_maps(const Measurement& m) {
+  std::vector<StoredMap> maps;
+  for (const MeasuredMap& map : m.maps) maps.push_back({map.stored_rows, map.technique.frame});
+  return maps;
 }
 
 // What changes from this frame of a motion to the next although the truth does not. A pixel without flicker is grey, one
@@ -231,16 +265,25 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
         fmt::format("What the shadow map shows at the points of frame {0} (left), what that of frame {1} shows at the "
                     "same points of the world (middle), and what changed although the truth did not (right): the grid "
                     "moved (orange), depths were re-rounded (pink), the kernel turned (blue), "
-                    "or the map's edge passed (green).",
-                    m.technique.settings.view.motion.frame, m.technique.settings.view.motion.frame + 1),
+                    "or the map's edge passed (green){2}.",
+                    m.technique.settings.view.motion.frame, m.technique.settings.view.motion.frame + 1,
+                    m.maps.size() > 1 ? ", or another cascade is looked up (yellow)" : ""),
         [&] {
           return beside({shaded(m, m.flicker->now), shaded(m, m.flicker->next), changes(m)});
         });
   files.add("depth",
-            m.technique.frame.map_shape() == MapShape::cube
+            m.maps.size() > 1
+                ? "The maps of the cascades as the light sees them, the nearest cascade on the left: bright is near in "
+                  "metres, black is empty."
+            : m.technique.frame.map_shape() == MapShape::cube
                 ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
                 : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
-            map_picture(m.stored_rows, m.technique.frame));  // OpenGL's map is read here
+            map_picture(stored_maps(m)));  // OpenGL's maps are read here
+  if (m.maps.size() > 1)
+    files.add("cascades",
+              "The map's frame tinted by the cascade that each pixel is looked up in: " + cascade_ranges(m) + ".",
+              [&] { return tinted(m); });
+
   files.add("frustum", std::string(m.technique.frame.light().frustum_caption()), [&] { return frustum(m, camera); });
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
   files.add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).",
@@ -290,7 +333,7 @@ std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std:
     return shown_frame(m.receivers, shaded_frame(m.receivers, m.technique.frame, camera, all_lit));
   });
   // OpenGL's map is read here.
-  const Image<Color> stored = stored_picture(m.stored_rows, m.technique.frame);
+  const Image<Color> stored = stored_picture(stored_maps(m));
   const Image<float> read = stored_depths(m);
   files.add("debug-stored", "The shadow map as it is stored: the grey is the window depth, black is 0 and white is 1.",
             [&] { return stored; });
@@ -308,7 +351,10 @@ std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std:
             [&] {
               Image<uint8_t> facing(m.receivers.width(), m.receivers.height());
               for (size_t i = 0; i < facing.size(); ++i) facing[i] = (m.ladder.flags[i] & flag_facing) != 0;
-              const TexelFootprint footprint = texel_footprint(m.receivers, camera, m.technique.frame, facing);
+              std::vector<const LightFrame*> frames;
+              for (const MeasuredMap& map : m.maps) frames.push_back(&map.technique.frame);
+              const TexelFootprint footprint =
+                  texel_footprint(m.receivers, camera, frames, m.maps.size() > 1 ? &m.cascades : nullptr, facing);
               return paint(m, [&](size_t i) { return texel_color(footprint.pixels[i]); });
             });
   return files.write();

@@ -11,8 +11,8 @@ namespace noonmark {
 
 // Each picture of a point that write_pictures() may write.
 inline constexpr std::string_view picture_names[] = {
-    "truth", "soft-truth", "map",          "classes",           "difference", "flicker",
-    "depth", "frustum",    "shaded-truth", "shaded-soft-truth", "shaded-map", "shaded-difference"};
+    "truth",    "soft-truth", "map",          "classes",           "difference", "flicker",          "depth",
+    "cascades", "frustum",    "shaded-truth", "shaded-soft-truth", "shaded-map", "shaded-difference"};
 
 // Writes the point's PNGs as <folder>/<stem>-<name>.png. The paths in the records begin with `relative`, not `folder`.
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -28,52 +29,70 @@ Image<float> channel_of(const Image<T>& source, const Get& get) {
   return values;
 }
 
-// Calls visit(i, texel) for every pixel that shows a surface, with the texel that its middle tap reads (for a box the tap
-// at P); {-1, -1} for the border.
-void each_read(const Measurement& m, const auto& visit) {
+// Calls visit(i, texel) for every pixel that shows a surface and is looked up in this map, with the texel that its middle
+// tap reads (for a box the tap at P); {-1, -1} for the border.
+void each_read(const Measurement& m, const MeasuredMap& map, const auto& visit) {
   for (size_t i = 0; i < m.receivers.primitive.size(); ++i)
-    if (m.receivers.primitive[i] != no_primitive)
-      visit(i, wrapped(m.probe.middle_texel(i), m.technique.frame.map_size(), m.technique.settings.map.wrap));
+    if (m.receivers.primitive[i] != no_primitive && &m.map_of(i) == &map)
+      visit(i, wrapped(map.probe.middle_texel(i), map.technique.frame.map_size(), map.technique.settings.map.wrap));
 }
 
-// The stored map at these texels. Unlike m.stored_map, it has those of receivers that do not face the light too.
-MapDepths stored_where_read(const Measurement& m) {
-  const auto texels = std::make_shared<TexelSet>(m.technique.frame.map_size());
-  each_read(m, [&](size_t, glm::ivec2 read) {
+// The stored map at these texels. Unlike MeasuredMap::stored, it has those of receivers that do not face the light too.
+MapDepths stored_where_read(const Measurement& m, const MeasuredMap& of) {
+  const auto texels = std::make_shared<TexelSet>(of.technique.frame.map_size());
+  each_read(m, of, [&](size_t, glm::ivec2 read) {
     if (read.x >= 0) texels->add(read);
   });
   texels->close();
   MapDepths map(texels, MapDepths::unknown);
   constexpr int band = 256;  // rows
   for (int first = 0; first < map.size().y; first += band) {
-    const Image<float> rows = m.stored_rows(first, std::min(band, map.size().y - first));
+    const Image<float> rows = of.stored_rows(first, std::min(band, map.size().y - first));
     for (int row = 0; row < rows.height; ++row)
       texels->each_in_row(first + row, [&](int x, size_t index) { map.depth[index] = rows.at(x, row); });
   }
   return map;
 }
 
-// The depth that the middle tap reads. NaN where there is no receiver.
-Image<float> depth_read(const Measurement& m, const MapDepths& map) {
+// The depth that the middle tap reads in depths_of(map). NaN where there is no receiver.
+Image<float> depth_read(const Measurement& m, const auto& depths_of) {
   Image<float> values(m.receivers.width(), m.receivers.height(), std::numeric_limits<float>::quiet_NaN());
-  each_read(m, [&](size_t i, glm::ivec2 read) { values[i] = read.x < 0 ? border_depth : map.at(read); });
+  for (const MeasuredMap& map : m.maps) {
+    const MapDepths& depths = depths_of(map);
+    each_read(m, map, [&](size_t i, glm::ivec2 read) { values[i] = read.x < 0 ? border_depth : depths.at(read); });
+  }
   return values;
 }
 
-// The stored and the exact map, with the highest v on top.
+// The stored and the exact map, with the highest v on top. Of cascades the maps one above the other, the nearest at the
+// bottom.
 LargeImage map_image(const Measurement& m) {
-  const glm::ivec2 size = m.technique.frame.map_size();
-  return {{"depth.stored", "depth.exact"}, size.x, size.y, [&m, size](int first, int count, float* pixels) {
-            const Image<float> stored = m.stored_rows(size.y - first - count, count);
-            std::vector<float> exact(static_cast<size_t>(size.x));
-            for (int y = 0; y < count; ++y) {
-              m.exact_map.copy_row(size.y - 1 - first - y, exact.data());
-              for (int x = 0; x < size.x; ++x, pixels += 2) {
-                pixels[0] = stored.at(x, count - 1 - y);
-                pixels[1] = exact[static_cast<size_t>(x)];
-              }
-            }
-          }};
+  glm::ivec2 size(m.map().technique.frame.resolution, 0);
+  std::vector<int> bottom;  // the first row of each map
+  for (const MeasuredMap& map : m.maps) {
+    bottom.push_back(size.y);
+    size.y += map.technique.frame.map_size().y;
+  }
+  const auto copy = [&m, bottom, size](int first, int count, float* pixels) {
+    std::vector<float> exact(static_cast<size_t>(size.x));
+    for (int y = 0; y < count;) {
+      // The rows from here down that are of one map.
+      const int row = size.y - 1 - first - y;
+      const size_t k = static_cast<size_t>(std::upper_bound(bottom.begin(), bottom.end(), row) - bottom.begin()) - 1;
+      const MeasuredMap& map = m.maps[k];
+      const int top = row - bottom[k], rows = std::min(top + 1, count - y);
+      const Image<float> stored = map.stored_rows(top + 1 - rows, rows);
+      for (int down = 0; down < rows; ++down) {
+        map.exact.copy_row(top - down, exact.data());
+        for (int x = 0; x < size.x; ++x, pixels += 2) {
+          pixels[0] = stored.at(x, rows - 1 - down);
+          pixels[1] = exact[static_cast<size_t>(x)];
+        }
+      }
+      y += rows;
+    }
+  };
+  return {{"depth.stored", "depth.exact"}, size.x, size.y, copy};
 }
 
 nlohmann::json vector_json(glm::dvec3 v) { return {v.x, v.y, v.z}; }
@@ -89,6 +108,24 @@ nlohmann::json matrix_rows(const glm::dmat4& matrix) {
   return rows;
 }
 
+nlohmann::ordered_json light_json(const Measurement& m, const LightFrame& f);
+
+// One entry for each cascade: its slice of the view, its numbers, and its map. Row y of the picture map.exr is row
+// height - 1 - y of the maps, which stand one above the other with the nearest cascade at the bottom.
+nlohmann::ordered_json cascades_json(const Measurement& m) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (size_t k = 0; k < m.maps.size(); ++k) {
+    const PointRecord::Cascade& cascade = m.record.cascades[k];
+    nlohmann::ordered_json one = {{"begin_m", cascade.begin_m}, {"end_m", cascade.end_m}};
+    one["bias_needed"] = nullptr;
+    if (cascade.bias_needed) one["bias_needed"] = *cascade.bias_needed;
+    for (const auto& [name, value] : cascade.metrics) one["metrics"][name] = number_json(value);
+    one["light"] = light_json(m, m.maps[k].technique.frame);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 nlohmann::json curve_json(const BiasCurve& curve) {
   nlohmann::json json;
   for (const CurveField& field : curve_fields()) json[field.name] = nullptr;  // stays null if the curve has no value
@@ -102,8 +139,7 @@ nlohmann::json curve_json(const BiasCurve& curve) {
   return json;
 }
 
-nlohmann::ordered_json light_json(const Measurement& m) {
-  const LightFrame& f = m.technique.frame;
+nlohmann::ordered_json light_json(const Measurement& m, const LightFrame& f) {
   const Light light = effective_light(m.scene, m.technique.settings);
   nlohmann::ordered_json json = {{"kind", f.light().name()},
                                  {"origin_m", vector_json(f.origin_m)},
@@ -159,7 +195,9 @@ void append_parts(const std::vector<Part>& parts, size_t text_after, std::string
 
 }  // namespace
 
-Image<float> stored_depths(const Measurement& m) { return depth_read(m, stored_where_read(m)); }
+Image<float> stored_depths(const Measurement& m) {
+  return depth_read(m, [&](const MeasuredMap& map) { return stored_where_read(m, map); });
+}
 
 std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
                                       const std::string& prefix) {
@@ -180,9 +218,13 @@ std::vector<ImageRecord> write_images(const Measurement& m, const std::string& f
   // A float holds an index exactly up to 2^24. -1 where there is no surface.
   add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
   for (const Ladder::RungImage& rung : m.ladder.rungs) add(rung.name, rung.lit);
-  add("depth.reference", m.probe.reference);
+  Image<float> reference(m.receivers.width(), m.receivers.height(), 0);
+  for (size_t i = 0; i < reference.size(); ++i)
+    if (m.receivers.primitive[i] != no_primitive) reference[i] = m.map_of(i).probe.reference[i];
+  add("depth.reference", std::move(reference));
   add("depth.stored", stored_depths(m));
-  add("depth.exact", depth_read(m, m.exact_map));
+  add("depth.exact", depth_read(m, [](const MeasuredMap& map) -> const MapDepths& { return map.exact; }));
+  if (m.maps.size() > 1) add("cascade", channel_of(m.cascades, [](uint8_t c) { return c == gl::no_cascade ? -1 : c; }));
   add("cause", channel_of(m.ladder.cause, [](uint8_t c) { return c; }));
   add("flags", channel_of(m.ladder.flags, [](uint8_t f) { return f; }));
   for (size_t c = 1; c < m.ladder.causes.size(); ++c)
@@ -229,7 +271,10 @@ std::string point_json(const Measurement& m, const std::string& command) {
                     {"near_m", m.camera.near_m.value()},
                     {"far_m", m.camera.far_m.value()},
                     {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
-  json["light"] = light_json(m);
+  if (m.maps.size() == 1)
+    json["light"] = light_json(m, m.technique.frame);
+  else
+    json["cascades"] = cascades_json(m);
   json["primitive"] =
       "index of the triangle, counted from 0 in the order in which the scene's parts are drawn; of a file, triangles "
       "without an area are left out before counting (scene.notes says how many); -1 where there is no surface";

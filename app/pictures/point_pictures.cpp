@@ -148,7 +148,8 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
 PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out,
                                          PictureFormats formats) {
   PointPictures kept = keep_pictures(m, id, out, formats);
-  const std::vector<glm::ivec2> pixels = section_pixels(m.record, m.ladder, m.probe);
+  const std::vector<glm::ivec2> pixels =
+      section_pixels(m.record, m.ladder, [&](size_t i) -> const LookupProbe& { return m.map_of(i).probe; });
   if (pixels.empty()) return kept;  // no taps are traced again for nothing
   for (const ReceiverSection& section : bench.sections(m, pixels)) {
     const std::string path = report::section_path(id, section.pixel),

@@ -4,13 +4,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "app/pictures/view_colors.h"
 
 namespace noonmark {
 namespace {
 
-constexpr int largest_side = 1024;  // the longer side of the picture, in pixels
+constexpr int largest_side =
+    1024;  // the longer side of the picture of one map, in pixels; of each of several half of it
 constexpr int largest_cell = 512;
 constexpr float outside_cross = 2;  // not a window depth
 
@@ -40,8 +42,8 @@ Span covered(int pixel, int pixels, int texels) {
 }
 
 // The arguments of std::min have this order so that a NaN is kept, which is drawn black.
-Image<float> shrunk(const MapRows& map, glm::ivec2 texels) {
-  const double scale = std::min(1.0, largest_side / static_cast<double>(std::max(texels.x, texels.y)));
+Image<float> shrunk(const MapRows& map, glm::ivec2 texels, int longest) {
+  const double scale = std::min(1.0, longest / static_cast<double>(std::max(texels.x, texels.y)));
   const glm::ivec2 size = glm::max(glm::ivec2(glm::round(scale * glm::dvec2(texels))), glm::ivec2(1));
   Image<float> out(size.x, size.y, 1);
   constexpr int most_texels = 1 << 22;  // that are read at a time: 16 MiB
@@ -62,9 +64,38 @@ Image<float> shrunk(const MapRows& map, glm::ivec2 texels) {
 }
 
 // The whole map, small enough for a picture.
-Image<float> map_depths(const MapRows& stored, const LightFrame& frame) {
-  return frame.map_shape() == MapShape::cube ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
-                                             : shrunk(stored, frame.map_size());
+Image<float> map_depths(const StoredMap& map, int longest) {
+  return map.frame.map_shape() == MapShape::cube
+             ? cube_cross(map.rows, map.frame.resolution, largest_cell, outside_cross)
+             : shrunk(map.rows, map.frame.map_size(), longest);
+}
+
+// Each map painted by paint(depth, frame), in a row.
+template <class Paint>
+Image<Color> in_a_row(std::span<const StoredMap> maps, const std::vector<Image<float>>& depths, const Paint& painted) {
+  constexpr int gap = 8;
+  int width = -gap, height = 0;
+  for (const Image<float>& depth : depths) {
+    width += depth.width + gap;
+    height = std::max(height, depth.height);
+  }
+  Image<Color> picture(width, height, paper);
+  int left = 0;
+  for (size_t k = 0; k < maps.size(); ++k) {
+    const Image<float>& depth = depths[k];
+    for (int y = 0; y < depth.height; ++y)
+      for (int x = 0; x < depth.width; ++x)
+        if (depth.at(x, y) != outside_cross) picture.at(left + x, y) = painted(depth.at(x, y), maps[k].frame);
+    left += depth.width + gap;
+  }
+  return picture;
+}
+
+std::vector<Image<float>> depths_of(std::span<const StoredMap> maps) {
+  std::vector<Image<float>> depths;
+  for (const StoredMap& map : maps)
+    depths.push_back(map_depths(map, maps.size() == 1 ? largest_side : largest_side / 2));
+  return depths;
 }
 
 }  // namespace
@@ -102,32 +133,27 @@ Color stored_grey(double window_depth) {
              : Color(0);
 }
 
-Image<Color> stored_picture(const MapRows& stored, const LightFrame& frame) {
-  const Image<float> depth = map_depths(stored, frame);
-  Image<Color> picture(depth.width, depth.height, paper);
-  for (size_t i = 0; i < depth.size(); ++i)
-    if (depth[i] != outside_cross) picture[i] = stored_grey(static_cast<double>(depth[i]));
-  return picture;
+Image<Color> stored_picture(std::span<const StoredMap> maps) {
+  return in_a_row(maps, depths_of(maps),
+                  [](float depth, const LightFrame&) { return stored_grey(static_cast<double>(depth)); });
 }
 
-Image<Color> map_picture(const MapRows& stored, const LightFrame& frame) {
-  const Image<float> depth = map_depths(stored, frame);
+Image<Color> map_picture(std::span<const StoredMap> maps) {
+  const std::vector<Image<float>> depths = depths_of(maps);
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
-  const auto metres = [&](float d) { return frame.tile(0).depth_of_window(static_cast<double>(d)); };
-  for (float d : depth.pixels) {
-    if (!(d < 1)) continue;
-    nearest = std::min(nearest, metres(d));
-    farthest = std::max(farthest, metres(d));
-  }
+  const auto metres = [](float d, const LightFrame& frame) {
+    return frame.tile(0).depth_of_window(static_cast<double>(d));
+  };
+  for (size_t k = 0; k < maps.size(); ++k)
+    for (const float d : depths[k].pixels) {
+      if (!(d < 1)) continue;
+      nearest = std::min(nearest, metres(d, maps[k].frame));
+      farthest = std::max(farthest, metres(d, maps[k].frame));
+    }
   const double span = farthest > nearest ? farthest - nearest : 1;
-  Image<Color> picture(depth.width, depth.height, named_color("background"));
-  for (size_t i = 0; i < depth.size(); ++i) {
-    if (depth[i] == outside_cross)
-      picture[i] = paper;
-    else if (!(depth[i] >= 1))
-      picture[i] = depth_grey((metres(depth[i]) - nearest) / span);
-  }
-  return picture;
+  return in_a_row(maps, depths, [&](float depth, const LightFrame& frame) {
+    return depth >= 1 ? named_color("background") : depth_grey((metres(depth, frame) - nearest) / span);
+  });
 }
 
 }  // namespace noonmark

@@ -35,6 +35,7 @@
 #include "compare/results/number_text.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
+#include "technique/setting_rules.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -232,6 +233,7 @@ std::string source_of_bounds(const Experiment& experiment, const RecommendOption
 AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& options, Workbench& bench) {
   AdviceRequest request;
   request.conditions = conditions_of(experiment);
+  for (const Settings& condition : request.conditions) require_one_map(condition, "a recommendation");
   const Settings first = request.conditions.front();
   const Scene& scene = bench.scene(first.scene);
   if (request.conditions.size() == 1 && options.views > 1) {

@@ -19,6 +19,7 @@
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
+#include "compare/report/cascade_rows.h"
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
 #include "measure/pass_times.h"
@@ -71,11 +72,22 @@ void print_flicker(const Measurement& m) {
 void print_fitted_map(const Measurement& m) {
   const MapSettings& map = m.technique.settings.map;
   const LightFrame& frame = m.technique.frame;
-  if ((map.aspect && map.roll_deg) || !frame.light().rays().have_one_direction()) return;
+  if (m.maps.size() > 1 || (map.aspect && map.roll_deg) || !frame.light().rays().have_one_direction()) return;
   const LightFrame unrolled = frame.light().axes(effective_light(m.scene, m.technique.settings));
   const double roll = std::atan2(glm::dot(frame.right, unrolled.up), glm::dot(frame.right, unrolled.right));
   fmt::print("  the map: {} x {} texels, {:.4g} x {:.4g} m, map.roll_deg = {:.4g}\n\n", frame.resolution, frame.rows,
              frame.extent_m, frame.extent_m * frame.rows / frame.resolution, glm::degrees(roll));
+}
+
+// The table of the cascades, and which of them the error comes from.
+void print_cascades(const Measurement& m) {
+  if (m.record.cascades.empty()) return;
+  fmt::print("\n  {:<10}{:>19}{:>11}{:>11}{:>12}{:>10}  {}\n", "cascade", "depth", "texel", "receivers", "error",
+             "of all", "bias needed, set");
+  for (const CascadeRow& row : cascade_rows_of(m.record))
+    fmt::print("  {:<10}{:>19}{:>11}{:>11.0f}{:>12}{:>10}  {}\n", row.number, row.depths, row.texel, row.receivers,
+               row.error, row.share, row.bias);
+  if (const std::string worst = worst_cascade(m.record); !worst.empty()) fmt::print("  {}\n", worst);
 }
 
 // clock: what the times come from.
@@ -92,6 +104,7 @@ void print_ladder(const Measurement& m, const char* clock) {
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
         !metric.of_frames && !metric.of_motion && !metric.of_lights)  // printed otherwise
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
+  print_cascades(m);
   print_placements(m);
   print_flicker(m);
   fmt::print("\n");
@@ -111,7 +124,7 @@ void print_ladder(const Measurement& m, const char* clock) {
   if (const std::string why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   const BiasCurve& c = *m.record.curve;
-  const char* there = m.technique.frame.uniform() ? "" : " (m and texels at the median receiver)";
+  const char* there = m.uniform() ? "" : " (m and texels at the median receiver)";
   if (c.window_min_depth)
     fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",
                c.parameter, *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
@@ -122,13 +135,13 @@ void print_ladder(const Measurement& m, const char* clock) {
                c.peter_panning_bound);
   if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
     fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
-               *c.acne_free_bias_depth * c.m_per_depth, m.technique.frame.uniform() ? "" : " at the median receiver");
+               *c.acne_free_bias_depth * c.m_per_depth, m.uniform() ? "" : " at the median receiver");
     // The law's bias in the parameter's own unit, which each receiver converts to depth by itself. The law does not
     // include the effect of other parts of the bias.
     const Bias& bias = m.technique.bias;
     if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() || m.technique.moves_casters())
       fmt::print(", on top of the other parts");
-    else if (m.technique.frame.uniform() || m.technique.settings.bias.unit == BiasUnit::m)
+    else if (m.uniform() || m.technique.settings.bias.unit == BiasUnit::m)
       fmt::print("; by law 1 the planes in the picture need {:.4g} m", value("acne_free_bias_law_m"));
     else if (m.technique.settings.bias.unit == BiasUnit::depth)
       fmt::print("; by law 1 the planes in the picture need {:.4g} depth", value("acne_free_bias_law_depth"));

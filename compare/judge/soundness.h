@@ -93,7 +93,7 @@ struct SoundLimit {
 };
 inline constexpr SoundLimit sound_limits[] = {
     // Steps are sums of floats in [0,1]. A dozen roundings of 2^-24 stay below this limit.
-    {"residual", 1e-6}, {"tap_residual", 1e-6}, {"contract", 0}, {"rounding_excess", 1}, {"placement_disagreements", 0},
+    {"residual", 1e-6}, {"tap_residual", 1e-6}, {"contract", 0}, {"rounding_excess", 1}, {"cascade_choice_excess", 1}, {"placement_disagreements", 0},
 };
 
 // A number of a stored point that no sound program has. Points in which nothing faces the light have none.

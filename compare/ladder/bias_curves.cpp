@@ -124,6 +124,15 @@ void BiasCounts::Adding::end_batch() {
   }
 }
 
+void BiasCounts::add(BiasCounts&& other) {
+  if (varied_ != other.varied_ || taps_ != other.taps_ || blended_ != other.blended_)
+    throw std::logic_error("BiasCounts: counts of different lookups");
+  receivers_ += other.receivers_;
+  stored_acne_free_from_ = std::max(stored_acne_free_from_, other.stored_acne_free_from_);
+  softer_before_ += other.softer_before_;
+  for (size_t l = 0; l < lists; ++l) sums_[l].add(std::move(other.sums_[l]));
+}
+
 double BiasCounts::caused(Cause cause, float x) const {
   if (cause == Cause::undecided) return sums_[undecided_dark].above(x) + sums_[undecided_light].up_to(x);
   const ThresholdSums& list = sums_[of_cause(cause)];
@@ -226,17 +235,24 @@ BiasCounts::Best BiasCounts::best(float most) const {
 
 BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
                      BiasUnit unit) {
-  if (frame.uniform()) {
+  const ScaledMap map{frame, truth};
+  return bias_scale({&map, 1}, receivers, unit);
+}
+
+BiasScale bias_scale(std::span<const ScaledMap> maps, const ReceiverImage& receivers, BiasUnit unit) {
+  if (maps.size() == 1 && maps.front().frame.uniform()) {
+    const LightFrame& frame = maps.front().frame;
     const double range = frame.far_m - frame.near_m;
     return {frame.depth_per_bias_unit(unit, {}), range, range / frame.texel_m(glm::dvec3(0))};
   }
   std::vector<double> metres, texels;
-  for (size_t i = 0; i < truth.facing.size(); ++i) {
-    if (!truth.facing[i]) continue;
-    const glm::dvec3 light = frame.to_light(receivers.position[i]);
-    metres.push_back(frame.depth_per_bias_unit(BiasUnit::m, light));
-    texels.push_back(frame.depth_per_bias_unit(BiasUnit::texel, light));
-  }
+  for (const auto& [frame, truth] : maps)
+    for (size_t i = 0; i < truth.facing.size(); ++i) {
+      if (!truth.facing[i]) continue;
+      const glm::dvec3 light = frame.to_light(receivers.position[i]);
+      metres.push_back(frame.depth_per_bias_unit(BiasUnit::m, light));
+      texels.push_back(frame.depth_per_bias_unit(BiasUnit::texel, light));
+    }
   const auto median = [](std::vector<double>& values) {
     if (values.empty()) return 1.0;  // without receivers there is no curve to scale
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

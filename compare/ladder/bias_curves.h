@@ -15,6 +15,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "compare/ladder/ladder.h"
@@ -37,6 +38,9 @@ class BiasCounts {
   BiasCounts(const LookupEvidence& evidence, const MapDepths& stored_map, const BiasPart& varied);
 
   class Adding;
+
+  // Adds the receivers that another one counts, with the same varied part and filter: those of another cascade.
+  void add(BiasCounts&& other);
 
   const BiasPart& varied() const { return *varied_; }
   bool blended() const { return blended_; }  // whether a sampler blends the taps
@@ -141,6 +145,12 @@ struct BiasScale {
 };
 BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
                      BiasUnit unit);
+// The same over several maps, each with the truth of its own receivers: medians over all that face the light.
+struct ScaledMap {
+  const LightFrame& frame;
+  const ReceiverTruth& truth;
+};
+BiasScale bias_scale(std::span<const ScaledMap> maps, const ReceiverImage& receivers, BiasUnit unit);
 
 struct CurveOptions : CauseBounds {
   std::vector<double> bias_depth;  // ascending, from 0; empty: default_bias_grid()

@@ -25,7 +25,8 @@ Flicker flicker_of(const FlickerLookups& lookups, FlickerPoints points) {
       flicker.parts[static_cast<size_t>(FlickerClass::coverage)][i] = std::abs(lookups.next[i] - lookups.now[i]);
       continue;
     }
-    const auto parts = flicker_parts({lookups.now[i], lookups.grid[i], lookups.depth[i], lookups.next[i]});
+    const auto parts =
+        flicker_parts({lookups.now[i], lookups.choice[i], lookups.grid[i], lookups.depth[i], lookups.next[i]});
     for (size_t c = 0; c < flicker_steps; ++c) flicker.parts[c][i] = static_cast<float>(parts[c]);
   }
   return flicker;
@@ -48,12 +49,13 @@ std::map<std::string, double> measure_flicker(const Flicker& flicker) {
     metrics["flicker_truth"] =
         static_cast<double>(flicker.points.truth_changed) / static_cast<double>(flicker.points.shared);
   if (points > 0)
-    metrics.insert({{"flicker", (sums[0] + sums[1] + sums[2] + sums[3]) / points},
+    metrics.insert({{"flicker", (sums[0] + sums[1] + sums[2] + sums[3] + sums[4]) / points},
                     {"flicker_changed", changed / points},
-                    {"flicker_grid", sums[0] / points},
-                    {"flicker_depth", sums[1] / points},
-                    {"flicker_kernel", sums[2] / points},
-                    {"flicker_coverage", sums[3] / points}});
+                    {"flicker_cascade", sums[0] / points},
+                    {"flicker_grid", sums[1] / points},
+                    {"flicker_depth", sums[2] / points},
+                    {"flicker_kernel", sums[3] / points},
+                    {"flicker_coverage", sums[4] / points}});
   return metrics;
 }
 

@@ -2,12 +2,13 @@
 // up at the same world points, the receivers of the first frame, so no difference between two pictures can look like
 // flicker.
 //
-//   Flicker flicker = flicker_of({now, grid, depth, next}, points);
+//   Flicker flicker = flicker_of({now, choice, grid, depth, next}, points);
 //   record.metrics.merge(measure_flicker(flicker));
 //
 // The change is split by lookups that differ in one respect from one to the next, as the ladder's rungs do:
 //
 //   now     frame 0: its map and its kernel
+//   choice  the same, but each point in the cascade that frame 1 chooses                  cascade changed
 //   grid    the map of frame 1 with the depth range of frame 0; the kernel of frame 0      grid moved
 //   depth   the map of frame 1; the kernel of frame 0                                      depth re-rounded
 //   next    frame 1: its map and its kernel                                                kernel turned
@@ -27,13 +28,13 @@
 
 namespace noonmark {
 
-enum class FlickerClass { grid, depth, kernel, coverage };
-inline constexpr size_t flicker_classes = 4;
-inline constexpr size_t flicker_steps = 3;  // the classes that are steps from lookup to lookup
+enum class FlickerClass { cascade, grid, depth, kernel, coverage };
+inline constexpr size_t flicker_classes = 5;
+inline constexpr size_t flicker_steps = 4;  // the classes that are steps from lookup to lookup
 
 // The result of each lookup at the receivers of the first frame, in the order above.
 struct FlickerLookups {
-  const Image<float>&now, &grid, &depth, &next;
+  const Image<float>&now, &choice, &grid, &depth, &next;  // with one map choice is now
 };
 
 // The points of the world at which flicker is taken: the receivers of the first frame.
@@ -55,12 +56,12 @@ struct Flicker {
   std::array<Image<float>, flicker_classes> parts;  // of |next - now|; 0 where nothing is counted
 };
 
-// The steps' parts of one receiver's change. Their sum, from the first to the last, is |r[3] - r[0]|.
+// The steps' parts of one receiver's change. Their sum, from the first to the last, is |r[4] - r[0]|.
 std::array<double, flicker_steps> flicker_parts(const std::array<double, flicker_steps + 1>& r);
 
 Flicker flicker_of(const FlickerLookups& lookups, FlickerPoints points);
 
-// The metrics flicker, flicker_changed, flicker_grid, flicker_depth, flicker_kernel, flicker_coverage, flicker_truth,
+// The metrics flicker, flicker_changed, flicker_cascade, flicker_grid, flicker_depth, flicker_kernel, flicker_coverage, flicker_truth,
 // flicker_points, flicker_outside, flicker_hidden and flicker_unlit.
 // Fractions of no points are left out. A lookup that is not finite makes its class not finite.
 std::map<std::string, double> measure_flicker(const Flicker& flicker);

@@ -183,6 +183,22 @@ void Climb::join(const Part& part) {
   ladder_.tap_residual = larger(ladder_.tap_residual, part.taps);
 }
 
+void join(Ladder& ladder, const Ladder& other) {
+  if (ladder.rungs.size() != other.rungs.size() || ladder.causes.size() != other.causes.size() ||
+      ladder.flags.size() != other.flags.size())
+    throw std::logic_error("join: ladders of different rungs, causes or sizes");
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    if (!(other.flags[i] & flag_facing)) continue;
+    for (size_t n = 0; n < ladder.rungs.size(); ++n) ladder.rungs[n].lit[i] = other.rungs[n].lit[i];
+    for (size_t c = 0; c < ladder.causes.size(); ++c) ladder.causes[c].step[i] = other.causes[c].step[i];
+    ladder.cause[i] = other.cause[i];
+    ladder.flags[i] = other.flags[i];
+    ladder.doubt[i] = other.doubt[i];
+  }
+  ladder.residual = larger(ladder.residual, other.residual);
+  ladder.tap_residual = larger(ladder.tap_residual, other.tap_residual);
+}
+
 void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
   require_strip(e, strip);
   Climb climbing(e, strip, ladder);

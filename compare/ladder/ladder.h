@@ -145,6 +145,10 @@ Ladder climb(const LookupEvidence& evidence);
 Ladder empty_ladder(int width, int height);
 void climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);
 
+// Takes the facing receivers of another ladder of the same size and rungs, none of which faces in this one: the receivers
+// of another cascade.
+void join(Ladder& ladder, const Ladder& other);
+
 class ReceiverTaps;
 
 // Climbs a strip, as a judge of read_taps (compare/ladder/receiver_taps.h).

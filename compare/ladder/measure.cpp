@@ -25,8 +25,9 @@ bool in_gap(const Ladder& ladder, size_t i) {
 // occluder that is farther away than the bias can reach makes no gap. At the edge of its shadow a steep receiver can
 // still be lit, because its depth changes by as much within the taps (law 1).
 double gap_m(const MeasureInput& in, size_t i) {
-  const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
-  const double reach = panning_reach_m(in, i, in.frame.to_light(in.receivers.position[i]));
+  const LookedUpMap& map = in.map_of(i);
+  const double cosine = std::clamp(static_cast<double>(map.probe.n_dot_l[i]), 0.0, 1.0);
+  const double reach = panning_reach_m(in, i, map.frame.to_light(in.receivers.position[i]));
   const double distance = in.occluder_distance_m[i];
   // A dark receiver without an occluder is a contradiction. It makes the metric not finite, so it is noticed.
   return distance > reach && std::isfinite(distance) ? 0 : distance * std::sqrt(1 - cosine * cosine);
@@ -44,29 +45,28 @@ double bias_m(const MapTile& tile, double bias, double depth_m) {
 }  // namespace
 
 double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
-  if (in.bias.polygon_offset() || in.casters_moved) return std::numeric_limits<double>::infinity();
-  const LightFrame& frame = in.frame;
-  const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
+  const auto& [frame, probe, bias, edge_distance] = in.map_of(i);
+  if (bias.polygon_offset() || in.casters_moved) return std::numeric_limits<double>::infinity();
+  const double cosine = std::clamp(static_cast<double>(probe.n_dot_l[i]), 0.0, 1.0);
   const MapTile tile = frame.tile_at(light);
   const double w = tile.texel_m(light);
   // How far from P, across its ray, the centre of a tap's texel can lie. Flat map: texels along both axes. Cube map:
   // metres of the world, and half a texel's diagonal.
-  double across = in.probe.pattern.reach_texels() * w * std::numbers::sqrt2;
-  if (in.probe.pattern.in_world) {
+  double across = probe.pattern.reach_texels() * w * std::numbers::sqrt2;
+  if (probe.pattern.in_world) {
     across = w * std::numbers::sqrt2 / 2;
     double longest = 0;
-    for (int t = 0; t < in.probe.taps(); ++t)
-      longest = std::max(longest, static_cast<double>(glm::length(in.probe.offset(i, t))));
+    for (int t = 0; t < probe.taps(); ++t)
+      longest = std::max(longest, static_cast<double>(glm::length(probe.offset(i, t))));
     across += longest;
   }
   // The offset along the normal. Along the light it reaches offset / cosine.
   const glm::dvec3 normal(in.receivers.normal[i]);
-  const double offset = glm::dot(in.bias.moved_m(frame, in.receivers.position[i], normal), normal);
+  const double offset = glm::dot(bias.moved_m(frame, in.receivers.position[i], normal), normal);
   const double depth = tile.depth_m(light), distance = glm::length(light);
   const LightRays rays = frame.light().rays();
   const double along_ray = rays.start_at_light() ? distance / depth : 1;  // metres of the ray for a metre of depth
-  return bias_m(tile, in.bias.at(in.probe, i), depth) * along_ray + rays.rise_m(across, cosine, distance) +
-         offset / cosine;
+  return bias_m(tile, bias.at(probe, i), depth) * along_ray + rays.rise_m(across, cosine, distance) + offset / cosine;
 }
 
 Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
@@ -113,8 +113,9 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     if (in_gap(ladder, i)) raise(gap, gap_m(in, i));
     if (is_aliased(ladder, i)) {
       ++aliased;
-      raise(edge_max, in.edge_distance_texels[i]);
-      edge_sum += in.edge_distance_texels[i];
+      const float distance = in.map_of(i).edge_distance_texels[i];
+      raise(edge_max, distance);
+      edge_sum += distance;
     }
   }
 
@@ -199,7 +200,7 @@ std::vector<PointRecord::WorstOf> worst_pixels(const MeasureInput& in) {
   add("undecided_taps", [&](size_t i) { return static_cast<double>(ladder.doubt[i]); });
   add("peter_panning_gap_m", [&](size_t i) { return in_gap(ladder, i) ? gap_m(in, i) : 0; });
   add("edge_displacement_texels",
-      [&](size_t i) { return is_aliased(ladder, i) ? static_cast<double>(in.edge_distance_texels[i]) : 0; });
+      [&](size_t i) { return is_aliased(ladder, i) ? static_cast<double>(in.map_of(i).edge_distance_texels[i]) : 0; });
 
   const auto width = static_cast<size_t>(std::max(1, ladder.flags.width));
   for (size_t i = 0; i < ladder.flags.size(); ++i) {

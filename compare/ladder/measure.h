@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "compare/ladder/ladder.h"
 #include "compare/results/records.h"
@@ -12,16 +13,24 @@
 
 namespace noonmark {
 
-struct MeasureInput {
-  const Ladder& ladder;
-  const ReceiverImage& receivers;
+// A map, and how the receivers are looked up in it.
+struct LookedUpMap {
   const LightFrame& frame;
   const LookupProbe& probe;
   const Bias& bias;
   const Image<float>& edge_distance_texels;  // raytrace::LookupTruth
+};
+
+struct MeasureInput {
+  const Ladder& ladder;
+  const ReceiverImage& receivers;
+  std::vector<LookedUpMap> maps;             // one, or one for each cascade
   const Image<float>& occluder_distance_m;   // read only at the pixels of peter_panning_mask
   bool casters_moved = false;                // moves_casters(), technique/casters.h
   std::span<const uint32_t> surfaces = {};   // surfaces_of() (scenes/surfaces.h); empty: all receivers are of one
+  const Image<uint8_t>* cascades = nullptr;  // the map that each receiver is looked up in; null: the only one
+
+  const LookedUpMap& map_of(size_t i) const { return maps[cascades ? (*cascades)[i] : 0]; }
 };
 
 // The largest distance before a receiver, in metres along its light ray, at which Peter Panning can occur. It is the

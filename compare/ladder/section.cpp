@@ -273,12 +273,12 @@ size_t checked_pixel(const SectionInput& in, glm::ivec2 pixel) {
 
 }  // namespace
 
-std::vector<glm::ivec2> section_pixels(const PointRecord& record, const Ladder& ladder, const LookupProbe& probe) {
+std::vector<glm::ivec2> section_pixels(const PointRecord& record, const Ladder& ladder, const ProbeOf& probe_of) {
   std::vector<glm::ivec2> pixels;
   const auto add = [&](int x, int y) {
     if (x < 0 || std::find(pixels.begin(), pixels.end(), glm::ivec2(x, y)) != pixels.end()) return;
     const size_t i = ladder.flags.index(x, y);
-    if ((ladder.flags[i] & flag_facing) && probe.asks(i)) pixels.emplace_back(x, y);
+    if ((ladder.flags[i] & flag_facing) && probe_of(i).asks(i)) pixels.emplace_back(x, y);
   };
   if (record.worst.error != 0) add(record.worst.x, record.worst.y);
   for (const PointRecord::WorstOf& worst : record.worst_of) {

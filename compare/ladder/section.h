@@ -110,7 +110,9 @@ struct SectionInput {
 
 // The pixels of a measured picture whose sections explain it: the one with the largest error, and of each cause the one with
 // the largest part of it. Each once; those without a section (section_of) are left out.
-std::vector<glm::ivec2> section_pixels(const PointRecord& record, const Ladder& ladder, const LookupProbe& probe);
+// probe_of: the probe of the map that a pixel's receiver is looked up in.
+using ProbeOf = std::function<const LookupProbe&(size_t)>;
+std::vector<glm::ivec2> section_pixels(const PointRecord& record, const Ladder& ladder, const ProbeOf& probe_of);
 
 // Throws Error(usage) if the pixel lies outside the picture, shows no surface, or shows one that faces away from the
 // light, and if the lookup reads no map there. Throws Error(defect) if a number of it is not finite.

@@ -50,6 +50,7 @@ class ThresholdSums {
   void add(ThresholdList& thresholds);
   // This empties the list.
   void add(Weighted& thresholds);
+  void add(ThresholdSums&& batch);
 
   double above(float x) const { return total() - up_to(x); }
   double up_to(float x) const;
@@ -60,8 +61,6 @@ class ThresholdSums {
   double before(size_t i) const { return i == 0 ? 0 : up_to_[i - 1]; }  // the sum of the first i
 
  private:
-  void add(ThresholdSums&& batch);
-
   std::vector<float> at_;      // ascending
   std::vector<double> up_to_;  // [i]: the sum of all thresholds that are at most at_[i]
 };

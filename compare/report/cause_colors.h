@@ -39,7 +39,8 @@ inline constexpr std::array<CauseColor, 5> pixel_state_colors{{
 }};
 
 // The classes of flicker (compare/ladder/flicker.h), by the metrics that measure them.
-inline constexpr std::array<CauseColor, 4> flicker_colors{{
+inline constexpr std::array<CauseColor, 5> flicker_colors{{
+    {"flicker_cascade", 240, 228, 66, "Another cascade"},
     {"flicker_grid", 230, 159, 0, "Grid moved"},
     {"flicker_depth", 204, 121, 167, "Depth re-rounded"},
     {"flicker_kernel", 0, 114, 178, "Kernel turned"},

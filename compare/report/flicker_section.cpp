@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "compare/ladder/flicker.h"
 #include "compare/report/blocks.h"
@@ -26,6 +27,15 @@ struct Strip {
   double mean = 0;
   const PointRecord* worst = nullptr;
 };
+
+// The classes of flicker that these results can have: a point goes to another cascade only where there are some.
+using ShownClasses = std::span<const CauseColor>;
+ShownClasses classes_of(const Results& results) {
+  const bool cascades = std::any_of(results.points.begin(), results.points.end(),
+                                    [](const PointRecord& point) { return !point.cascades.empty(); });
+  static_assert(flicker_colors.front().name == "flicker_cascade");
+  return ShownClasses(flicker_colors).subspan(cascades ? 0 : 1);
+}
 
 double flicker_of_point(const PointRecord& point) { return metric_of(point, "flicker"); }
 
@@ -103,18 +113,18 @@ Markup strip_svg(const Strip& strip, double largest) {
                  Attribute("aria-label", fmt::format("Flicker over {} frames", strip.frames.size())), base, bars);
 }
 
-Markup numbers_of_point(const PointRecord& point) {
+Markup numbers_of_point(const PointRecord& point, ShownClasses classes) {
   const auto percent = [&](std::string_view metric) {
     return td(cell(metric_of(point, std::string(metric)), "fraction"));
   };
   Markup cells = percent("flicker") + percent("flicker_changed");
-  for (const CauseColor& color : flicker_colors) cells += percent(color.name);
+  for (const CauseColor& color : classes) cells += percent(color.name);
   return cells + percent("flicker_truth");
 }
 
-Markup head_of_numbers() {
+Markup head_of_numbers(ShownClasses classes) {
   Markup head = th(with_small("Flicker", "%")) + th(with_small("Changed", "%"));
-  for (const CauseColor& color : flicker_colors) head += th(with_small(color.label, "%"));
+  for (const CauseColor& color : classes) head += th(with_small(color.label, "%"));
   return head + th(with_small("Truth changed", "%"));
 }
 
@@ -130,18 +140,18 @@ Markup strip_figure(const Strip& strip, double largest) {
 }
 
 // Every frame of every choice. Empty if they are too many.
-Markup frames_table(const std::vector<Strip>& strips) {
+Markup frames_table(const std::vector<Strip>& strips, ShownClasses classes) {
   size_t frames = 0;
   for (const Strip& strip : strips) frames += strip.frames.size();
   if (frames > most_frame_rows) return "";
   Markup rows;
   for (const Strip& strip : strips)
     for (const PointRecord* point : strip.frames)
-      rows +=
-          tr(row_head(css("text"), strip.name), td(point_link(point->id, frame_of(*point))), numbers_of_point(*point));
-  return folded(
-      "more", false, prose("Every frame ({})", frames),
-      div(css("scroll tall"), table("numbers", th(css("text"), "Choice") + th("Frame") + head_of_numbers(), rows)));
+      rows += tr(row_head(css("text"), strip.name), td(point_link(point->id, frame_of(*point))),
+                 numbers_of_point(*point, classes));
+  return folded("more", false, prose("Every frame ({})", frames),
+                div(css("scroll tall"),
+                    table("numbers", th(css("text"), "Choice") + th("Frame") + head_of_numbers(classes), rows)));
 }
 
 }  // namespace
@@ -154,7 +164,7 @@ bool has_flicker(const Results& results) {
 Markup flicker_strips(const Results& results) {
   const std::vector<Strip> strips = strips_of_motion(results);
   Markup legend, figures, left_out;
-  for (const CauseColor& color : flicker_colors)
+  for (const CauseColor& color : classes_of(results))
     legend += span(element("i", css("sw"), Attribute("style", "background:" + rgb_of(color))), color.label) + "\n";
   std::vector<const Strip*> drawn;
   double largest = 0;
@@ -200,16 +210,17 @@ Markup flicker_sentence(const Results& results) {
 
 Markup flicker_section(const Results& results, bool strips_on_first_screen) {
   const std::vector<Strip> strips = strips_of_motion(results);
+  const ShownClasses classes = classes_of(results);
   Markup rows;
   for (const Strip& strip : strips)
     rows += tr(row_head(css("text"), strip.name), td(strip.frames.size()), td(cell(strip.mean, "fraction")),
-               td(point_link(strip.worst->id, frame_of(*strip.worst))), numbers_of_point(*strip.worst));
+               td(point_link(strip.worst->id, frame_of(*strip.worst))), numbers_of_point(*strip.worst, classes));
   const Markup head = th(css("text"), "Choice") + th("Frames") + th(with_small("Mean flicker", "%")) +
-                      th("Worst frame") + head_of_numbers();
+                      th("Worst frame") + head_of_numbers(classes);
   return section("motion", "Motion",
                  (strips_on_first_screen ? paragraph("The strips of all choices are at the top of this page.")
                                          : flicker_strips(results)) +
-                     div(css("scroll"), table("numbers", head, rows)) + "\n" + frames_table(strips));
+                     div(css("scroll"), table("numbers", head, rows)) + "\n" + frames_table(strips, classes));
 }
 
 }  // namespace noonmark::report

@@ -10,6 +10,7 @@
 #include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
+#include "compare/report/cascades_section.h"
 #include "compare/report/flicker_section.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/live_section.h"
@@ -91,6 +92,7 @@ constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", nullptr, by_point<report::answer_section>, false},
     {"lights", "Lights", lights, false},
+    {"cascades", "Cascades", plain<report::cascades_section>, false},
     {"engines", "Engines", plain<report::engines_section>, false},
     {"motion", "Motion", motion, false},
     {"bias", "Bias", by_point<report::bias_section>, true},

@@ -166,7 +166,7 @@ Markup axis(const ReceiverSection& section, const Scale& scale) {
          text_at(margin, top - 7, fmt::format("{} behind the receiver, along the light", unit.name), "f-soft small");
 }
 
-Markup columns(const ReceiverSection& section, const Scale& scale) {
+Markup drawn_columns(const ReceiverSection& section, const Scale& scale) {
   Markup shade, edges, steps;
   for (const SectionColumn& column : section.columns) {
     const double x1 = scale.x(column.from), x2 = scale.x(column.to), y = scale.held(column.stored_m);
@@ -484,7 +484,7 @@ std::string section_svg(const ReceiverSection& section, SectionTheme theme) {
   out += text_at(margin + 18, 19, title, "f-ink title");
   out += text_at(right, 19, fmt::format("pixel {}, {}", section.pixel.x, section.pixel.y), "f-soft small", "end");
   out +=
-      element("g", Attribute("clip-path", "url(#drawing)"), columns(section, scale), planes(section, scale), cut.drawn);
+      element("g", Attribute("clip-path", "url(#drawing)"), drawn_columns(section, scale), planes(section, scale), cut.drawn);
   out += element("rect", Attribute("x", n(left)), Attribute("y", n(top)), Attribute("width", n(right - left)),
                  Attribute("height", n(bottom - top)), Attribute("fill", "none"), css("s-soft"));
   out += axis(section, scale);

@@ -156,6 +156,11 @@ constexpr Metric measured_with_causes[] = {
      "need) against the light's frame in double, as a multiple of the largest error that float arithmetic can make. "
      "Above 1 it is a defect.",
      false},
+    {"cascade_choice_excess", "",
+     "Of cascades: how far beyond a split a receiver lies that the lookup counts to the wrong side of it, as a "
+     "multiple of "
+     "the largest error that float arithmetic can make of its depth; 0: none does. Above 1 it is a defect.",
+     false, false, false, false, false, true},
     {"address_error_texels", "texels",
      "Largest distance in the map from the exact place where a receiver is looked up to the texel that the lookup "
      "reads.",
@@ -251,6 +256,9 @@ constexpr Metric from_frame_to_frame[] = {
     {"flicker_changed", "fraction",
      "Share of the world points over which flicker is taken whose R5 changes at all from this frame to the next.", true,
      false, true},
+    {"flicker_cascade", "fraction",
+     "The part of flicker that comes when a point goes from one cascade to another; 0 with one map.", false, false,
+     true},
     {"flicker_grid", "fraction", "The part of flicker that comes when the texels move, grow or turn in the world.",
      true, false, true},
     {"flicker_depth", "fraction",

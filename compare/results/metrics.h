@@ -16,7 +16,8 @@ struct Metric {
   bool of_motion = false;      // measured only with a [motion]
   bool of_frames = false;      // measured only of another renderer's frame (frames/judge.h)
   bool of_lights = false;      // measured only in a frame of several lights (measure/lights_frame.h)
-  bool optional() const { return of_placements || of_motion || of_frames || of_lights; }
+  bool of_cascades = false;    // measured only with cascades.count above 1
+  bool optional() const { return of_placements || of_motion || of_frames || of_lights || of_cascades; }
 };
 
 std::span<const Metric> metrics_table();

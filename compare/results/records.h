@@ -103,6 +103,28 @@ struct Machine {
   std::string clock;       // when the point was finished by the clock of that host: ISO 8601, UTC
 };
 
+// What is kept of each cascade, by metric name.
+inline constexpr const char* cascade_metrics[] = {"facing",
+                                                  "counted",
+                                                  "lit",
+                                                  "error",
+                                                  "error_soft",
+                                                  "wrong",
+                                                  "filter",
+                                                  "displacement",
+                                                  "aliasing_dark",
+                                                  "aliasing_light",
+                                                  "acne",
+                                                  "peter_panning",
+                                                  "coverage_dark",
+                                                  "coverage_light",
+                                                  "undecided",
+                                                  "precision",
+                                                  "texel_m",
+                                                  "map_range_m",
+                                                  "acne_free_bias_law_m",
+                                                  "edge_displacement_texels"};
+
 struct PointRecord : PointPictures {
   int64_t id = 0;                               // position in the sweep, from 0
   std::string part;                             // the experiment's part; empty if it has no parts
@@ -125,6 +147,15 @@ struct PointRecord : PointPictures {
     double size = 0;     // in the metric's unit
   };
   std::vector<WorstOf> worst_of;
+  // Of a point with several cascades each, near ones first; empty with one map.
+  struct Cascade {
+    double begin_m = 0, end_m = 0;          // the depths along the view at which its slice begins and ends
+    std::map<std::string, double> metrics;  // those of cascade_metrics, over the receivers of this cascade alone
+    // The least amount of the curve's parameter from which on no tap of this cascade is acne; empty: no curve, or no amount
+    // is enough.
+    std::optional<double> bias_needed;
+  };
+  std::vector<Cascade> cascades;
   // What was found out about another renderer's frame before it was judged.
   struct Delivery {
     std::string refused;      // why its shadows are not judged; empty: they are. Then no bound is judged at this point

@@ -127,6 +127,7 @@ void compare_both(Database& db, JoinedStore& joined) {
     found(rows.integer(0), "the part or the worst pixel");
   for (Statement rows(db, differing_rows("worst_pixels", "*")); rows.step();)
     found(rows.integer(0), "the worst pixel of a metric");
+  for (Statement rows(db, differing_rows("cascades", "*")); rows.step();) found(rows.integer(0), "the cascades");
   joined.differing = static_cast<int64_t>(first.size());
   for (auto& [point, one] : first) {
     if (joined.differences.size() == most_differences_named) break;

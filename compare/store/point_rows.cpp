@@ -95,6 +95,8 @@ constexpr TableOfPoints tables[] = {
                          PointRecord& point) { point.curve.value().steps = curve_windows_table().record_of(row); }},
     {"worst_pixels",
      [](const Statement& row, PointRecord& point) { point.worst_of.push_back(worst_pixels_table().record_of(row)); }},
+    {"cascades",
+     [](const Statement& row, PointRecord& point) { point.cascades.push_back(cascades_table().record_of(row)); }},
 };
 
 // A point has the causes whose metric it has.
@@ -132,6 +134,9 @@ void add_rows(Database& db, const PointRecord& point) {
   add_pictures(db, point.id, point);
   Table<PointRecord::WorstOf>::Insert worst(db, worst_pixels_table());
   for (size_t i = 0; i < point.worst_of.size(); ++i) worst.row({point.id, static_cast<int64_t>(i)}, point.worst_of[i]);
+  Table<PointRecord::Cascade>::Insert cascades(db, cascades_table());
+  for (size_t i = 0; i < point.cascades.size(); ++i)
+    cascades.row({point.id, static_cast<int64_t>(i)}, point.cascades[i]);
 }
 
 StoredPoints read_points(Database& db) {

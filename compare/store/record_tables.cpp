@@ -135,6 +135,20 @@ const Table<PointRecord::WorstOf>& worst_pixels_table() {
   return table;
 }
 
+const Table<PointRecord::Cascade>& cascades_table() {
+  using C = PointRecord::Cascade;
+  static const Table<C> table = [] {
+    std::vector<Column<C>> columns = {column("begin_m", &C::begin_m), column("end_m", &C::end_m),
+                                      column("bias_needed", &C::bias_needed)};
+    for (const char* metric : cascade_metrics)
+      columns.push_back({metric, "REAL",
+                         [metric](Statement& row, int index, const C& one) { row.bind(index, one.metrics.at(metric)); },
+                         [metric](const Statement& row, int index, C& one) { one.metrics[metric] = row.real(index); }});
+    return Table<C>("cascades", {"point", "i"}, std::move(columns));
+  }();
+  return table;
+}
+
 const Table<BoundResult>& bounds_table() {
   using B = BoundResult;
   static const Table<B> table(
@@ -210,8 +224,8 @@ std::string record_tables() {
   for (const CurveSeries& one : curve_series()) series += fmt::format(", {} REAL", one.name);
   series += ", PRIMARY KEY (point, i)) WITHOUT ROWID;\n";
   return curves_table().create() + series + curve_windows_table().create() + pictures_table().create() +
-         images_table().create() + worst_pixels_table().create() + bounds_table().create() + laws_table().create() +
-         law_samples_table().create();
+         images_table().create() + worst_pixels_table().create() + cascades_table().create() + bounds_table().create() +
+         laws_table().create() + law_samples_table().create();
 }
 
 }  // namespace noonmark

@@ -10,7 +10,7 @@
 //
 // A person can ask `SELECT map_resolution, filter_kind, acne FROM points`. This view has every setting, metric and
 // quantity of the curve as a column of its own type. `columns` gives the meaning and unit of each of its columns. The
-// tables behind it are info, settings, metrics, times, curves, curve_points, curve_windows, pictures, images, bounds, laws,
+// tables behind it are info, settings, metrics, times, curves, curve_points, curve_windows, pictures, images, cascades, bounds, laws,
 // law_samples, and of the phase diagrams phases, phase_rows, phase_cells, phase_points.
 //
 // - A point, and a phase diagram, is one transaction, which is on the disk before add() returns. So a kill, or a power cut, loses at most the

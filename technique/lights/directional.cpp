@@ -78,6 +78,7 @@ class Directional final : public KindOfLight {
   MapTile tile(const LightFrame& frame, int) const override {
     return {.orthographic = true,
             .half = frame.extent_m / 2,
+            .centre_m = frame.centre_m,
             .near_m = frame.near_m,
             .far_m = frame.far_m,
             .depth = TileDepth::linear,

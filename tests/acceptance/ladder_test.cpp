@@ -256,7 +256,7 @@ TEST(Acceptance, ATurnByNothingChangesNothing) {
       EXPECT_EQ(metric(turned, name), value) << name;
     }
   EXPECT_EQ(turned.ladder.shown().pixels, still.ladder.shown().pixels);
-  EXPECT_EQ(turned.stored_map.depth, still.stored_map.depth);
+  EXPECT_EQ(turned.map().stored.depth, still.map().stored.depth);
 }
 
 // A map of a million kilometres that is moved by one texel, and a picture of a few centimetres: here the rounding of

@@ -26,13 +26,13 @@ TEST(MapUse, CountsTheTexelsThatHoldADepthBelowOne) {
         const Measurement m =
             measured(with({{"map.format", format}, {"map.resolution", resolution}}, small(scene, 64, 36)));
         const glm::ivec2 size = m.technique.frame.map_size();
-        const Image<float> rows = m.stored_rows(0, size.y);
+        const Image<float> rows = m.map().stored_rows(0, size.y);
         const auto used = std::count_if(rows.pixels.begin(), rows.pixels.end(), [](float depth) { return depth < 1; });
         EXPECT_EQ(metric(m, "map_used"), static_cast<double>(used) / static_cast<double>(rows.size()))
             << scene << format;
         EXPECT_GT(used, 0);
         EXPECT_EQ(metric(m, "map_seen"),
-                  static_cast<double>(m.exact_map.texels->count()) / static_cast<double>(rows.size()));
+                  static_cast<double>(m.map().exact.texels->count()) / static_cast<double>(rows.size()));
       }
 }
 

@@ -67,6 +67,50 @@ TEST(Motion, SnappedMapsDoNotFlicker) {
   EXPECT_GT(sums.least_points, 500);  // of 2304 pixels
 }
 
+// Four cascades in a street of 80 m: what keeps its cascade does not flicker (law 33), and a point of the world that goes
+// from one cascade to another is of a class of its own.
+Settings street() {
+  return with({{"cascades.count", "4"},
+               {"map.reach_m", "80"},
+               {"view.near_m", "0.1"},  // a plane that is fitted anew in each frame moves the splits
+               {"bias.unit", "texel"},
+               {"filter.kind", "box"},
+               {"motion.move_m", "0.002,0,-0.4"},
+               {"motion.turn_deg", "0,0.7,0"}},
+              with({{"scene.name", "street"}}, steady()));
+}
+
+TEST(Motion, SnappedCascadesFlickerOnlyWhereTheCascadeChanges) {
+  Workbench bench(gl::DebugMode::fatal);
+  double cascade = 0;
+  Settings settings = street();
+  for (int frame = 0; frame < 60; ++frame) {
+    settings.view.motion.frame = frame;
+    const Measurement m = bench.measure(settings, std::nullopt);
+    EXPECT_EQ(metric(m, "flicker_grid"), 0) << frame;
+    EXPECT_EQ(metric(m, "flicker_depth"), 0) << frame;
+    EXPECT_EQ(metric(m, "flicker_kernel"), 0) << frame;
+    EXPECT_EQ(metric(m, "flicker_coverage"), 0) << frame;
+    EXPECT_EQ(metric(m, "cascade_choice_excess"), 0) << frame;
+    EXPECT_GT(metric(m, "flicker_points"), 500) << frame;
+    cascade += metric(m, "flicker_cascade");
+  }
+  EXPECT_GT(cascade, 0) << "no point changed its cascade in sight";
+}
+
+TEST(Motion, CascadesThatAreNotSnappedFlickerByTheirGrids) {
+  Workbench bench(gl::DebugMode::fatal);
+  double grid = 0, depth = 0;
+  for (int frame = 0; frame < 5; ++frame) {
+    Settings settings = with({{"map.snap", "false"}, {"motion.frame", std::to_string(frame)}}, street());
+    grid += metric(bench.measure(settings, std::nullopt), "flicker_grid");
+    settings = with({{"map.depth_range", "fit"}, {"motion.frame", std::to_string(frame)}}, street());
+    depth += metric(bench.measure(settings, std::nullopt), "flicker_depth");
+  }
+  EXPECT_GT(grid, 0);
+  EXPECT_GT(depth, 0);
+}
+
 TEST(Motion, EachBrokenConditionBringsItsOwnClassAlone) {
   Workbench bench(gl::DebugMode::fatal);
   constexpr int frames = 10;

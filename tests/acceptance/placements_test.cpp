@@ -117,7 +117,7 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
   const Measurement together = bench.measure(all, options);
   const std::map<std::string, double> metrics = together.record.metrics;
   const std::optional<BiasCurve> bands = together.record.curve;
-  const std::vector<float> map_0 = together.exact_map.depth;  // the next measurement replaces it
+  const std::vector<float> map_0 = together.map().exact.depth;  // the next measurement replaces it
   EXPECT_EQ(metrics.at("placement_disagreements"), 0);
 
   const Placements placements(c.side);
@@ -141,7 +141,7 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
         EXPECT_EQ(m.record.metrics.at(name), metrics.at(name)) << name;
       EXPECT_EQ(m.ladder.truth().pixels, together.ladder.truth().pixels);
       if (p > 0) {
-        EXPECT_NE(m.exact_map.depth, map_0) << "another map";
+        EXPECT_NE(m.map().exact.depth, map_0) << "another map";
       }
       if (const glm::dvec3 t = *one.map.turn_deg; t == worst_turn) {
         EXPECT_EQ(m.record.metrics.at("error"), metrics.at("error_worst_shown"));

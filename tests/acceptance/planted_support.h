@@ -67,7 +67,8 @@ class DefectivePipeline : public Pipeline {
 
   // A map keeps the wrap mode that it was made with, so another wrap mode needs another map.
   Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique) override {
-    const Technique asked(asked_, technique.frame);
+    Technique asked(asked_, technique.frame);
+    asked.cascade = technique.cascade;
     if (asked_.map.wrap == technique.settings.map.wrap) return Pipeline::look_up(renderer, map, asked);
     return Pipeline::look_up(
         renderer, renderer.upload_map(renderer.read_map(map), asked_.map, technique.frame.map_shape()), asked);

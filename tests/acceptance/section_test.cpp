@@ -133,19 +133,19 @@ TEST_P(SectionTaps, OfTheSvgAreTheLadders) {
     for (int x = 5; x < 160; x += 17) pixels.emplace_back(x, y);
   std::erase_if(pixels, [&](glm::ivec2 p) {
     const size_t i = m.ladder.flags.index(p.x, p.y);
-    return !(m.ladder.flags[i] & flag_facing) || !m.probe.asks(i);
+    return !(m.ladder.flags[i] & flag_facing) || !m.map().probe.asks(i);
   });
   ASSERT_GT(pixels.size(), 10u);
-  const bool blended = m.probe.pattern.bilinear();
+  const bool blended = m.map().probe.pattern.bilinear();
   size_t wrong = 0;
   for (const ReceiverSection& section : bench.sections(m, pixels)) {
     const size_t i = m.ladder.flags.index(section.pixel.x, section.pixel.y);
     const std::map<int, DrawnTap> taps = taps_in(report::section_svg(section, report::SectionTheme::automatic));
-    ASSERT_EQ(taps.size(), static_cast<size_t>(m.probe.taps()));
+    ASSERT_EQ(taps.size(), static_cast<size_t>(m.map().probe.taps()));
     double lit = 0, shown = 0;
     std::map<std::string, double> booked;
     for (const auto& [t, tap] : taps) {
-      const double weight = blended ? m.probe.weight(i, t) : 1.0 / m.probe.taps();
+      const double weight = blended ? m.map().probe.weight(i, t) : 1.0 / m.map().probe.taps();
       lit += tap.lit ? weight : 0;
       shown += tap.shown ? weight : 0;
       booked[tap.cause] += weight;
@@ -172,7 +172,7 @@ TEST_P(SectionTaps, StandWhereTheSurfacesAndTheShadowRaysAre) {
   for (int y = 2; y < 96; y += 7)
     for (int x = 3; x < 160; x += 11) {
       const size_t i = m.ladder.flags.index(x, y);
-      if ((m.ladder.flags[i] & flag_facing) && !(m.ladder.flags[i] & flag_ambiguous) && m.probe.asks(i))
+      if ((m.ladder.flags[i] & flag_facing) && !(m.ladder.flags[i] & flag_ambiguous) && m.map().probe.asks(i))
         pixels.emplace_back(x, y);
     }
   ASSERT_GT(pixels.size(), 20u);

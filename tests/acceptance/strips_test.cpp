@@ -32,7 +32,7 @@ TEST_P(Strips, ChangeNoResult) {
       for (size_t c = 0; c < a.ladder.causes.size(); ++c)
         EXPECT_EQ(a.ladder.causes[c].step.pixels, b.ladder.causes[c].step.pixels) << c;
       EXPECT_EQ(a.ladder.cause.pixels, b.ladder.cause.pixels);
-      EXPECT_EQ(a.exact_map.depth, b.exact_map.depth);
+      EXPECT_EQ(a.map().exact.depth, b.map().exact.depth);
       ASSERT_EQ(a.record.curve.has_value(), b.record.curve.has_value());
       if (!a.record.curve) continue;
       const BiasCurve &c = *a.record.curve, &d = *b.record.curve;

@@ -75,6 +75,15 @@ TEST_P(OfATechnique, BothMethodsOfTheTruthGiveTheSame) {
 INSTANTIATE_TEST_SUITE_P(
     TruthMethods, OfATechnique,
     testing::Values(
+        SceneCase{"cascades",
+                  "street",
+                  {{"cascades.count", "4"},
+                   {"map.fit", "sphere"},
+                   {"map.snap", "true"},
+                   {"filter.kind", "box"},
+                   {"map.resolution", "150"},
+                   {"bias.unit", "texel"},
+                   {"bias.constant", "1.5"}}},
         SceneCase{"moved_lookup",
                   "cube-room",
                   {{"filter.kind", "box"}, {"bias.normal_offset", "1"}, {"map.resolution", "150"}}},

@@ -68,8 +68,15 @@ class Pictures : public testing::Test {
         for (int x = 0; x < stored.width; ++x) band.at(x, y) = stored.at(x, first + y);
       return band;
     };
-    return {{},           {settings, frame}, ladder,    camera, scene, receivers, probe,
-            std::nullopt, MapDepths(stored), exact_map, rows};
+    return {{},
+            {settings, frame},
+            ladder,
+            camera,
+            scene,
+            receivers,
+            {{{settings, frame}, probe, MapDepths(stored), exact_map, rows}},
+            {},
+            std::nullopt};
   }
 
   TemporaryFolder folder;

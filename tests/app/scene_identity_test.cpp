@@ -96,7 +96,7 @@ std::string seen(Workbench& bench, const std::string& path) {
   const auto add = [&](const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); };
   for (const auto& [name, lit] : m.ladder.rungs) add(lit.pixels.data(), lit.pixels.size() * sizeof(float));
   add(m.receivers.position.pixels.data(), m.receivers.position.pixels.size() * sizeof(glm::vec3));
-  add(m.stored_map.depth.data(), m.stored_map.depth.size() * sizeof(float));
+  add(m.map().stored.depth.data(), m.map().stored.depth.size() * sizeof(float));
   for (const auto& [name, value] : m.record.metrics)
     if (!name.ends_with("_ms")) add(&value, sizeof value);
   return bytes;

@@ -44,6 +44,11 @@ float smooth(glm::dvec3 direction) {
 }
 
 // Rows of a whole image.
+Image<Color> picture_of(const MapRows& rows, const LightFrame& frame) {
+  const StoredMap map{rows, frame};
+  return map_picture({&map, 1});
+}
+
 MapRows rows_of(const Image<float>& map) {
   return [&map](int first, int count) {
     Image<float> rows(map.width, count);
@@ -123,7 +128,7 @@ TEST(MapPicture, IsLinearInMetresAndStandsUpright) {
     map.at(1, 0) = stored(0.5);
     map.at(2, 0) = stored(0.9);
     map.at(3, 3) = nan;
-    const Image<Color> picture = map_picture(rows_of(map), f);
+    const Image<Color> picture = picture_of(rows_of(map), f);
     ASSERT_EQ(picture.width, 4);
     EXPECT_EQ(picture.at(0, 3), depth_grey(0));
     EXPECT_NEAR(picture.at(1, 3).r, (depth_grey(0).r + depth_grey(1).r) / 2, 1) << scene;  // halfway in metres
@@ -138,7 +143,7 @@ TEST(MapPicture, OfALargeMapIsShrunkWithoutLosingAnything) {
   Image<float> map(1500, 1500, 1);
   map.at(1499, 0) = 0.5f;
   map.at(700, 700) = 0.25f;
-  const Image<Color> picture = map_picture(rows_of(map), f);
+  const Image<Color> picture = picture_of(rows_of(map), f);
   EXPECT_EQ(picture.width, 1024);
   EXPECT_EQ(picture.at(1023, 1023), depth_grey(1));
   int bright = 0;
@@ -148,7 +153,7 @@ TEST(MapPicture, OfALargeMapIsShrunkWithoutLosingAnything) {
 
 TEST(MapPicture, OfAPointLightIsTheCross) {
   const LightFrame f = frame_of("point-room", LightChoice::point, 16);
-  const Image<Color> picture = map_picture(rows_of(Image<float>(16, 96, 0.25f)), f);
+  const Image<Color> picture = picture_of(rows_of(Image<float>(16, 96, 0.25f)), f);
   EXPECT_EQ(picture.width, 64);
   EXPECT_EQ(picture.height, 48);
   EXPECT_EQ(picture.at(20, 20), depth_grey(0));

@@ -136,6 +136,15 @@ std::string any_value(const Setting& row, Choices& choices) {
       const glm::dvec3 p = any_point(choices, choices.below(8) == 0 ? 1000 : reach);
       return fmt::format("{},{},{}", p.x, p.y, p.z);
     }
+    case ValueType::list: {
+      std::string list;
+      double number = 0;
+      for (int n = choices.below(8); n >= 0; --n) {
+        number += std::pow(10.0, choices.between(-2, 2));
+        list += fmt::format("{}{}", list.empty() ? "" : ",", number);
+      }
+      return list;
+    }
     case ValueType::real:
       switch (choices.below(8)) {
         case 0:

@@ -63,8 +63,8 @@ TEST(Law7Cube, TheGridMovesShadowsByAQuarterOfItsOffset) {
   Workbench bench(gl::DebugMode::fatal);
   const Measurement m = bench.measure(plate_under_point_light("cube_grid"), std::nullopt);
   glm::dvec3 mean(0);
-  for (int t = 0; t < m.probe.taps(); ++t)
-    mean += glm::dvec3(m.probe.offset(0, t)) / static_cast<double>(m.probe.taps());
+  for (int t = 0; t < m.map().probe.taps(); ++t)
+    mean += glm::dvec3(m.map().probe.offset(0, t)) / static_cast<double>(m.map().probe.taps());
   EXPECT_NEAR(mean.x, -0.3 / 4, 1e-7) << "up to a float's rounding";
   const Shadow hard = shadow_on_floor(m, 1), soft = shadow_on_floor(m, 2);
   ASSERT_NEAR(hard.area_m2, plate_a_m * plate_b_m * 100 / 36, 0.05) << "the whole shadow must be in the picture";
@@ -97,8 +97,8 @@ TEST(Law7Cube, BlursByTheSumOfItsTapsWays) {
     const double a = plate_a_m / 2 / 0.6, b = plate_b_m / 2 / 0.6, phi = radians(20);
     const glm::dvec2 along(std::cos(phi), -std::sin(phi)), across(std::sin(phi), std::cos(phi));  // in (x, z)
     double exact = 0;
-    for (int t = 0; t < m.probe.taps(); ++t) {
-      const glm::dvec3 o(m.probe.offset(0, t));
+    for (int t = 0; t < m.map().probe.taps(); ++t) {
+      const glm::dvec3 o(m.map().probe.offset(0, t));
       const double s = (light_height_m - o.y) / light_height_m;
       const glm::dvec2 flat(o.x, o.z);
       const double u = std::abs(glm::dot(flat, along)), v = std::abs(glm::dot(flat, across));
@@ -106,7 +106,7 @@ TEST(Law7Cube, BlursByTheSumOfItsTapsWays) {
         return std::max(0.0, std::min(half, s * half + way) - std::max(-half, way - s * half));
       };
       const double shared = overlap(a, u) * overlap(b, v);
-      exact += (4 * a * b * (1 + s * s) - 2 * shared) / m.probe.taps();
+      exact += (4 * a * b * (1 + s * s) - 2 * shared) / m.map().probe.taps();
     }
     double found = 0;
     const Image<double> areas = light_plane_areas(m.camera, m.technique.frame, m.receivers);

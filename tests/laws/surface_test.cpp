@@ -54,7 +54,7 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
       // The texel's centre from first principles: the light's axes, the map's corner, a step of w.
       const glm::dvec3 from = world - m.technique.frame.origin_m;
       const glm::dvec2 p(glm::dot(from, m.technique.frame.right), glm::dot(from, m.technique.frame.up));
-      const glm::dvec2 c = (glm::dvec2(m.probe.texel(i, 0)) + 0.5) * w - 100 * w;
+      const glm::dvec2 c = (glm::dvec2(m.map().probe.texel(i, 0)) + 0.5) * w - 100 * w;
       EXPECT_LE(std::abs(c.x - p.x), w * (0.5 + 200 * 0x1p-22));
       EXPECT_LE(std::abs(c.y - p.y), w * (0.5 + 200 * 0x1p-22));
       const uint32_t own = m.receivers.primitive[i];

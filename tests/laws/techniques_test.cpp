@@ -77,7 +77,7 @@ TEST(Law1Filters, AskForTheirFurthestTap) {
                                                                     {"map.format", "32f"}},
                                                                    small("plane", 240, 136))),
                                           exact_window());
-      const TapPattern& pattern = m.probe.pattern;
+      const TapPattern& pattern = m.map().probe.pattern;
       // The plane's normal leans towards (cos phi, sin phi) in texels. In that direction the plane descends, away from
       // the light.
       const glm::dvec2 g(std::cos(radians(phi)), std::sin(radians(phi)));

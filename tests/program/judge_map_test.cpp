@@ -39,7 +39,7 @@ class JudgeWithMap : public Program {
     positions_ = m.receivers.position;
     for (size_t i = 0; i < visibility_.size(); ++i)
       if (m.receivers.primitive[i] == no_primitive) visibility_[i] = -1;
-    stored_ = m.stored_rows(0, all.map.resolution);
+    stored_ = m.map().stored_rows(0, all.map.resolution);
     map_from_world_ = m.technique.frame.clip_from_world(0);
     settings_ = settings;
     const Light light = effective_light(m.scene, all);
@@ -227,7 +227,7 @@ TEST(GivenLookupOfNaN, Fails) {
       .eye_m = m.camera.eye_m,
       .truth = truth,
       .technique = m.technique,
-      .depth = m.stored_rows(0, all.map.resolution),
+      .depth = m.map().stored_rows(0, all.map.resolution),
       .frame = {.name = "frame", .picture = m.ladder.shown(), .cause = "frame_lookup", .label = "Lookup", .help = ""}};
   GivenLookup lookup(m.scene, tracer);
   EXPECT_NO_THROW(lookup.climb(point));

@@ -100,6 +100,12 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   point.images = {{"images/p0003-ladder.exr", "00000000000000ff"}, {"images/p0003-map.exr", "00000000000000fe"}};
   point.worst = {12, 34, 2.0 / 3, "acne"};
   point.worst_of = {{"acne", 56, 78, 0.5}, {"peter_panning_gap_m", 9, 10, 1.0 / 3 + static_cast<double>(id)}};
+  for (int k = 0; k < static_cast<int>(id % 3); ++k) {
+    PointRecord::Cascade cascade{
+        std::pow(3, k), std::pow(3, k + 1), {}, k == 1 ? std::nullopt : std::optional(1.0 / 3)};
+    for (const char* metric : cascade_metrics) cascade.metrics[metric] = std::sqrt(static_cast<double>(id + k));
+    point.cascades.push_back(cascade);
+  }
   return point;
 }
 
@@ -234,6 +240,11 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
          std::equal(a.worst_of.begin(), a.worst_of.end(), b.worst_of.begin(), b.worst_of.end(),
                     [](const auto& x, const auto& y) {
                       return x.metric == y.metric && x.x == y.x && x.y == y.y && same(x.size, y.size);
+                    }) &&
+         std::equal(a.cascades.begin(), a.cascades.end(), b.cascades.begin(), b.cascades.end(),
+                    [](const auto& x, const auto& y) {
+                      return same(x.begin_m, y.begin_m) && same(x.end_m, y.end_m) && same(x.metrics, y.metrics) &&
+                             x.bias_needed == y.bias_needed;
                     });
 }
 

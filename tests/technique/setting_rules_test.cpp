@@ -201,5 +201,49 @@ TEST(Settings, TheKeyOfAStageChangesWithWhatItReadsAndNothingElse) {
   EXPECT_EQ(settings_key(biased, {Stage::ladder}, "bias.constant"), settings_key({}, {Stage::ladder}, "bias.constant"));
 }
 
+TEST(Cascades, RefuseWhatTheyCannotDo) {
+  const auto why = [](const Settings& s, LightKind light = LightKind::directional) -> std::string {
+    try {
+      validate(s, light);
+      return "";
+    } catch (const SettingConflict& error) {
+      return error.what();
+    }
+  };
+  const Settings four = with({{"cascades.count", "4"}, {"map.fit", "sphere"}});
+  EXPECT_EQ(why(four), "");
+  EXPECT_EQ(why(with({{"cascades.count", "1"}, {"map.placements", "8"}})), "");
+  const auto refused = [&](std::initializer_list<std::pair<const char*, const char*>> more, const char* part,
+                           LightKind light = LightKind::directional) {
+    Settings s = four;
+    for (const auto& [name, value] : more) find_setting(name).set(s, value);
+    EXPECT_NE(why(s, light).find(part), std::string::npos) << part << ": " << why(s, light);
+  };
+  refused({{"map.fit", "tight"}}, "map.fit = tight");
+  refused({{"map.extent_m", "10"}}, "map.extent_m");
+  refused({{"map.placements", "8"}}, "map.placements = 1");
+  refused({{"map.fit", "view"}}, "a spot light", LightKind::spot);
+  refused({{"cascades.splits", "manual"}}, "3 for cascades.count = 4, and cascades.bounds_m has 0");
+  refused({{"cascades.splits", "manual"}, {"cascades.bounds_m", "1,2"}}, "has 2");
+  EXPECT_THROW(require_one_map(four, "a chart"), SettingConflict);
+  EXPECT_NO_THROW(require_one_map({}, "a chart"));
+}
+
+TEST(Cascades, ReadOnlyWhatTheirSplitsNeed) {
+  const auto idle = [](std::initializer_list<std::pair<const char*, const char*>> values) {
+    std::vector<std::string> names;
+    for (const IdleSetting& one : idle_settings(LightKind::directional, with(values))) names.push_back(one.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(idle({{"cascades.lambda", "0.2"}}), Names{"cascades.lambda"});
+  EXPECT_EQ(idle({{"cascades.count", "3"}, {"cascades.lambda", "0.2"}}), Names{});
+  EXPECT_EQ(idle({{"cascades.count", "3"}, {"cascades.splits", "exponent"}, {"cascades.lambda", "0.2"}}),
+            Names{"cascades.lambda"});
+  EXPECT_EQ(idle({{"map.reach_m", "9"}}), Names{"map.reach_m"});
+  EXPECT_EQ(idle({{"map.reach_m", "9"}, {"map.fit", "view"}}), Names{"map.reach_m"});
+  EXPECT_EQ(idle({{"map.reach_m", "9"}, {"map.fit", "view"}, {"cascades.count", "2"}}), Names{});
+}
+
 }  // namespace
 }  // namespace noonmark

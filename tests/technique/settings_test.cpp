@@ -51,9 +51,9 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers without a unit.
   const std::set<std::string_view> pure = {
-      "scene.animation",     "map.placements",     "map.extent_scale", "truth.standard_error",
-      "bias.polygon_factor", "bias.polygon_units", "view.up",          "motion.frame",
-      "motion.zoom",         "light.index",        "map.aspect"};
+      "scene.animation",    "map.placements", "map.extent_scale", "truth.standard_error", "bias.polygon_factor",
+      "bias.polygon_units", "view.up",        "motion.frame",     "motion.zoom",          "light.index",
+      "map.aspect",         "cascades.count", "cascades.lambda",  "cascades.exponent"};
   const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "frames", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
@@ -63,7 +63,7 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
     EXPECT_FALSE(row.range_text().empty()) << row.name;
     EXPECT_TRUE(row.get && row.set) << row.name;
     const bool number = row.type == ValueType::integer || row.type == ValueType::real;
-    if (number || row.type == ValueType::point)
+    if (number || row.is_of_numbers())
       EXPECT_TRUE(units.contains(row.unit) != pure.contains(row.name)) << row.name << " in '" << row.unit << "'";
     else
       EXPECT_EQ(row.unit, "") << row.name;
@@ -104,6 +104,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
                                               {"motion", 9},
                                               {"light", 11},
                                               {"map", 23},
+                                              {"cascades", 7},
                                               {"bias", bias},
                                               {"filter", filter},
                                               {"truth", 2},
@@ -167,6 +168,9 @@ TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
   }
 }
 
+// Of the junk below, what a list takes.
+bool is_ascending_list(std::string_view text) { return text == "1,2" || text == "1,2,3,4"; }
+
 TEST(SettingsTable, RefusesWhatIsNoValue) {
   for (const Setting& row : settings_table()) {
     refusal(row, "");
@@ -197,10 +201,12 @@ TEST(SettingsTable, RefusesWhatIsNoValue) {
                                   "0,inf,0",
                                   "1,,2",
                                   "1,2,3,4"})
-      refusal(row, junk);
-    if (row.type != ValueType::real) refusal(row, "0.5");
+      if (row.type != ValueType::list || !is_ascending_list(junk)) refusal(row, junk);
+    if (row.type != ValueType::real && row.type != ValueType::list) refusal(row, "0.5");
     if (row.type != ValueType::flag) refusal(row, "true");
-    if (row.type != ValueType::point) refusal(row, "1,2,3");
+    if (!row.is_of_numbers()) refusal(row, "1,2,3");
+    if (row.type == ValueType::list)
+      for (const char* junk : {"3,2", "2,2", "-1,2", "1,1e30"}) refusal(row, junk);
     const bool may_be_auto = row.may_be_auto || std::count(row.choices.begin(), row.choices.end(), "auto") > 0;
     if (!may_be_auto) refusal(row, "auto");
   }

@@ -14,13 +14,15 @@ namespace {
 using Parts = std::array<double, flicker_steps>;
 
 TEST(FlickerParts, AreBookedWhereTheChangeBeginsToLast) {
-  EXPECT_EQ(flicker_parts({1, 0, 0, 0}), (Parts{1, 0, 0}));
-  EXPECT_EQ(flicker_parts({0, 0, 1, 1}), (Parts{0, 1, 0}));
-  EXPECT_EQ(flicker_parts({1, 1, 1, 0}), (Parts{0, 0, 1}));
-  EXPECT_EQ(flicker_parts({1, 0, 1, 0}), (Parts{0, 0, 1}));  // the depth undid what the grid did; the kernel lasts
-  EXPECT_EQ(flicker_parts({1, 0, 1, 1}), (Parts{0, 0, 0}));  // undone: no flicker, so no part
-  EXPECT_EQ(flicker_parts({0, 0.25, 0.75, 1}), (Parts{0.25, 0.5, 0.25}));
-  EXPECT_EQ(flicker_parts({0.5, 1, 0, 0.25}), (Parts{0, 0.25, 0}));  // the grid's step is against the change
+  EXPECT_EQ(flicker_parts({1, 0, 0, 0, 0}), (Parts{1, 0, 0, 0}));
+  EXPECT_EQ(flicker_parts({1, 1, 0, 0, 0}), (Parts{0, 1, 0, 0}));
+  EXPECT_EQ(flicker_parts({0, 0, 0, 1, 1}), (Parts{0, 0, 1, 0}));
+  EXPECT_EQ(flicker_parts({1, 1, 1, 1, 0}), (Parts{0, 0, 0, 1}));
+  EXPECT_EQ(flicker_parts({1, 1, 0, 1, 0}),
+            (Parts{0, 0, 0, 1}));  // the depth undid what the grid did; the kernel lasts
+  EXPECT_EQ(flicker_parts({1, 0, 1, 1, 1}), (Parts{0, 0, 0, 0}));  // undone: no flicker, so no part
+  EXPECT_EQ(flicker_parts({0, 0.25, 0.5, 0.75, 1}), (Parts{0.25, 0.25, 0.25, 0.25}));
+  EXPECT_EQ(flicker_parts({0.5, 0.5, 1, 0, 0.25}), (Parts{0, 0, 0.25, 0}));  // the grid's step is against the change
 }
 
 // Multiples of 1/64 add without rounding.
@@ -33,7 +35,7 @@ RC_GTEST_PROP(FlickerParts, AddUpAndAreNotNegative, ()) {
     RC_ASSERT(part >= 0);
     sum += part;
   }
-  RC_ASSERT(sum == std::abs(r[3] - r[0]));
+  RC_ASSERT(sum == std::abs(r[4] - r[0]));
   // A lookup that is the one before brings nothing.
   r[2] = r[1];
   RC_ASSERT(flicker_parts(r)[1] == 0);
@@ -55,14 +57,16 @@ TEST(Flicker, CountsOnlyWhatBothFramesSeeWithOneTruth) {
   counted[3] = 0;
   FlickerPoints points = points_of(counted, 6, 2);
   points.held[4] = 0;
-  const Image<float> now = row_of({1, 0, 0.5f, 1, 1}), grid = row_of({0, 0, 0.5f, 0, 0}),
-                     depth = row_of({0, 0, 0.5f, 0, 0}), next = row_of({0, 0, 0.75f, 0, 0.5f});
-  const Flicker flicker = flicker_of({now, grid, depth, next}, points);
+  const Image<float> now = row_of({1, 0, 0.5f, 1, 1}), choice = row_of({0.75f, 0, 0.5f, 0, 0}),
+                     grid = row_of({0, 0, 0.5f, 0, 0}), depth = row_of({0, 0, 0.5f, 0, 0}),
+                     next = row_of({0, 0, 0.75f, 0, 0.5f});
+  const Flicker flicker = flicker_of({now, choice, grid, depth, next}, points);
   const auto metrics = measure_flicker(flicker);
   EXPECT_EQ(metrics.at("flicker_points"), 4);
   EXPECT_EQ(metrics.at("flicker"), 1.75 / 4);
   EXPECT_EQ(metrics.at("flicker_changed"), 3.0 / 4);
-  EXPECT_EQ(metrics.at("flicker_grid"), 1.0 / 4);
+  EXPECT_EQ(metrics.at("flicker_cascade"), 0.25 / 4);
+  EXPECT_EQ(metrics.at("flicker_grid"), 0.75 / 4);
   EXPECT_EQ(metrics.at("flicker_depth"), 0);
   EXPECT_EQ(metrics.at("flicker_kernel"), 0.25 / 4);
   EXPECT_EQ(metrics.at("flicker_coverage"), 0.5 / 4);
@@ -72,7 +76,7 @@ TEST(Flicker, CountsOnlyWhatBothFramesSeeWithOneTruth) {
 
 TEST(Flicker, OfNoPointsHasNoFractions) {
   const Image<float> one(1, 1, 1);
-  const auto metrics = measure_flicker(flicker_of({one, one, one, one}, points_of(Image<uint8_t>(1, 1, 0))));
+  const auto metrics = measure_flicker(flicker_of({one, one, one, one, one}, points_of(Image<uint8_t>(1, 1, 0))));
   EXPECT_EQ(metrics, (std::map<std::string, double>{
                          {"flicker_points", 0}, {"flicker_outside", 0}, {"flicker_hidden", 0}, {"flicker_unlit", 0}}));
 }
@@ -80,8 +84,8 @@ TEST(Flicker, OfNoPointsHasNoFractions) {
 TEST(Flicker, OfALookupThatIsNotFiniteIsNotFinite) {
   const Image<float> one(1, 1, 1), none(1, 1, std::nanf(""));
   const FlickerPoints point = points_of(Image<uint8_t>(1, 1, 1), 1);
-  EXPECT_TRUE(std::isnan(measure_flicker(flicker_of({one, one, one, none}, point)).at("flicker")));
-  EXPECT_TRUE(std::isnan(measure_flicker(flicker_of({one, none, one, one}, point)).at("flicker_grid")));
+  EXPECT_TRUE(std::isnan(measure_flicker(flicker_of({one, one, one, one, none}, point)).at("flicker")));
+  EXPECT_TRUE(std::isnan(measure_flicker(flicker_of({one, one, none, one, one}, point)).at("flicker_grid")));
 }
 
 }  // namespace

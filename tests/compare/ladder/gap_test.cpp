@@ -75,7 +75,7 @@ TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
     (p.frame.tile(0).window_depth((low + high) / 2) > p.frame.tile(0).window_depth(z) - bias ? high : low) =
         (low + high) / 2;
   const double reach = (z - low) * std::sqrt(45.0) / z;
-  EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0,
+  EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, {{p.frame, p.probe, p.bias, p.edge}}, p.occluder}, 0,
                               p.frame.to_light(p.receivers.position[0])),
               reach, 1e-5);  // the bias rounded to float; half a texel to the side, the plane is 1e-7 of 6.7 m nearer
   EXPECT_GT(z * std::sqrt(45.0) / z - reach, 1) << "the case must be far from linear";
@@ -102,10 +102,10 @@ TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
   const double theta = std::acos(0.6f), turned = theta + std::asin((0.5 + 0.5 * std::sqrt(2.0) * 8 / (1 << 14)) / 4);
   // P = (0, 0, -4), the plane's normal is (0.8, 0, 0.6), and the ray turns to the side where the plane is farther away.
   const double met = 4 * 0.6 / std::cos(turned);
-  EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
+  EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, {{p.frame, p.probe, p.bias, p.edge}}, p.occluder}, 0, {0, 0, -4}),
               0.2 + met - 4, 1e-5);  // rounding of float cosines
   p.probe.n_dot_l[0] = 0.05f;        // 87 degrees: a ray that is turned by 7 degrees misses the plane
-  EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
+  EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, {{p.frame, p.probe, p.bias, p.edge}}, p.occluder}, 0, {0, 0, -4}),
             std::numeric_limits<double>::infinity());
 }
 
@@ -115,8 +115,8 @@ TEST(Measure, AMovedCasterReachesAnywhere) {
   p.receivers.position[0] = {0, 0, -4};
   const glm::dvec3 light(0, 0, -4);
   EXPECT_TRUE(
-      std::isfinite(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, light)));
-  EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder, true}, 0, light),
+      std::isfinite(panning_reach_m({p.ladder, p.receivers, {{p.frame, p.probe, p.bias, p.edge}}, p.occluder}, 0, light)));
+  EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, {{p.frame, p.probe, p.bias, p.edge}}, p.occluder, true}, 0, light),
             std::numeric_limits<double>::infinity());
 }
 

@@ -275,7 +275,8 @@ std::map<std::string, double> metrics_of(const Synthetic& s, const Ladder& ladde
                                 Image<uint32_t>(s.r4.width, s.r4.height, 0)};
   const Image<float> ones(s.r4.width, s.r4.height, 1);
   const Bias bias(s.bias);
-  return measure_ladder({ladder, receivers, LightFrame{}, s.probe, bias, ones, ones});
+  const LightFrame frame;
+  return measure_ladder({ladder, receivers, {{frame, s.probe, bias, ones}}, ones});
 }
 
 TEST(ClimbWithBrokenValues, KeepsThemInResidualsAndMetrics) {

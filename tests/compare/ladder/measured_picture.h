@@ -39,11 +39,11 @@ struct Picture {
     ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
   }
   std::map<std::string, double> metrics() const {
-    return measure_ladder({ladder, receivers, frame, probe, bias, edge, occluder});
+    return measure_ladder({ladder, receivers, {{frame, probe, bias, edge}}, occluder});
   }
   double metric(const char* name) const { return metrics().at(name); }
   std::vector<PointRecord::WorstOf> worst() const {
-    return worst_pixels({ladder, receivers, frame, probe, bias, edge, occluder});
+    return worst_pixels({ladder, receivers, {{frame, probe, bias, edge}}, occluder});
   }
 
   Ladder ladder;

@@ -29,6 +29,7 @@ TEST(ReportUnits, FollowTheMetricsTable) {
   const std::set<std::string_view> plain = {"residual",
                                             "tap_residual",
                                             "rounding_excess",
+                                            "cascade_choice_excess",
                                             "map_error_quanta",
                                             "map_bits",
                                             "shaded_rmse",

@@ -1,0 +1,94 @@
+#include "compare/ladder/join_cascades.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "compare/ladder/numbers.h"
+
+namespace noonmark {
+namespace {
+
+using Cascades = std::span<const PointRecord::Cascade>;
+
+// The largest value over the cascades in which there is something to measure (metric `weight` above 0). NaN without one.
+double largest(Cascades cascades, const char* metric, const char* weight) {
+  double most = -infinity;
+  bool any = false;
+  for (const PointRecord::Cascade& cascade : cascades) {
+    if (!(cascade.metrics.at(weight) > 0)) continue;
+    raise(most, cascade.metrics.at(metric));
+    any = true;
+  }
+  return any ? most : not_a_number;
+}
+
+double sum_of(Cascades cascades, const char* metric) {
+  double sum = 0;
+  bool any = false;
+  for (const PointRecord::Cascade& cascade : cascades) {
+    if (!(cascade.metrics.at("counted") > 0)) continue;
+    sum += cascade.metrics.at(metric);
+    any = true;
+  }
+  return any ? sum : not_a_number;
+}
+
+// Of a number that is the same at all receivers of a cascade, the median over the counted receivers.
+double median_of(Cascades cascades, const char* metric) {
+  std::vector<std::pair<double, double>> values;  // with how many receivers
+  double all = 0;
+  for (const PointRecord::Cascade& cascade : cascades) {
+    if (!(cascade.metrics.at("counted") > 0)) continue;
+    values.emplace_back(cascade.metrics.at(metric), cascade.metrics.at("counted"));
+    all += values.back().second;
+  }
+  std::sort(values.begin(), values.end());
+  double before = 0;
+  for (const auto& [value, count] : values)
+    if (before += count; before > all / 2) return value;
+  return not_a_number;
+}
+
+}  // namespace
+
+std::map<std::string, double> join_laws(Cascades cascades) {
+  std::map<std::string, double> joined{{"texel_m", median_of(cascades, "texel_m")}};
+  for (const char* metric :
+       {"map_range_m", "depth_quantum_m", "acne_free_bias_scene_law_depth", "acne_free_bias_scene_law_m"}) {
+    double most = -infinity;
+    for (const PointRecord::Cascade& cascade : cascades) raise(most, cascade.metrics.at(metric));
+    joined[metric] = most;
+  }
+  for (const char* metric : {"acne_free_bias_law_depth", "acne_free_bias_law_m"})
+    joined[metric] = largest(cascades, metric, "counted");
+  for (const char* metric : {"counted_area_m2", "filter_area_m2", "displacement_area_m2", "aliasing_area_m2",
+                             "acne_area_m2", "peter_panning_area_m2"})
+    joined[metric] = sum_of(cascades, metric);
+  return joined;
+}
+
+std::map<std::string, double> join_soundness(Cascades cascades) {
+  std::map<std::string, double> joined;
+  for (const char* metric :
+       {"rounding_excess", "address_error_texels", "reference_error_m", "map_error_quanta", "map_bits"})
+    joined[metric] = largest(cascades, metric, "facing");
+  double facing = 0, broken = 0;
+  for (const PointRecord::Cascade& cascade : cascades) {
+    if (!(cascade.metrics.at("facing") > 0)) continue;
+    facing += cascade.metrics.at("facing");
+    broken += cascade.metrics.at("facing") * cascade.metrics.at("contract");
+  }
+  joined["contract"] = facing > 0 ? broken / facing : not_a_number;
+  return joined;
+}
+
+void keep_cascade_metrics(std::span<PointRecord::Cascade> cascades) {
+  for (PointRecord::Cascade& cascade : cascades) {
+    std::map<std::string, double> kept;
+    for (const char* metric : cascade_metrics) kept[metric] = cascade.metrics.at(metric);
+    cascade.metrics = std::move(kept);
+  }
+}
+
+}  // namespace noonmark

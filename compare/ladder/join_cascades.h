@@ -1,0 +1,26 @@
+// Numbers of a point with several cascades that come from those of each cascade. All other numbers come from the joined
+// ladder (join(), compare/ladder/ladder.h).
+//
+//   metrics.merge(join_laws(record.cascades));
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+
+#include "compare/results/records.h"
+
+namespace noonmark {
+
+// The metrics of measure_laws(): areas are sums; texel_m is the median over the counted receivers; what law 1 requires, the
+// depth of the maps and their quantum are the largest of all cascades. A cascade without a counted receiver has no part in
+// areas, texel_m and what receivers require.
+std::map<std::string, double> join_laws(std::span<const PointRecord::Cascade> cascades);
+
+// The metrics of measure_soundness(): contract is the share of all facing receivers, the others are the largest of the
+// cascades that have some. NaN if none has.
+std::map<std::string, double> join_soundness(std::span<const PointRecord::Cascade> cascades);
+
+// Leaves of each cascade what a record keeps: cascade_metrics.
+void keep_cascade_metrics(std::span<PointRecord::Cascade> cascades);
+
+}  // namespace noonmark

@@ -1,0 +1,180 @@
+// The inside of the workbench, for its own files alone: workbench.cpp (what a bench is asked besides measuring),
+// workbench_measure.cpp (one point) and workbench_pictures.cpp (small pictures for a page).
+#pragma once
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "measure/placement_stage.h"
+#include "measure/stage_keys.h"
+#include "measure/workbench.h"
+#include "technique/setting_rules.h"
+
+namespace noonmark {
+
+// One value and the settings from which it was computed. The points of a sweep come in an order in which neighbours
+// share most settings, so it is enough to remember the last value.
+template <class T>
+class Remembered {
+ public:
+  bool has(const std::string& key) const { return value_ && key == key_; }
+
+  void forget() { value_.reset(); }
+  T* value() { return value_ ? &*value_ : nullptr; }
+
+  template <class Make>
+  T& get(const std::string& key, const Make& make) {
+    if (!value_ || key != key_) {
+      value_.reset();  // freed before the next is made, because these are large
+      value_.emplace(make());
+      key_ = key;
+    }
+    return *value_;
+  }
+
+ private:
+  std::string key_;
+  std::optional<T> value_;
+};
+
+// Of one map: the only one, or that of a cascade.
+struct MapStages {
+  Remembered<TruthStage> truth;  // of a cascade: that of its receivers alone, which the lookup's rays refer to
+  Remembered<MapStage> map;
+  Remembered<LookupStage> lookup;
+};
+
+// One map of a point: what it shows to its receivers, and why. truth: of these receivers.
+struct OneMap {
+  MapStages& kept;
+  const Technique& technique;
+  const TruthStage& truth;
+  ShownStage shown;
+  Climbed climbed;
+  LookupStage& lookup() const { return *kept.lookup.value(); }
+};
+
+// The cascade of each receiver as the lookup chooses it, and how far that is off (compare/results/metrics.cpp:
+// cascade_choice_excess).
+struct ChosenCascades {
+  Image<uint8_t> of;
+  double excess = 0;
+};
+
+// What a curve says, and of each cascade the least amount of the varied part from which on it has no acne.
+struct CurveStage {
+  BiasCurve curve;
+  std::vector<double> needed_by_cascade;
+};
+
+struct Workbench::Impl {
+  Impl(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> all)
+      : renderer(debug, std::move(shaders)), stages(std::move(all)) {}
+
+  const SceneStage& load(const Settings& settings) { return load(settings, scene_key_of(settings)); }
+  const SceneStage& load(const Settings& settings, const std::string& key) {
+    if (!scene.has(key)) forget_scene();
+    return scene.get(key, [&] { return stages->load_scene(renderer, settings); });
+  }
+
+  // The other stages depend on the scene; the rays of a lookup in strips even refer to its tracer.
+  void forget_scene() {
+    maps.clear();
+    chosen.forget();
+    truth.forget();
+    view.forget();
+    curve.forget();
+    receivers_on_device.clear();
+  }
+
+  struct Asked {
+    const SceneStage& loaded;
+    Technique technique;
+    StageKeys keys;
+  };
+  // The settings' scene, loaded, and what the settings mean there. Throws before the scene is loaded where it can.
+  Asked begin(const Settings& settings) {
+    validate(settings);
+    StageKeys keys(settings);
+    const SceneStage& loaded = load(settings, keys.scene);
+    return {loaded, Technique(*loaded.scene, settings), std::move(keys)};
+  }
+
+  struct Looked {
+    const ViewStage& view;
+    const TruthStage& truth;
+  };
+  // The receivers, which are then on the device.
+  const ViewStage& see(const Asked& asked) {
+    const ViewStage& seen = view.get(asked.keys.view, [&] {
+      return stages->take_view(renderer, *asked.loaded.scene, asked.technique.settings.view);
+    });
+    if (receivers_on_device != asked.keys.view) {
+      renderer.load_receivers(seen.receivers, seen.camera.eye_m);
+      receivers_on_device = asked.keys.view;
+    }
+    return seen;
+  }
+  // The receivers and their truth.
+  Looked look(const Asked& asked) {
+    const ViewStage& seen = see(asked);
+    return {seen,
+            truth.get(asked.keys.truth, [&] { return stages->trace_truth(asked.loaded, seen, asked.technique); })};
+  }
+
+  // What is remembered of `count` maps.
+  std::deque<MapStages>& of_maps(size_t count) {
+    maps.resize(count);
+    return maps;
+  }
+
+  // The map of a point, or of one of its cascades.
+  MapStage& drawn(MapStages& of, const Scene& drawn_scene, const Technique& technique, const std::string& key) {
+    MapStage& stage = of.map.get(key, [&] { return stages->draw_map(renderer, drawn_scene, technique); });
+    if (!stage.map) stage.map = stages->draw_map(renderer, drawn_scene, technique).map;
+    return stage;
+  }
+
+  // The cascade of each receiver.
+  const ChosenCascades& choose(const Asked& asked, const ViewStage& seen, const Technique& of_any_cascade);
+
+  // varied: the part of the bias whose curve is wanted, or null. each_strip: as of Pipeline::climb_strips(), with the
+  // stage that has been prepared.
+  OneMap measure_map(const Asked& asked, const ViewStage& seen, MapStages& kept, const TruthStage& truth_of,
+                     const Technique& technique, MetricSet metrics, const BiasPart* varied,
+                     const std::function<EachStrip(LookupStage&)>& each_strip);
+
+  // Frees the receivers of a large picture on the device; see() brings them back.
+  void free_large_picture(const ReceiverImage& receivers) {
+    if (receivers.primitive.size() <= most_kept_pixels) return;
+    renderer.release_receivers();
+    receivers_on_device.clear();
+  }
+
+  // Frees a map that was drawn again for pictures, and that has no room beside what a probe needs.
+  void free_large_map(MapStages& of) {
+    if (MapStage* const kept = of.map.value()) keep_small(renderer, kept->map);
+  }
+
+  void add_placements(PointRecord& record, PlacementStage& placements, const Looked& looked, const Asked& asked);
+
+  LivePicture draw_live(const SceneStage& loaded, const Settings& settings);
+  PictureStack draw_stack(const SceneStage& loaded, const Settings& settings, const std::vector<double>& marks);
+  // Draws the settings' view with few pixels, for a page: draw(settings) with the number of pixels that the report's live
+  // picture may have, and with fewer until its file, write(drawn), is small enough.
+  template <class Draw, class Write>
+  auto draw_small(const Settings& settings, const Draw& draw, const Write& write);
+
+  gl::Renderer renderer;
+  std::unique_ptr<Pipeline> stages;
+  AvailableMemory space_at_start;
+  Remembered<SceneStage> scene;
+  Remembered<ViewStage> view;
+  Remembered<TruthStage> truth;
+  std::deque<MapStages> maps;  // whose addresses the stages refer to
+  Remembered<ChosenCascades> chosen;
+  Remembered<CurveStage> curve;
+  std::string receivers_on_device;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,373 @@
+#include <algorithm>
+#include <cmath>
+
+#include "compare/judge/poor_view.h"
+#include "compare/ladder/join_cascades.h"
+#include "compare/ladder/law_metrics.h"
+#include "compare/ladder/measure.h"
+#include "compare/ladder/numbers.h"
+#include "compare/results/quantities.h"
+#include "measure/flicker_stage.h"
+#include "measure/texel_footprint.h"
+#include "measure/view_shading.h"
+#include "measure/workbench_impl.h"
+#include "scenes/camera_frame.h"
+#include "technique/cascades.h"
+#include "technique/cost.h"
+
+namespace noonmark {
+namespace {
+
+void add_cost(PointRecord& record, const FrameCost& cost) {
+  record.metrics.insert({{"texel_work", static_cast<double>(cost.texel_work)},
+                         {"traffic_bytes", static_cast<double>(cost.traffic_bytes)},
+                         {"map_bytes", static_cast<double>(cost.map_bytes)},
+                         {"map_texels", static_cast<double>(cost.map_texels)},
+                         {"map_triangles", static_cast<double>(cost.map_triangles)},
+                         {"lookup_fetches", static_cast<double>(cost.lookup.fetches)},
+                         {"lookup_texels", static_cast<double>(cost.lookup.texels)},
+                         {"lookup_operations", static_cast<double>(cost.lookup.operations)}});
+}
+
+void add_time(PointRecord& record, const std::string& stage, const StageTime& time) {
+  record.times[stage + "_ms"] = time.milliseconds;
+  record.times[stage + "_rays"] = static_cast<double>(time.rays);
+}
+
+// What share of the truth was found how. Without a receiver that faces the light nothing was asked.
+void add_answers(PointRecord& record, const TruthAnswers& receivers, const TruthAnswers& texels,
+                 const TruthAnswers& taps) {
+  TruthAnswers answers = receivers;
+  answers += texels;
+  answers += taps;
+  const auto share = [&](uint64_t some) {
+    return answers.all() == 0 ? 0 : static_cast<double>(some) / static_cast<double>(answers.all());
+  };
+  record.metrics["truth_by_cells"] = share(answers.cells);
+  record.metrics["truth_by_rays"] = share(answers.rays);
+  record.metrics["truth_by_scan"] = share(answers.scan);
+}
+
+// What a record is made of: the ladder over the receivers of these maps.
+struct Recorded {
+  const Technique& technique;
+  const Ladder& ladder;
+  const SceneStage& loaded;
+  const ViewStage& view;
+  const TruthStage& truth;  // of these receivers
+  std::vector<LookedUpMap> maps;
+  const Image<uint8_t>* cascades = nullptr;
+  MetricSet metrics = MetricSet::all;
+};
+
+// The numbers that come from the ladder and the receivers, of any number of maps.
+PointRecord record_of(const Recorded& in) {
+  const Technique& t = in.technique;
+  const Ladder& ladder = in.ladder;
+  const ReceiverImage& receivers = in.view.receivers;
+  const Image<float> occluders = in.loaded.tracer->occluder_distance(receivers, t.frame, peter_panning_mask(ladder));
+  PointRecord record;
+  record.settings = settings_map(t.settings);
+  const MeasureInput input{ladder, receivers, in.maps, occluders, t.moves_casters(), in.loaded.surfaces, in.cascades};
+  record.metrics = measure_ladder(input);
+  record.metrics.insert(in.view.metrics.begin(), in.view.metrics.end());
+  if (in.metrics == MetricSet::all) {
+    const CameraFrame camera = make_camera_frame(in.view.camera, receivers.width(), receivers.height());
+    record.metrics["shaded_rmse"] = shaded_rmse(receivers, t.frame, camera, ladder.truth(), ladder.shown());
+    record.metrics["flip"] = shaded_flip(receivers, t.frame, camera, ladder.truth(), ladder.shown());
+    std::vector<const LightFrame*> frames;
+    for (const LookedUpMap& map : in.maps) frames.push_back(&map.frame);
+    record.metrics.merge(
+        footprint_metrics(texel_footprint(receivers, camera, frames, in.cascades, in.truth.receivers.facing)));
+  }
+  int64_t texels = 0;
+  int tiles = 0;
+  for (const LookedUpMap& map : in.maps) texels += map.frame.texels(), tiles += map.frame.tiles;
+  add_cost(record, frame_cost(t.settings, tiles, texels, static_cast<int64_t>(record.metrics["facing"]),
+                              static_cast<int64_t>(in.loaded.scene->triangles.size())));
+  add_time(record, "hard_truth", in.truth.hard);
+  add_time(record, "soft_truth", in.truth.soft);
+  record.causes = ladder.brought;
+  record.worst = worst_pixel(ladder);
+  record.worst_of = worst_pixels(input);
+  return record;
+}
+
+std::map<std::string, double> laws_of(const Technique& technique, const Ladder& ladder, const SceneStage& loaded,
+                                      const ViewStage& view, const LookupStage& lookup) {
+  return measure_laws({ladder, *loaded.scene, view.receivers, view.camera, technique.frame,
+                       technique.settings.map.format, lookup.probe});
+}
+
+PointRecord::Cascade record_of_cascade(const OneMap& map, const SceneStage& loaded, const ViewStage& view) {
+  const LookupStage& lookup = map.lookup();
+  const Technique& technique = map.technique;
+  PointRecord record = record_of({technique,
+                                  map.climbed.ladder,
+                                  loaded,
+                                  view,
+                                  map.truth,
+                                  {{technique.frame, lookup.probe, technique.bias, lookup.edge_distance_texels}},
+                                  nullptr,
+                                  MetricSet::searched});
+  record.metrics.merge(laws_of(technique, map.climbed.ladder, loaded, view, lookup));
+  record.metrics.insert(map.climbed.soundness.begin(), map.climbed.soundness.end());
+  const CascadePlace& place = *technique.cascade;
+  const ViewSlice slice = place.slices[static_cast<size_t>(place.index)];
+  return {slice.begin_m, slice.end_m, std::move(record.metrics), {}};
+}
+
+// What the maps of a point have seen and taken.
+void add_maps(PointRecord& record, std::span<const OneMap> maps, const TruthStage& truth, MetricSet metrics) {
+  TruthAnswers texels, taps;
+  StageTime texel_stage, tap_stage;
+  double seen = 0, used = 0;
+  const auto add = [](StageTime& all, const StageTime& one) {
+    all.milliseconds += one.milliseconds;
+    all.rays += one.rays;
+  };
+  for (const OneMap& map : maps) {
+    const LookupStage& lookup = map.lookup();
+    add(texel_stage, lookup.texel_stage);
+    add(tap_stage, lookup.tap_stage);
+    texels += lookup.texel_answers;
+    taps += map.climbed.tap_answers;
+    seen += static_cast<double>(lookup.exact_depth.texels->count());
+    if (metrics == MetricSet::all) used += static_cast<double>(*map.kept.map.value()->used);
+  }
+  add_time(record, "texel", texel_stage);
+  add_time(record, "tap", tap_stage);
+  add_answers(record, truth.receivers.answers, texels, taps);
+  record.metrics["map_seen"] = seen / record.metrics.at("map_texels");
+  if (metrics == MetricSet::all) record.metrics["map_used"] = used / record.metrics.at("map_texels");
+}
+
+// The truth of the receivers of one cascade; the others do not face the light.
+TruthStage truth_of_cascade(const TruthStage& all, const Image<uint8_t>& cascades, int cascade) {
+  TruthStage one = all;
+  one.receivers.answers = {};
+  for (size_t i = 0; i < cascades.size(); ++i)
+    if (cascades[i] != cascade) one.receivers.facing[i] = 0;
+  return one;
+}
+
+}  // namespace
+
+const ChosenCascades& Workbench::Impl::choose(const Asked& asked, const ViewStage& seen,
+                                              const Technique& of_any_cascade) {
+  return chosen.get(asked.keys.view + asked.keys.lookup, [&] {
+    ChosenCascades made{renderer.choose_cascades(of_any_cascade)};
+    const CascadePlace& place = *of_any_cascade.cascade;
+    const glm::dvec3 eye = seen.camera.eye_m;
+    for (size_t i = 0; i < made.of.size(); ++i) {
+      if (made.of[i] == gl::no_cascade) continue;
+      const glm::vec3 at = seen.receivers.position[i];
+      const int exact = cascade_at(place, eye, at), found = made.of[i];
+      if (exact == found) continue;
+      if (found > static_cast<int>(place.bounds_m.size())) {  // there is no such cascade
+        made.of[i] = static_cast<uint8_t>(exact);
+        made.excess = infinity;
+        continue;
+      }
+      // Each bound between the two is passed on the wrong side.
+      for (int bound = std::min(exact, found); bound < std::max(exact, found); ++bound) {
+        const double off =
+            cascade_depth(place, eye, at) - static_cast<double>(place.bounds_m[static_cast<size_t>(bound)]);
+        raise(made.excess, std::abs(off) / cascade_depth_error(place, eye, at));
+      }
+    }
+    return made;
+  });
+}
+
+OneMap Workbench::Impl::measure_map(const Asked& asked, const ViewStage& seen, MapStages& kept,
+                                    const TruthStage& truth_of, const Technique& technique, MetricSet metrics,
+                                    const BiasPart* varied, const std::function<EachStrip(LookupStage&)>& each_strip) {
+  const SceneStage& loaded = asked.loaded;
+  if (!kept.lookup.has(asked.keys.lookup)) free_large_map(kept);
+  LookupStage& lookup = kept.lookup.get(
+      asked.keys.lookup, [&] { return stages->prepare_lookup(renderer, *loaded.tracer, seen, truth_of, technique); });
+  MapStage& map = drawn(kept, *loaded.scene, technique, asked.keys.map);
+  // A search does not read it, and it costs a pass over the map.
+  if (metrics == MetricSet::all && !map.used) map.used = renderer.used_texels(*map.map);
+  OneMap made{kept, technique, truth_of, stages->show(renderer, map, lookup, truth_of, technique), {}};
+  made.climbed = stages->climb_strips(renderer, lookup, seen, truth_of, made.shown, technique, varied,
+                                      each_strip ? each_strip(lookup) : EachStrip());
+  // What is not needed again is freed before the point's numbers are computed, because it is large.
+  made.shown.r4 = Image<float>();
+  made.shown.tie_lookup = Image<float>();
+  if (!technique.settings.view.motion.any()) made.shown.r5 = Image<float>();
+  return made;
+}
+
+// Adds the metrics over all placements. OpenGL renders the worst placement too: the counts are compared with it, and what
+// it shows there is a metric of its own.
+void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const Looked& looked,
+                                     const Asked& asked) {
+  const auto& [seen, traced] = looked;
+  see(asked);
+  const int worst = worst_placement(placements.counts());
+  record.metrics.merge(placement_metrics(placements.counts(), placements.facts(worst)));
+  const Technique moved = asked.technique.at(placements.frame(worst));
+  const SceneStage& loaded = asked.loaded;
+  LookupStage lookup_there = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
+  MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
+  const ShownStage shown = stages->show(renderer, drawn, lookup_there, traced, moved);
+  const Climbed climbed = stages->climb_strips(
+      renderer, lookup_there, seen, traced, shown, moved, nullptr,
+      [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
+  record.metrics["error_worst_shown"] = error_of(climbed.ladder);
+  record.metrics["placement_disagreements"] = static_cast<double>(placements.disagreements());
+  // A defect that only the worst placement shows makes the point unsound too.
+  std::map<std::string, double> there = climbed.soundness;
+  there["residual"] = climbed.ladder.residual;
+  there["tap_residual"] = climbed.ladder.tap_residual;
+  for (const SoundLimit& limit : sound_limits)
+    if (const auto value = there.find(limit.metric); value != there.end())
+      if (double& found = record.metrics[limit.metric]; !(value->second <= found)) found = value->second;
+  add_time(record, "placement", placements.time());
+}
+
+std::vector<ReceiverSection> Workbench::sections(const Measurement& m, std::span<const glm::ivec2> pixels) {
+  Impl& b = *impl_;
+  const Impl::Asked asked = b.begin(m.technique.settings);
+  const Impl::Looked looked = b.look(asked);
+  std::vector<std::optional<ReceiverSection>> found(pixels.size());
+  const glm::ivec2 size(m.receivers.width(), m.receivers.height());
+  for (size_t n = 0; n < m.maps.size(); ++n) {
+    const MeasuredMap& map = m.maps[n];
+    MapStages& kept = b.of_maps(m.maps.size())[n];
+    const TruthStage& truth = map.technique.cascade ? *kept.truth.value() : looked.truth;
+    LookupStage& lookup = kept.lookup.get(asked.keys.lookup, [&] {
+      return b.stages->prepare_lookup(b.renderer, *asked.loaded.tracer, looked.view, truth, map.technique);
+    });
+    const auto cut = [&](const LookupEvidence& evidence, PixelRange strip) {
+      for (size_t k = 0; k < pixels.size(); ++k) {
+        const glm::ivec2 pixel = pixels[k];
+        // section_of() says what is wrong with a pixel outside the picture.
+        const bool outside = !inside_map(pixel, size);
+        const size_t i = outside ? 0 : m.receivers.primitive.index(pixel.x, pixel.y);
+        const bool here = outside || (strip.first <= i && i < strip.end && &m.map_of(i) == &map);
+        if (!found[k] && here)
+          found[k] =
+              section_of({m.scene, m.receivers, map.technique, m.ladder, evidence, map.stored, map.stored_rows}, pixel);
+      }
+    };
+    each_strip_of(b.renderer, lookup, truth, map.technique, cut);
+  }
+  std::vector<ReceiverSection> sections;
+  for (std::optional<ReceiverSection>& one : found) sections.push_back(std::move(one.value()));
+  return sections;
+}
+
+Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
+                               MetricSet metrics) {
+  Impl& b = *impl_;
+  const Impl::Asked asked = b.begin(settings);
+  const SceneStage& loaded = asked.loaded;
+  const Technique& technique = asked.technique;
+  const Scene& scene = *loaded.scene;
+
+  const Impl::Looked looked = b.look(asked);
+  const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
+  const TruthStage& truth = looked.truth;
+  const std::vector<Technique> techniques = cascades_of(scene, settings);
+  const bool cascaded = techniques.size() > 1;
+  std::deque<MapStages>& kept = b.of_maps(techniques.size());
+  const ChosenCascades* const chosen = cascaded ? &b.choose(asked, view, techniques.front()) : nullptr;
+  std::vector<const TruthStage*> truths;
+  std::vector<ScaledMap> scaled;
+  for (size_t k = 0; k < techniques.size(); ++k) {
+    truths.push_back(cascaded
+                         ? &kept[k].truth.get(asked.keys.truth + asked.keys.lookup,
+                                              [&] { return truth_of_cascade(truth, chosen->of, static_cast<int>(k)); })
+                         : &truth);
+    scaled.push_back({techniques[k].frame, truths[k]->receivers});
+  }
+
+  const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
+  const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
+  const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
+  // Only for a curve that is not known yet.
+  const BiasScale scale = unknown ? bias_scale(scaled, view.receivers, settings.bias.unit) : BiasScale();
+  std::unique_ptr<PlacementStage> placements;  // of the only map
+  const auto with_placements = [&](LookupStage& lookup) -> EachStrip {
+    placements = make_placement_stage(
+        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, truth, technique}, unknown,
+        unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
+    return [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
+  };
+  std::vector<OneMap> maps;
+  for (size_t k = 0; k < techniques.size(); ++k) {
+    b.see(asked);
+    maps.push_back(
+        b.measure_map(asked, view, kept[k], *truths[k], techniques[k], metrics, unknown,
+                      settings.map.placements > 1 ? std::function<EachStrip(LookupStage&)>(with_placements) : nullptr));
+    if (placements) placements->finish();
+    b.free_large_picture(view.receivers);
+  }
+
+  std::vector<PointRecord::Cascade> cascades;
+  std::map<std::string, double> laws, soundness;
+  if (!cascaded) {
+    const OneMap& map = maps.front();
+    laws = laws_of(technique, map.climbed.ladder, loaded, view, map.lookup());
+    soundness = map.climbed.soundness;
+  } else {
+    for (size_t k = 0; k < maps.size(); ++k) cascades.push_back(record_of_cascade(maps[k], loaded, view));
+    laws = join_laws(cascades);
+    soundness = join_soundness(cascades);
+    soundness["cascade_choice_excess"] = chosen->excess;
+    keep_cascade_metrics(cascades);
+  }
+  Measurement m{{}, technique, std::move(maps.front().climbed.ladder), view.camera, scene, view.receivers, {}, {}, {}};
+  for (size_t k = 1; k < maps.size(); ++k) {
+    join(m.ladder, maps[k].climbed.ladder);
+    maps[k].climbed.ladder = Ladder();
+  }
+  if (cascaded) m.cascades = chosen->of;
+  Recorded recorded{technique, m.ladder, loaded, view, truth, {}, cascaded ? &m.cascades : nullptr, metrics};
+  for (const OneMap& map : maps)
+    recorded.maps.push_back(
+        {map.technique.frame, map.lookup().probe, map.technique.bias, map.lookup().edge_distance_texels});
+  m.record = record_of(recorded);
+  m.record.metrics.merge(laws);
+  m.record.metrics.merge(soundness);
+  add_maps(m.record, maps, truth, metrics);
+  m.record.cascades = std::move(cascades);
+  if (varied && !nothing_judged(m.record)) {
+    const CurveStage& found = b.curve.get(curve_key, [&] {
+      CurveStage made;
+      if (cascaded)
+        for (const OneMap& map : maps)
+          made.needed_by_cascade.push_back(static_cast<double>(map.climbed.counts->acne_free_from(0)));
+      for (size_t k = 1; k < maps.size(); ++k) maps.front().climbed.counts->add(std::move(*maps[k].climbed.counts));
+      made.curve = summarise(*maps.front().climbed.counts, scale, *curve_options);
+      maps.front().climbed.counts.reset();  // large, and not needed again: freed before the curve is copied
+      if (placements) add_bands(made.curve, placements->counts(), scale.depth_per_unit);
+      return made;
+    });
+    m.record.curve = found.curve;
+    for (size_t k = 0; k < m.record.cascades.size(); ++k)
+      if (std::isfinite(found.needed_by_cascade[k])) m.record.cascades[k].bias_needed = found.needed_by_cascade[k];
+  }
+  if (settings.view.motion.any()) {
+    b.see(asked);
+    Image<float>& r5 = maps.front().shown.r5;  // of cascades each receiver is looked up in one map, and 0 in the others
+    for (size_t k = 1; k < maps.size(); ++k)
+      for (size_t i = 0; i < r5.size(); ++i) r5[i] += maps[k].shown.r5[i];
+    m.flicker =
+        trace_flicker({*b.stages, b.renderer, loaded, view, truth, techniques, cascaded ? &m.cascades : nullptr, r5});
+    m.record.metrics.merge(measure_flicker(*m.flicker));
+  }
+  if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, looked, asked);
+  for (size_t k = 0; k < maps.size(); ++k)
+    m.maps.push_back(
+        {techniques[k], maps[k].lookup().probe, std::move(maps[k].shown.stored), maps[k].lookup().exact_depth,
+         [&b, &scene, &of = kept[k], technique = techniques[k], key = asked.keys.map](int first_row, int count) {
+           return b.renderer.read_rows(*b.drawn(of, scene, technique, key).map, first_row, count);
+         }});
+  return m;
+}
+
+}  // namespace noonmark

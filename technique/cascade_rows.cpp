@@ -1,0 +1,93 @@
+// The rows of the settings of cascades (CascadeSettings), for the table in technique/settings.cpp.
+#include <algorithm>
+
+#include "technique/cascade_splits.h"
+#include "technique/light_kind.h"
+#include "technique/setting_rows.h"
+#include "technique/setting_rules.h"
+
+namespace noonmark::setting_rows {
+namespace {
+
+std::string without_cascades(const Settings& s, LightKind) {
+  return s.cascades.count == 1 ? "with cascades.count = 1" : "";
+}
+
+// A setting that only some of the split schemes read.
+std::function<std::string(const Settings&, LightKind)> without_split_that_reads(std::string_view setting) {
+  return [setting](const Settings& s, LightKind light) -> std::string {
+    if (std::string why = without_cascades(s, light); !why.empty()) return why;
+    const std::vector<std::string_view>& reads = find_cascade_split(s.cascades.splits).reads;
+    return std::find(reads.begin(), reads.end(), setting) == reads.end() ? "with cascades.splits = " + s.cascades.splits
+                                                                         : "";
+  };
+}
+
+// What a point with several cascades cannot have.
+std::string cascades_with(const Settings& s, std::optional<LightKind> light) {
+  if (s.cascades.count == 1) return "";
+  if (light && !kind_of_light(*light).rays().have_one_direction())
+    return fmt::format("cascades need a directional light, and this one is a {} light; set cascades.count = 1",
+                       kind_of_light(*light).name());
+  if (!fits_view(s.map.fit))
+    return fmt::format(
+        "each cascade is fitted to a slice of the view, but map.fit = {}; set map.fit = sphere or view, or "
+        "cascades.count = 1",
+        find_setting("map.fit").get(s));
+  if (s.map.extent_m)
+    return "map.extent_m gives one extent, and each cascade has its own; leave map.extent_m out, or set cascades.count "
+           "= 1";
+  if (s.map.placements > 1)
+    return "cascades are not yet measured at several placements; set map.placements = 1 or cascades.count = 1";
+  return "";
+}
+
+std::string bounds_of_another_count(const Settings& s, std::optional<LightKind>) {
+  if (s.cascades.count == 1 || s.cascades.splits != "manual") return "";
+  const size_t wanted = static_cast<size_t>(s.cascades.count) - 1;
+  if (s.cascades.bounds_m.size() == wanted) return "";
+  return fmt::format(
+      "cascades.splits = manual needs the ends of all cascades but the last: {} for cascades.count = {}, and "
+      "cascades.bounds_m has {}",
+      wanted, s.cascades.count, s.cascades.bounds_m.size());
+}
+
+}  // namespace
+
+#define MEMBER(path) [](Settings& s) -> decltype((s.cascades.path)) { return s.cascades.path; }
+
+std::vector<Setting> cascade_rows() {
+  return {
+      integer(
+          "cascades.count", "", 1, most_cascades,
+          "directional: how many maps share the view, each for a slice of its depth, from the camera's near plane to "
+          "map.reach_m or the camera's far plane. Each has map.resolution, and is fitted to its slice by map.fit = "
+          "sphere or view. What lies beyond the last slice is looked up in the last map.",
+          MEMBER(count))
+          .refused(cascades_with),
+      named("cascades.splits", "At which depths the slices end.", cascade_splits(), MEMBER(splits))
+          .idle(without_cascades),
+      real("cascades.lambda", "", 0, 1, "practical: 0 is even, 1 is logarithmic.", MEMBER(lambda))
+          .idle(without_split_that_reads("cascades.lambda")),
+      real("cascades.exponent", "", 1, 16, "exponent: how many times as deep each slice is as the one before; 1: even.",
+           MEMBER(exponent))
+          .idle(without_split_that_reads("cascades.exponent")),
+      real("cascades.first_m", "m", 1e-6, 1e9,
+           "first_bound: the depth at which the first slice ends; auto: a tenth of the last.", MEMBER(first_m))
+          .idle(without_split_that_reads("cascades.first_m")),
+      ascending_list("cascades.bounds_m", "m", 1e-6, 1e9,
+                     "manual: the depths at which all slices but the last end, in ascending order.", MEMBER(bounds_m))
+          .idle(without_split_that_reads("cascades.bounds_m"))
+          .refused(bounds_of_another_count),
+      real("cascades.radius_round_m", "m", 0, 1e6,
+           "map.fit = sphere, also with one map: the radius of the sphere is rounded up to a multiple of this, as "
+           "engines do "
+           "whose radius changes by rounding from frame to frame; 0: not rounded.",
+           MEMBER(radius_round_m))
+          .idle(setting_rules::without_sphere),
+  };
+}
+
+#undef MEMBER
+
+}  // namespace noonmark::setting_rows

@@ -1,0 +1,69 @@
+// Planted defects of cascades: the choice of the cascade, and the map that is drawn for it.
+#include "tests/acceptance/planted_defect.h"
+
+namespace noonmark::planted {
+namespace {
+
+const char* const choice = "shaders/cascade/by_depth.glsl";
+
+// Texels of 3 cm near the eye and of half a metre 100 m away.
+Settings cascades(std::initializer_list<acceptance::Assignment> more = {}) {
+  return with(more, with({{"cascades.count", "4"},
+                          {"map.fit", "sphere"},
+                          {"map.resolution", "512"},
+                          {"bias.unit", "texel"},
+                          {"bias.constant", "1.5"}},
+                         small("pillars", 320, 180)));
+}
+
+std::vector<Planted> defects() {
+  std::vector<Planted> all;
+  // The choice, in lookup and probe alike: each receiver is then looked up soundly in the cascade that was chosen, so that
+  // nothing but the choice is wrong.
+  all.push_back(
+      {"CascadeByTheDistanceInsteadOfTheDepth",
+       cascades(),
+       {.shaders = patched(choice, "cascade_depth(position, eye_m, view_forward)", "distance(position, eye_m)")},
+       {{"cascade_choice_excess", 1, 1000}},
+       {"contract", "rounding_excess"}});
+  // The upper half of a float: 8 bits.
+  all.push_back(
+      {"CascadeByADepthOf8Bits",
+       cascades({{"cascades.count", "8"}, {"cascades.splits", "logarithmic"}}),
+       {.shaders = patched(choice, "if (depth > cascade_bound_m[i])",
+                           "if (uintBitsToFloat(floatBitsToUint(depth) & 0xffff0000u) > cascade_bound_m[i])")},
+       {{"cascade_choice_excess", 1, 100}},
+       {"contract"}});
+  all.push_back({"CascadesCountedFromOne",
+                 cascades(),
+                 {.shaders = patched(choice, "int cascade = 0;", "int cascade = cascade_bound_m[0] > 0.0 ? 1 : 0;")},
+                 {{"cascade_choice_excess", 1, 1000}}});
+  // In the lookup alone: the receivers of the next cascade are looked up, and a cascade's own are left out.
+  all.push_back(
+      {"CascadeOfTheNextReceivers",
+       cascades(),
+       {.shaders = patched(choice, "cascade_of(position) == this_cascade", "cascade_of(position) == this_cascade + 1")},
+       {{"contract", 0, 0.5}},
+       {"cascade_choice_excess", "rounding_excess"}});
+  // The map is drawn for a larger slice than it is looked up for.
+  all.push_back({"CascadeDrawnForAnotherSlice",
+                 cascades(),
+                 {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.extent_m *= 1.1; }},
+                 {{"map_error_quanta", 4, 100}},
+                 {"contract", "cascade_choice_excess", "rounding_excess"}});
+  // The map's middle is half a texel off.
+  all.push_back({"CascadeDrawnHalfATexelOff",
+                 cascades(),
+                 {.drawn_map = [](LightFrame& frame,
+                                  MapSettings&) { frame.centre_m.y += frame.extent_m / frame.resolution / 2; }},
+                 {{"map_error_quanta", 4, 100}},
+                 {"contract", "cascade_choice_excess", "rounding_excess"}});
+  return all;
+}
+
+class PlantedCascadeDefect : public testing::TestWithParam<Planted> {};
+TEST_P(PlantedCascadeDefect, MovesItsMetric) { expect_moves(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Each, PlantedCascadeDefect, testing::ValuesIn(defects()), name_of);
+
+}  // namespace
+}  // namespace noonmark::planted

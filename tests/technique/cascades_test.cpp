@@ -1,0 +1,274 @@
+// Cascades: the splits of the view (law 28), the least sphere of a slice (law 29), and the frames.
+#include "technique/cascades.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/error.h"
+#include "scenes/camera_fit.h"
+#include "scenes/camera_frame.h"
+#include "scenes/shapes.h"
+#include "technique/cascade_splits.h"
+#include "technique/map_fit.h"
+
+namespace noonmark {
+namespace {
+
+std::vector<double> bounds_of(const char* split, const CascadeSettings& settings, int count = 4, double near_m = 0.1,
+                              double far_m = 100) {
+  return find_cascade_split(split).bounds({near_m, far_m, count, settings});
+}
+
+void expect_near(const std::vector<double>& found, const std::vector<double>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-12 * expected[i]) << i;
+}
+
+TEST(CascadeSplits, HaveTheirClosedForms) {
+  CascadeSettings s;
+  expect_near(bounds_of("logarithmic", s, 3), {1, 10});  // 0.1, 1, 10, 100
+  s.lambda = 1;
+  expect_near(bounds_of("practical", s, 3), {1, 10});
+  s.lambda = 0;
+  expect_near(bounds_of("practical", s, 4, 2, 10), {4, 6, 8});
+  s.lambda = 0.5;
+  expect_near(bounds_of("practical", s, 2), {0.5 * std::sqrt(10.0) + 0.5 * 50.05});
+  s.exponent = 1;
+  expect_near(bounds_of("exponent", s, 4, 2, 10), {4, 6, 8});
+  s.exponent = 2;
+  expect_near(bounds_of("exponent", s, 3, 1, 8), {2, 4});  // 1, 2 and 4 of 7
+  s.first_m = 4;
+  expect_near(bounds_of("first_bound", s, 3, 0.1, 64), {4, 16});
+  s.first_m = {};
+  expect_near(bounds_of("first_bound", s, 2), {10});
+  s.bounds_m = {5, 15, 50};
+  expect_near(bounds_of("manual", s), {5, 15, 50});
+}
+
+TEST(CascadeSplits, AscendBetweenNearAndFar) {
+  std::mt19937 random(61);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int n = 0; n < 2000; ++n) {
+    CascadeSettings s;
+    s.lambda = unit(random);
+    s.exponent = 1 + 15 * unit(random);
+    const double near_m = std::pow(10, -2 + 3 * unit(random)), far_m = near_m * (2 + std::pow(10, 4 * unit(random)));
+    s.first_m = near_m + (far_m - near_m) * (0.01 + 0.9 * unit(random));
+    const int count = 2 + static_cast<int>(random() % 7);
+    for (const CascadeSplit& split : cascade_splits()) {
+      if (split.name == "manual") continue;
+      double before = near_m;
+      const std::vector<double> bounds = bounds_of(std::string(split.name).c_str(), s, count, near_m, far_m);
+      ASSERT_EQ(bounds.size(), static_cast<size_t>(count) - 1) << split.name;
+      for (const double bound : bounds) {
+        EXPECT_GT(bound, before) << split.name;
+        before = bound;
+      }
+      EXPECT_LT(before, far_m) << split.name;
+    }
+  }
+}
+
+// A floor of 60 m with a box, seen along it from 2 m above.
+Scene floor_scene() {
+  Scene scene;
+  add_quad(scene, "floor", {-30, 0, 30}, {60, 0, 0}, {0, 0, -60});
+  add_box(scene, "box", {-1, 0, -10}, {1, 3, -8});
+  scene.light.position_m = {10, 20, 5};
+  scene.light.target_m = {0, 0, 0};
+  scene.camera.eye_m = {0, 2, 28};
+  scene.camera.target_m = {1, 1.5, 0};
+  scene.camera.near_m = 0.2;
+  scene.camera.far_m = 70;
+  return scene;
+}
+
+Settings cascaded(int count, MapFit fit = MapFit::sphere) {
+  Settings s;
+  s.map.fit = fit;
+  s.map.resolution = 512;
+  s.cascades.count = count;
+  return s;
+}
+
+TEST(Cascades, SliceTheViewFromNearToReach) {
+  const Scene scene = floor_scene();
+  Settings s = cascaded(3);
+  s.cascades.splits = "logarithmic";
+  s.map.reach_m = 0.2 * 64;
+  const std::vector<ViewSlice> slices = view_slices(scene, s);
+  ASSERT_EQ(slices.size(), 3u);
+  for (size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(slices[k].begin_m, 0.2 * std::pow(4, k), 1e-12);
+    EXPECT_NEAR(slices[k].end_m, 0.2 * std::pow(4, k + 1), 1e-12);
+  }
+  s.map.reach_m = {};
+  EXPECT_EQ(view_slices(scene, s).back().end_m, 70) << "the camera's far plane";
+}
+
+TEST(Cascades, RefuseBoundsThatDoNotAscend) {
+  const Scene scene = floor_scene();
+  const auto refused = [&](const Settings& s) -> std::string {
+    try {
+      view_slices(scene, s);
+      return "";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      return error.what();
+    }
+  };
+  Settings s = cascaded(3);
+  s.cascades.splits = "manual";
+  s.cascades.bounds_m = {5, 80};
+  EXPECT_NE(refused(s).find("70 m, the camera's far plane; change cascades.bounds_m"), std::string::npos) << refused(s);
+  s.cascades.bounds_m = {0.1, 5};
+  EXPECT_NE(refused(s).find("0.2 m, the camera's near plane"), std::string::npos) << refused(s);
+  s.cascades.bounds_m = {5, 20};
+  EXPECT_EQ(refused(s), "");
+  s.cascades.splits = "first_bound";
+  s.cascades.first_m = 70;
+  EXPECT_NE(refused(s).find("cascades.first_m"), std::string::npos) << refused(s);
+  s.cascades.first_m = 7;
+  s.map.reach_m = 0.1;
+  EXPECT_NE(refused(s).find("map.reach_m"), std::string::npos) << refused(s);
+}
+
+// Law 29: the sphere holds the slice, and no smaller sphere with its middle on the axis does.
+TEST(Cascades, FitTheLeastSphereOfASlice) {
+  std::mt19937 random(62);
+  std::uniform_real_distribution<double> unit(0, 1);
+  Scene scene = floor_scene();
+  int beyond_far = 0;
+  for (int n = 0; n < 300; ++n) {
+    Settings s = cascaded(2);
+    s.view.width_px = 100 + static_cast<int>(random() % 200);
+    s.view.height_px = 100 + static_cast<int>(random() % 200);
+    scene.camera.fov_y_deg = 10 + 100 * unit(random);
+    const double begin = 0.2 + 30 * unit(random);
+    const ViewSlice slice{begin, begin + 30 * unit(random) + 0.5};
+    const LightFrame frame = make_light_frame(scene, s, &slice);
+    const CameraFrame camera = make_camera_frame(effective_camera(scene, s.view), s.view.width_px, s.view.height_px);
+    const auto radius_around = [&](double along) {  // of the slice's corners, seen from a point of the axis
+      double radius = 0;
+      for (const double depth : {slice.begin_m, slice.end_m})
+        radius = std::max(radius, std::hypot(depth - along, depth * std::hypot(camera.half_width, camera.half_height)));
+      return radius;
+    };
+    double least = radius_around(slice.begin_m);
+    for (int k = 0; k <= 4000; ++k)
+      least = std::min(least, radius_around(slice.begin_m + k / 4000.0 * (slice.end_m - slice.begin_m)));
+    // The square is one texel wider than the sphere, with the margin of a fit.
+    const double radius = frame.extent_m / 2 / (1 + 1e-3);
+    EXPECT_GE(frame.extent_m / 2, least * (1 - 1e-6));
+    EXPECT_LE(radius, least * (1 + 2.5 / 512) + 1e-3) << n;
+    beyond_far += std::hypot(camera.half_width, camera.half_height) >= 1;
+    // All corners lie in the map, and the map's middle is the light's side of the sphere's.
+    for (int corner = 0; corner < 8; ++corner) {
+      const double depth = corner & 1 ? slice.end_m : slice.begin_m;
+      const glm::dvec3 world =
+          camera.eye_m + depth * (camera.forward + (corner & 2 ? 1.0 : -1.0) * camera.half_width * camera.right +
+                                  (corner & 4 ? 1.0 : -1.0) * camera.half_height * camera.up);
+      const glm::dvec2 at = frame.map_texels(frame.to_light(world));
+      EXPECT_TRUE(at.x >= 0 && at.y >= 0 && at.x <= 512 && at.y <= 512);
+    }
+  }
+  EXPECT_GT(beyond_far, 20);
+  EXPECT_LT(beyond_far, 280);
+}
+
+TEST(Cascades, RoundTheRadiusUp) {
+  const Scene scene = floor_scene();
+  Settings s = cascaded(2);
+  const ViewSlice slice{1, 20};
+  const double plain = make_light_frame(scene, s, &slice).extent_m;
+  s.cascades.radius_round_m = 4;
+  const double rounded = make_light_frame(scene, s, &slice).extent_m;
+  EXPECT_GT(rounded, plain);
+  // The sphere's own radius is below plain / 2; with the texel and the margin of the fit the ratio to a multiple stays.
+  const double per_metre = plain / (2 * plain * 0.5);
+  EXPECT_NEAR(std::remainder(rounded / 2 / (1 + 1.0 / 511) / per_metre, 4.0), 0, 0.05);
+}
+
+// One cascade is the map of the settings; several have the light's position as origin, and the same texels as the map whose
+// origin is in its middle.
+TEST(Cascades, HaveTheMapsOfTheirSlices) {
+  const Scene scene = floor_scene();
+  for (const MapFit fit : {MapFit::sphere, MapFit::view})
+    for (const bool snap : {false, true}) {
+      Settings s = cascaded(1, fit);
+      s.map.snap = snap;
+      s.map.reach_m = 40;
+      const std::vector<Technique> one = cascades_of(scene, s);
+      ASSERT_EQ(one.size(), 1u);
+      EXPECT_FALSE(one[0].cascade);
+      EXPECT_EQ(one[0].frame, make_light_frame(scene, s));
+
+      Settings four = s;
+      four.cascades.count = 4;
+      const std::vector<Technique> cascades = cascades_of(scene, four);
+      ASSERT_EQ(cascades.size(), 4u);
+      const std::vector<ViewSlice> slices = view_slices(scene, four);
+      std::mt19937 random(63);
+      std::uniform_real_distribution<double> unit(-1, 1);
+      for (size_t k = 0; k < 4; ++k) {
+        const LightFrame& frame = cascades[k].frame;
+        ASSERT_TRUE(cascades[k].cascade);
+        EXPECT_EQ(cascades[k].cascade->index, static_cast<int>(k));
+        EXPECT_EQ(frame.origin_m, scene.light.position_m);
+        const LightFrame apart = make_light_frame(scene, s, &slices[k]);  // its origin is in its middle
+        EXPECT_EQ(apart.centre_m, glm::dvec2(0));
+        EXPECT_EQ(frame.extent_m, apart.extent_m);
+        EXPECT_EQ(frame.near_m, apart.near_m);
+        EXPECT_EQ(frame.far_m, apart.far_m);
+        if (k > 0) {
+          EXPECT_GT(frame.extent_m, cascades[k - 1].frame.extent_m);
+        }
+        for (int n = 0; n < 100; ++n) {
+          const glm::dvec3 p(30 * unit(random), 3 * unit(random), 30 * unit(random));
+          const glm::dvec2 at = frame.map_texels(frame.to_light(p)), same = apart.map_texels(apart.to_light(p));
+          EXPECT_LT(glm::length(at - same), 1e-9);
+          EXPECT_NEAR(frame.window_depth(frame.to_light(p)), apart.window_depth(apart.to_light(p)), 1e-12);
+          const glm::dvec4 clip = frame.clip_from_world(0) * glm::dvec4(p, 1),
+                           other = apart.clip_from_world(0) * glm::dvec4(p, 1);
+          EXPECT_LT(glm::length(clip - other), 1e-9);
+          const glm::dvec4 drawn = frame.drawn_clip_from_world(frame.tile(0)) * glm::dvec4(p, 1),
+                           other_drawn = apart.drawn_clip_from_world(apart.tile(0)) * glm::dvec4(p, 1);
+          EXPECT_LT(glm::length(drawn - other_drawn), 1e-9);
+        }
+      }
+    }
+}
+
+TEST(Cascades, AreChosenByTheDepthAlongTheView) {
+  CascadePlace place;
+  place.bounds_m = {2, 8};
+  place.forward = {0, 0, -1};
+  const glm::dvec3 eye(1, 2, 3);
+  const auto at = [&](double depth) { return cascade_at(place, eye, eye + glm::dvec3(5, -4, -depth)); };
+  EXPECT_EQ(at(0.5), 0);
+  EXPECT_EQ(at(2), 0) << "a bound belongs to the nearer cascade";
+  EXPECT_EQ(at(2.001), 1);
+  EXPECT_EQ(at(8.001), 2);
+  EXPECT_EQ(at(1000), 2);
+  // Float arithmetic stays within its bound.
+  std::mt19937 random(64);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  double largest = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const glm::dvec3 way = glm::normalize(glm::dvec3(unit(random), unit(random), unit(random)));
+    place.forward = glm::vec3(way);
+    const glm::dvec3 from(100.0 * unit(random), 5.0 * unit(random), 1e3 * unit(random));
+    const glm::vec3 p(20 * unit(random), 3 * unit(random), 50 * unit(random));
+    const glm::vec3 there = p - glm::vec3(from);
+    const float depth = there.x * place.forward.x + there.y * place.forward.y + there.z * place.forward.z;
+    const double error = std::abs(static_cast<double>(depth) - cascade_depth(place, from, p));
+    largest = std::max(largest, error / cascade_depth_error(place, from, p));
+  }
+  EXPECT_LE(largest, 1);
+  EXPECT_GT(largest, 0.05) << "the bound says nothing";
+}
+
+}  // namespace
+}  // namespace noonmark
