@@ -129,7 +129,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double beside = strip < all_taps ? curve + outside : std::max(curve, outside);
   const double side = s.map.placements;
   double placements = 0;
-  if (side > 1) {
+  if (side > 1) {                                    // of each map
     placements = side * side * per_placement + map;  // the worst placement is rendered too
     if (kind_of_light(input.light).placements_form_lattice())
       placements += lattice_points + pixels * per_placed_pixel * side +
@@ -137,6 +137,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
     else
       placements += strip + pixels * per_pixel;
   }
+  placements *= maps;
   // A snapped map is drawn cell by cell and then put in order; the next frame of a motion has a map of its own.
   const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? 1 : 0));
   const double motion = s.view.motion.any() ? pixels * per_flicker_pixel : 0;

@@ -156,7 +156,14 @@ struct Workbench::Impl {
     if (MapStage* const kept = of.map.value()) keep_small(renderer, kept->map);
   }
 
-  void add_placements(PointRecord& record, PlacementStage& placements, const Looked& looked, const Asked& asked);
+  struct WorstPlacement {
+    double error_shown = 0;  // mean |R5 - R1| over the map's receivers
+    std::map<std::string, double> soundness;
+  };
+  WorstPlacement render_worst(const Asked& asked, const ViewStage& seen, const OneMap& map, PlacementStage& placements);
+  void add_placements(PointRecord& record, std::span<const OneMap> maps,
+                      std::span<const std::unique_ptr<PlacementStage>> placements,
+                      std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked);
 
   LivePicture draw_live(const SceneStage& loaded, const Settings& settings);
   PictureStack draw_stack(const SceneStage& loaded, const Settings& settings, const std::vector<double>& marks);

@@ -200,32 +200,50 @@ OneMap Workbench::Impl::measure_map(const Asked& asked, const ViewStage& seen, M
   return made;
 }
 
-// Adds the metrics over all placements. OpenGL renders the worst placement too: the counts are compared with it, and what
-// it shows there is a metric of its own.
-void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const Looked& looked,
-                                     const Asked& asked) {
-  const auto& [seen, traced] = looked;
+// OpenGL renders the worst placement of a map too: the counts are compared with it, and what it shows there is a metric of
+// its own.
+Workbench::Impl::WorstPlacement Workbench::Impl::render_worst(const Asked& asked, const ViewStage& seen,
+                                                              const OneMap& map, PlacementStage& placements) {
   see(asked);
   const int worst = worst_placement(placements.counts());
-  record.metrics.merge(placement_metrics(placements.counts(), placements.facts(worst)));
-  const Technique moved = asked.technique.at(placements.frame(worst));
+  const Technique moved = map.technique.at(placements.frame(worst));
   const SceneStage& loaded = asked.loaded;
-  LookupStage lookup_there = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
+  LookupStage lookup_there = stages->prepare_lookup(renderer, *loaded.tracer, seen, map.truth, moved);
   MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
-  const ShownStage shown = stages->show(renderer, drawn, lookup_there, traced, moved);
-  const Climbed climbed = stages->climb_strips(
-      renderer, lookup_there, seen, traced, shown, moved, nullptr,
+  const ShownStage shown = stages->show(renderer, drawn, lookup_there, map.truth, moved);
+  Climbed climbed = stages->climb_strips(
+      renderer, lookup_there, seen, map.truth, shown, moved, nullptr,
       [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
-  record.metrics["error_worst_shown"] = error_of(climbed.ladder);
-  record.metrics["placement_disagreements"] = static_cast<double>(placements.disagreements());
-  // A defect that only the worst placement shows makes the point unsound too.
-  std::map<std::string, double> there = climbed.soundness;
-  there["residual"] = climbed.ladder.residual;
-  there["tap_residual"] = climbed.ladder.tap_residual;
-  for (const SoundLimit& limit : sound_limits)
-    if (const auto value = there.find(limit.metric); value != there.end())
-      if (double& found = record.metrics[limit.metric]; !(value->second <= found)) found = value->second;
-  add_time(record, "placement", placements.time());
+  climbed.soundness["residual"] = climbed.ladder.residual;
+  climbed.soundness["tap_residual"] = climbed.ladder.tap_residual;
+  return {error_of(climbed.ladder), std::move(climbed.soundness)};
+}
+
+// Adds the metrics over all placements of a map, or of each of the cascades, whose worst placements are independent.
+// of_maps: placement_metrics() of all of them.
+void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap> maps,
+                                     std::span<const std::unique_ptr<PlacementStage>> placements,
+                                     std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked) {
+  record.metrics.merge(of_maps);
+  double error = 0, disagreements = 0;
+  StageTime time;
+  for (size_t k = 0; k < maps.size(); ++k) {
+    PlacementStage& stage = *placements[k];
+    time.milliseconds += stage.time().milliseconds;
+    time.rays += stage.time().rays;
+    const double share = maps.size() == 1 ? 1 : record.cascades[k].metrics.at("counted") / record.metrics.at("counted");
+    if (!(share > 0)) continue;
+    const WorstPlacement worst = render_worst(asked, seen, maps[k], stage);
+    error += share * worst.error_shown;
+    disagreements += static_cast<double>(stage.disagreements());
+    // A defect that only the worst placement shows makes the point unsound too.
+    for (const SoundLimit& limit : sound_limits)
+      if (const auto value = worst.soundness.find(limit.metric); value != worst.soundness.end())
+        if (double& found = record.metrics[limit.metric]; !(value->second <= found)) found = value->second;
+  }
+  record.metrics["error_worst_shown"] = error;
+  record.metrics["placement_disagreements"] = disagreements;
+  add_time(record, "placement", time);
 }
 
 std::vector<ReceiverSection> Workbench::sections(const Measurement& m, std::span<const glm::ivec2> pixels) {
@@ -290,12 +308,13 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
   // Only for a curve that is not known yet.
   const BiasScale scale = unknown ? bias_scale(scaled, view.receivers, settings.bias.unit) : BiasScale();
-  std::unique_ptr<PlacementStage> placements;  // of the only map
+  std::vector<std::unique_ptr<PlacementStage>> placements;  // of each map
   const auto with_placements = [&](LookupStage& lookup) -> EachStrip {
-    placements = make_placement_stage(
-        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, truth, technique}, unknown,
-        unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
-    return [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
+    const size_t k = placements.size();
+    placements.push_back(make_placement_stage(
+        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, *truths[k], techniques[k]}, unknown,
+        unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>()));
+    return [&stage = *placements[k]](const LookupEvidence& evidence, PixelRange strip) { stage.add(evidence, strip); };
   };
   std::vector<OneMap> maps;
   for (size_t k = 0; k < techniques.size(); ++k) {
@@ -303,18 +322,26 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     maps.push_back(
         b.measure_map(asked, view, kept[k], *truths[k], techniques[k], metrics, unknown,
                       settings.map.placements > 1 ? std::function<EachStrip(LookupStage&)>(with_placements) : nullptr));
-    if (placements) placements->finish();
+    if (!placements.empty()) placements.back()->finish();
     b.free_large_picture(view.receivers);
   }
 
   std::vector<PointRecord::Cascade> cascades;
-  std::map<std::string, double> laws, soundness;
+  std::map<std::string, double> laws, soundness, of_placements;
   if (!cascaded) {
     const OneMap& map = maps.front();
     laws = laws_of(technique, map.climbed.ladder, loaded, view, map.lookup());
     soundness = map.climbed.soundness;
+    if (!placements.empty()) {
+      const PlacementStage& stage = *placements.front();
+      of_placements = placement_metrics(stage.counts(), stage.facts(worst_placement(stage.counts())));
+    }
   } else {
-    for (size_t k = 0; k < maps.size(); ++k) cascades.push_back(record_of_cascade(maps[k], loaded, view));
+    for (size_t k = 0; k < maps.size(); ++k) {
+      cascades.push_back(record_of_cascade(maps[k], loaded, view));
+      if (!placements.empty()) cascades.back().metrics.merge(placement_metrics(placements[k]->counts(), {}));
+    }
+    of_placements = join_placements(cascades);
     laws = join_laws(cascades);
     soundness = join_soundness(cascades);
     soundness["cascade_choice_excess"] = chosen->excess;
@@ -344,7 +371,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       for (size_t k = 1; k < maps.size(); ++k) maps.front().climbed.counts->add(std::move(*maps[k].climbed.counts));
       made.curve = summarise(*maps.front().climbed.counts, scale, *curve_options);
       maps.front().climbed.counts.reset();  // large, and not needed again: freed before the curve is copied
-      if (placements) add_bands(made.curve, placements->counts(), scale.depth_per_unit);
+      std::vector<const PlacementCounts*> counts;
+      for (const auto& stage : placements) counts.push_back(&stage->counts());
+      if (!counts.empty()) add_bands(made.curve, counts, scale.depth_per_unit);
       return made;
     });
     m.record.curve = found.curve;
@@ -360,7 +389,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
         trace_flicker({*b.stages, b.renderer, loaded, view, truth, techniques, cascaded ? &m.cascades : nullptr, r5});
     m.record.metrics.merge(measure_flicker(*m.flicker));
   }
-  if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, looked, asked);
+  if (!placements.empty() && !nothing_judged(m.record))
+    b.add_placements(m.record, maps, placements, std::move(of_placements), view, asked);
   for (size_t k = 0; k < maps.size(); ++k)
     m.maps.push_back(
         {techniques[k], maps[k].lookup().probe, std::move(maps[k].shown.stored), maps[k].lookup().exact_depth,

@@ -37,8 +37,6 @@ std::string cascades_with(const Settings& s, std::optional<LightKind> light) {
   if (s.map.extent_m)
     return "map.extent_m gives one extent, and each cascade has its own; leave map.extent_m out, or set cascades.count "
            "= 1";
-  if (s.map.placements > 1)
-    return "cascades are not yet measured at several placements; set map.placements = 1 or cascades.count = 1";
   return "";
 }
 

@@ -218,8 +218,8 @@ std::vector<ImageRecord> write_images(const Measurement& m, const std::string& f
   // A float holds an index exactly up to 2^24. -1 where there is no surface.
   add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
   for (const Ladder::RungImage& rung : m.ladder.rungs) add(rung.name, rung.lit);
-  Image<float> reference(m.receivers.width(), m.receivers.height(), 0);
-  for (size_t i = 0; i < reference.size(); ++i)
+  Image<float> reference = m.map().probe.reference;
+  for (size_t i = 0; i < m.cascades.size(); ++i)
     if (m.receivers.primitive[i] != no_primitive) reference[i] = m.map_of(i).probe.reference[i];
   add("depth.reference", std::move(reference));
   add("depth.stored", stored_depths(m));

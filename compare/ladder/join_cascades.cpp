@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compare/ladder/numbers.h"
+#include "compare/results/metrics.h"
 
 namespace noonmark {
 namespace {
@@ -80,6 +81,26 @@ std::map<std::string, double> join_soundness(Cascades cascades) {
     broken += cascade.metrics.at("facing") * cascade.metrics.at("contract");
   }
   joined["contract"] = facing > 0 ? broken / facing : not_a_number;
+  return joined;
+}
+
+std::map<std::string, double> join_placements(Cascades cascades) {
+  std::map<std::string, double> joined;
+  double counted = 0;
+  for (const PointRecord::Cascade& cascade : cascades) counted += cascade.metrics.at("counted");
+  for (const Metric& metric : metrics_table()) {
+    const std::string name(metric.name);
+    if (!metric.of_placements || !cascades.front().metrics.contains(name)) continue;
+    // A root mean square adds by its squares.
+    const bool squares = name.starts_with("aliasing_rms");
+    double sum = 0;
+    for (const PointRecord::Cascade& cascade : cascades) {
+      const double count = cascade.metrics.at("counted"), value = cascade.metrics.at(name);
+      if (count > 0) sum += count * (squares ? value * value : value);
+    }
+    const double mean = counted > 0 ? sum / counted : not_a_number;
+    joined[name] = squares ? std::sqrt(mean) : mean;
+  }
   return joined;
 }
 

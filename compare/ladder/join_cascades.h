@@ -20,6 +20,11 @@ std::map<std::string, double> join_laws(std::span<const PointRecord::Cascade> ca
 // cascades that have some. NaN if none has.
 std::map<std::string, double> join_soundness(std::span<const PointRecord::Cascade> cascades);
 
+// The metrics of placement_metrics(), which the cascades have too: sums of what each cascade has at its own worst, mean and
+// best, over all counted receivers. The grids of cascades lie independently of each other, so each is a real placement of
+// the whole map. Which placement it is has no name here.
+std::map<std::string, double> join_placements(std::span<const PointRecord::Cascade> cascades);
+
 // Leaves of each cascade what a record keeps: cascade_metrics.
 void keep_cascade_metrics(std::span<PointRecord::Cascade> cascades);
 

@@ -154,7 +154,8 @@ int worst_placement(const PlacementCounts& counts);
 // "worst_shift_u_texels".
 std::map<std::string, double> placement_metrics(const PlacementCounts& counts, std::span<const PlacementFact> worst);
 
-// Adds bands and the window at every placement to a curve over the same part.
-void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per_unit);
+// Adds bands and the window at every placement to a curve over the same part. maps: of one map, or of each cascade, whose
+// grids lie independently of each other: the worst of the point is where each cascade is at its own worst.
+void add_bands(BiasCurve& curve, std::span<const PlacementCounts* const> maps, double depth_per_unit);
 
 }  // namespace noonmark

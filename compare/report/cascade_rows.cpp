@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "compare/results/causes.h"
+#include "compare/results/quantities.h"
 #include "technique/bias_parts.h"
 #include "technique/settings.h"
 
@@ -50,10 +53,15 @@ struct Need {
 // bias.unit.
 std::optional<Need> need_of(const PointRecord& point, const Cascade& cascade) {
   if (!point.curve || !cascade.bias_needed) return std::nullopt;
+  // A damaged store may name a part that there is not.
   const std::string& parameter = point.curve->parameter;
-  const double set = std::stod(point.settings.at(parameter)), needed = *cascade.bias_needed;
-  const bool in_unit = bias_part(parameter.substr(std::string_view("bias.").size())).unit == "bias.unit";
-  const std::string& unit = point.settings.at("bias.unit");
+  const auto part = std::find_if(bias_parts().begin(), bias_parts().end(),
+                                 [&](const BiasPart& one) { return parameter == "bias." + std::string(one.name); });
+  const std::optional<double> amount = number_of(setting_of(point, parameter));
+  if (part == bias_parts().end() || !amount) return std::nullopt;
+  const double set = *amount, needed = *cascade.bias_needed;
+  const bool in_unit = part->unit == "bias.unit";
+  const std::string unit = setting_of(point, "bias.unit");
   const double metres = unit == "texel"   ? cascade.metrics.at("texel_m")
                         : unit == "depth" ? cascade.metrics.at("map_range_m")
                                           : 1;

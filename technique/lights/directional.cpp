@@ -69,8 +69,12 @@ class Directional final : public KindOfLight {
   }
 
   void shift_grid(LightFrame& frame, glm::dvec2 texels) const override {
-    const glm::dvec3 shift = (texels.x * frame.right + texels.y * frame.up) * tile(frame, 0).texel_m({});
-    frame.origin_m += shift;
+    const double w = tile(frame, 0).texel_m({});
+    const glm::dvec3 shift = (texels.x * frame.right + texels.y * frame.up) * w;
+    if (frame.centre_m == glm::dvec2(0))
+      frame.origin_m += shift;
+    else
+      frame.centre_m += texels * w;  // of a cascade, whose origin stays the light's
     if (frame.anchor_m) *frame.anchor_m += shift;
   }
   void refine_grid(LightFrame& frame, int times) const override { frame.anchor_texels *= times; }

@@ -221,7 +221,6 @@ TEST(Cascades, RefuseWhatTheyCannotDo) {
   };
   refused({{"map.fit", "tight"}}, "map.fit = tight");
   refused({{"map.extent_m", "10"}}, "map.extent_m");
-  refused({{"map.placements", "8"}}, "map.placements = 1");
   refused({{"map.fit", "view"}}, "a spot light", LightKind::spot);
   refused({{"cascades.splits", "manual"}}, "3 for cascades.count = 4, and cascades.bounds_m has 0");
   refused({{"cascades.splits", "manual"}, {"cascades.bounds_m", "1,2"}}, "has 2");
