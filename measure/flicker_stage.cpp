@@ -146,8 +146,10 @@ Flicker trace_flicker(const FlickerInput& in) {
     }
     points.counted[i] = 1;
     const glm::dvec3 place(receivers.position[i]);
+    const Image<uint8_t>* const chosen = next_cascades ? &*next_cascades : nullptr;
     points.held[i] = holds(map_of(in.techniques, in.cascades, i), place, reach) &&
-                     holds(map_of(next_techniques, next_cascades ? &*next_cascades : nullptr, i), place, reach);
+                     holds(map_of(in.techniques, chosen, i), place, reach) &&
+                     holds(map_of(next_techniques, chosen, i), place, reach);
   }
 
   // The lookups, each of which differs from the one before in one respect. Of cascades each receiver is looked up in one

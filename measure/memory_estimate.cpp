@@ -142,7 +142,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? 1 : 0));
   const double motion = s.view.motion.any() ? pixels * per_flicker_pixel : 0;
   double live = 0;
-  if (input.pictures) {
+  if (input.pictures && maps == 1) {
     const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
     const double answers =
         why_no_live_picture(s).empty() ? per_live_answer * (2.0 * pattern.taps + 1) : per_stacked_answer * most_stacked;

@@ -46,7 +46,10 @@ struct Measurement {
   std::optional<Flicker> flicker;  // from this frame to the next, if the settings have a motion
 
   const MeasuredMap& map() const { return maps.front(); }  // of a point with one map
-  const MeasuredMap& map_of(size_t i) const { return maps[cascades.size() == 0 ? 0 : cascades[i]]; }
+  // That of the receiver; the first where there is none.
+  const MeasuredMap& map_of(size_t i) const {
+    return maps[cascades.size() != 0 && cascades[i] < maps.size() ? cascades[i] : 0];
+  }
   // Whether the size of a texel and the step of depth are the same at all receivers.
   bool uniform() const { return maps.size() == 1 && technique.frame.uniform(); }
 };

@@ -138,6 +138,9 @@ struct Workbench::Impl {
   // The cascade of each receiver.
   const ChosenCascades& choose(const Asked& asked, const ViewStage& seen, const Technique& of_any_cascade);
 
+  // The truth of the receivers of this map: of a cascade those that it is chosen for.
+  const TruthStage& truth_of(const Asked& asked, const Looked& looked, MapStages& kept, const Technique& technique);
+
   // varied: the part of the bias whose curve is wanted, or null. each_strip: as of Pipeline::climb_strips(), with the
   // stage that has been prepared.
   OneMap measure_map(const Asked& asked, const ViewStage& seen, MapStages& kept, const TruthStage& truth_of,

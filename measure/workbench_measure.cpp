@@ -153,6 +153,14 @@ TruthStage truth_of_cascade(const TruthStage& all, const Image<uint8_t>& cascade
 
 }  // namespace
 
+const TruthStage& Workbench::Impl::truth_of(const Asked& asked, const Looked& looked, MapStages& kept,
+                                            const Technique& technique) {
+  if (!technique.cascade) return looked.truth;
+  return kept.truth.get(asked.keys.truth + asked.keys.lookup, [&] {
+    return truth_of_cascade(looked.truth, choose(asked, looked.view, technique).of, technique.cascade->index);
+  });
+}
+
 const ChosenCascades& Workbench::Impl::choose(const Asked& asked, const ViewStage& seen,
                                               const Technique& of_any_cascade) {
   return chosen.get(asked.keys.view + asked.keys.lookup, [&] {
@@ -255,7 +263,7 @@ std::vector<ReceiverSection> Workbench::sections(const Measurement& m, std::span
   for (size_t n = 0; n < m.maps.size(); ++n) {
     const MeasuredMap& map = m.maps[n];
     MapStages& kept = b.of_maps(m.maps.size())[n];
-    const TruthStage& truth = map.technique.cascade ? *kept.truth.value() : looked.truth;
+    const TruthStage& truth = b.truth_of(asked, looked, kept, map.technique);
     LookupStage& lookup = kept.lookup.get(asked.keys.lookup, [&] {
       return b.stages->prepare_lookup(b.renderer, *asked.loaded.tracer, looked.view, truth, map.technique);
     });
@@ -296,10 +304,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   std::vector<const TruthStage*> truths;
   std::vector<ScaledMap> scaled;
   for (size_t k = 0; k < techniques.size(); ++k) {
-    truths.push_back(cascaded
-                         ? &kept[k].truth.get(asked.keys.truth + asked.keys.lookup,
-                                              [&] { return truth_of_cascade(truth, chosen->of, static_cast<int>(k)); })
-                         : &truth);
+    truths.push_back(&b.truth_of(asked, looked, kept[k], techniques[k]));
     scaled.push_back({techniques[k].frame, truths[k]->receivers});
   }
 
@@ -378,7 +383,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     });
     m.record.curve = found.curve;
     for (size_t k = 0; k < m.record.cascades.size(); ++k)
-      if (std::isfinite(found.needed_by_cascade[k])) m.record.cascades[k].bias_needed = found.needed_by_cascade[k];
+      if (m.record.cascades[k].metrics.at("counted") > 0 && std::isfinite(found.needed_by_cascade[k]))
+        m.record.cascades[k].bias_needed = found.needed_by_cascade[k];
   }
   if (settings.view.motion.any()) {
     b.see(asked);

@@ -95,6 +95,7 @@ auto Workbench::Impl::draw_small(const Settings& settings, const Draw& draw, con
 
 std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
   validate(settings);
+  require_one_map(settings, "a live picture");
   if (!why_no_live_picture(settings).empty()) return std::nullopt;
   return impl_->draw_small(
       settings, [&](const SceneStage& loaded, const Settings& small) { return impl_->draw_live(loaded, small); },
@@ -103,6 +104,7 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
 
 PictureStack Workbench::picture_stack(const Settings& settings, const std::vector<double>& marks) {
   validate(settings);
+  require_one_map(settings, "a stack of pictures");
   return impl_->draw_small(
       settings,
       [&](const SceneStage& loaded, const Settings& small) { return impl_->draw_stack(loaded, small, marks); },

@@ -14,9 +14,8 @@ std::span<const CascadeSplit> cascade_splits() {
        .bounds = practical_bounds,
        .reads = {"cascades.lambda"}},
       {.name = "logarithmic",
-       .help =
-           "each slice ends at the same multiple of where it begins, so that a pixel has texels of the same size in "
-           "every cascade",
+       .help = "each slice ends at the same multiple of where it begins, so that at its near and at its far end a "
+               "texel is as large in the picture as in every other cascade",
        .bounds = logarithmic_bounds},
       {.name = "exponent",
        .help = "each slice is cascades.exponent times as deep as the one before, as in Unreal Engine",

@@ -1,6 +1,7 @@
 #include "technique/cascades.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -48,11 +49,12 @@ std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings)
     if (!(end > begin))
       throw SettingConflict(
           "cascades.splits",
-          fmt::format("cascades.splits = {} gives a cascade from {:.6g} m to {:.6g} m; the ends must ascend between "
-                      "{:.6g} m, the camera's near plane, and {:.6g} m, {}{}",
-                      split.name, begin, end, near_m, far_m,
-                      settings.map.reach_m ? "map.reach_m" : "the camera's far plane",
-                      split.reads.empty() ? "" : fmt::format("; change {}", split.reads.front())));
+          fmt::format(
+              "cascades.splits = {} lets cascades end at {:.6g} m; the ends must ascend between {:.6g} m, the camera's "
+              "near plane, and {:.6g} m, {}{}",
+              split.name, fmt::join(ends, " m, "), near_m, far_m,
+              settings.map.reach_m ? "map.reach_m" : "the camera's far plane",
+              split.reads.empty() ? "" : fmt::format("; change {}", split.reads.front())));
     slices.push_back({begin, end});
     begin = end;
   }

@@ -257,10 +257,15 @@ namespace {
 
 // Law 33 wants one extent in every frame.
 std::string moving_splits_note(const Scene& scene, const Settings& settings) {
-  if (settings.cascades.count == 1 || !settings.view.motion.any() || settings.view.near_m || scene.camera.near_m)
-    return "";
-  return "cascades begin at the camera's near plane, which is fitted anew in each frame, so that their sizes change from "
-         "frame to frame and their texels flicker; set view.near_m";
+  if (settings.cascades.count == 1 || !settings.view.motion.any() || !settings.map.snap) return "";
+  std::vector<std::string> open;
+  if (!settings.view.near_m && !scene.camera.near_m) open.emplace_back("view.near_m");
+  if (!settings.map.reach_m && !settings.view.far_m && !scene.camera.far_m) open.emplace_back("map.reach_m");
+  if (open.empty()) return "";
+  return fmt::format(
+      "cascades reach from the camera's near to its far plane, which are fitted anew in each frame: their sizes change "
+      "from frame to frame, and their texels flicker although map.snap is set; set {}",
+      fmt::join(open, " and "));
 }
 
 }  // namespace

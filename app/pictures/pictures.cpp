@@ -70,16 +70,6 @@ Image<Color> difference(const Measurement& m) {
   });
 }
 
-// The truth in light greys, so that lines are visible on it.
-Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
-  Image<Color> picture = paint(m, [&](size_t i) {
-    const bool facing = m.ladder.flags[i] & flag_facing;
-    return grey(0.35 + 0.5 * clay(m, i, facing ? m.ladder.truth()[i] : 0));
-  });
-  for (const MeasuredMap& map : m.maps) draw_frustum(picture, map.technique.frame, camera, m.receivers);
-  return picture;
-}
-
 // Of cascades, near ones first: neighbours are apart for people with colour-vision deficiencies (Okabe and Ito 2008).
 struct CascadeColor {
   const char* name;
@@ -89,6 +79,20 @@ constexpr CascadeColor cascade_colors[] = {
     {"vermilion", {213, 94, 0}}, {"sky blue", {86, 180, 233}}, {"yellow", {240, 228, 66}}, {"blue", {0, 114, 178}},
     {"orange", {230, 159, 0}},   {"green", {0, 158, 115}},     {"pink", {204, 121, 167}},  {"grey", {120, 120, 120}}};
 static_assert(std::size(cascade_colors) == most_cascades);
+
+// The truth in light greys, so that lines are visible on it.
+Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
+  Image<Color> picture = paint(m, [&](size_t i) {
+    const bool facing = m.ladder.flags[i] & flag_facing;
+    return grey(0.35 + 0.5 * clay(m, i, facing ? m.ladder.truth()[i] : 0));
+  });
+  if (m.maps.size() == 1)
+    draw_frustum(picture, m.technique.frame, camera, m.receivers);
+  else
+    for (size_t k = 0; k < m.maps.size(); ++k)
+      draw_frustum(picture, m.maps[k].technique.frame, camera, m.receivers, cascade_colors[k].color);
+  return picture;
+}
 
 Image<Color> tinted(const Measurement& m) {
   return paint(m, [&](size_t i) {
@@ -284,7 +288,11 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
               "The map's frame tinted by the cascade that each pixel is looked up in: " + cascade_ranges(m) + ".",
               [&] { return tinted(m); });
 
-  files.add("frustum", std::string(m.technique.frame.light().frustum_caption()), [&] { return frustum(m, camera); });
+  files.add("frustum",
+            m.maps.size() == 1 ? std::string(m.technique.frame.light().frustum_caption())
+                               : "What the map of each cascade can see: " + cascade_ranges(m) +
+                                     "; dashed where the scene is before it.",
+            [&] { return frustum(m, camera); });
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
   files.add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).",
             [&] { return shown_frame(m.receivers, truth); });

@@ -142,7 +142,7 @@ nlohmann::json curve_json(const BiasCurve& curve) {
 nlohmann::ordered_json light_json(const Measurement& m, const LightFrame& f) {
   const Light light = effective_light(m.scene, m.technique.settings);
   nlohmann::ordered_json json = {{"kind", f.light().name()},
-                                 {"origin_m", vector_json(f.origin_m)},
+                                 {"origin_m", vector_json(f.to_world({f.centre_m, 0}))},
                                  {"right", vector_json(f.right)},
                                  {"up", vector_json(f.up)},
                                  {"forward", vector_json(f.forward)}};
@@ -157,12 +157,15 @@ nlohmann::ordered_json light_json(const Measurement& m, const LightFrame& f) {
   json["depth"] = depths[static_cast<size_t>(f.tile(0).depth)];
   json["resolution"] = f.resolution;
   json["faces"] = f.tiles;
-  json["map"] = {{"width", f.map_size().x},
-                 {"height", f.map_size().y},
-                 {"rows", f.tiles == 1 ? "map.exr has the map's highest v on top"
-                                       : "map.exr has the faces +X -X +Y -Y +Z -Z from the bottom up, each with its "
-                                         "highest t on top: row y of map.exr is row height - 1 - y of the map, and "
-                                         "row j of face f is the map's row f * resolution + j"}};
+  json["map"] = {
+      {"width", f.map_size().x},
+      {"height", f.map_size().y},
+      {"rows", m.maps.size() > 1 ? "map.exr has the maps of all cascades from the bottom up, the nearest at the "
+                                   "bottom, each with its highest v on top"
+               : f.tiles == 1    ? "map.exr has the map's highest v on top"
+                                 : "map.exr has the faces +X -X +Y -Y +Z -Z from the bottom up, each with its "
+                                   "highest t on top: row y of map.exr is row height - 1 - y of the map, and "
+                                   "row j of face f is the map's row f * resolution + j"}};
   if (f.tiles == 1) {
     json["clip_from_world_rows"] = matrix_rows(f.clip_from_world(0));
     return json;

@@ -184,9 +184,11 @@ bool project_segment(const CameraFrame& camera, int width, int height, glm::dvec
 }
 
 void draw_frustum(Image<Color>& picture, const LightFrame& light, const CameraFrame& camera,
-                  const ReceiverImage& receivers) {
+                  const ReceiverImage& receivers, std::optional<Color> color) {
   const int width = picture.width, height = picture.height;
-  const std::vector<WorldLine> lines = frustum_lines(light);
+  std::vector<WorldLine> lines = frustum_lines(light);
+  if (color)
+    for (WorldLine& line : lines) line.color = *color;
   for (size_t begin = 0;
        begin < lines.size();) {  // runs of one colour are drawn as one, so that joints are not drawn twice
     Coverage coverage{Image<float>(width, height, 0), Image<float>(width, height, 0)};

@@ -1,5 +1,6 @@
 // Draws the light's frustum over the camera's picture, to show which part of the scene the map covers.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "app/pictures/image_file.h"
@@ -32,8 +33,8 @@ bool project_segment(const CameraFrame& camera, int width, int height, glm::dvec
                      ScreenSegment& out);
 
 // Draws the lines with soft edges, dashed and fainter where a receiver is nearer, and a mark at the light's position. A
-// directional light has no position and so no mark.
+// directional light has no position and so no mark. color: of all lines, in place of one for near, far and sides.
 void draw_frustum(Image<Color>& picture, const LightFrame& light, const CameraFrame& camera,
-                  const ReceiverImage& receivers);
+                  const ReceiverImage& receivers, std::optional<Color> color = {});
 
 }  // namespace noonmark

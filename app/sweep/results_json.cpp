@@ -49,6 +49,12 @@ Json point_of(const PointRecord& point, const RunInfo& info) {
                            {"cause", point.worst.cause}};
   for (const PointRecord::WorstOf& worst : point.worst_of)
     json["worst_pixels"][worst.metric] = {{"x", worst.x}, {"y", worst.y}, {"size", number_json(worst.size)}};
+  for (const PointRecord::Cascade& cascade : point.cascades) {
+    Json one = {{"begin_m", cascade.begin_m}, {"end_m", cascade.end_m}};
+    one["bias_needed"] = cascade.bias_needed ? Json(*cascade.bias_needed) : Json();
+    for (const auto& [name, value] : cascade.metrics) one["metrics"][name] = number_json(value);
+    json["cascades"].push_back(std::move(one));
+  }
   return json;
 }
 

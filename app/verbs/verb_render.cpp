@@ -87,12 +87,33 @@ void print_fitted_map(const Measurement& m) {
 // The table of the cascades, and which of them the error comes from.
 void print_cascades(const Measurement& m) {
   if (m.record.cascades.empty()) return;
-  fmt::print("\n  {:<10}{:>19}{:>11}{:>11}{:>12}{:>10}  {}\n", "cascade", "depth", "texel", "receivers", "error",
-             "of all", "bias needed, set");
+  fmt::print("\n  {:<10}{:>19}{:>11}{:>11}{:>12}{:>10}{:>28}{:>28}\n", "cascade", "depth", "texel", "receivers",
+             "error", "of all", "bias needed", "bias set");
   for (const CascadeRow& row : cascade_rows_of(m.record))
-    fmt::print("  {:<10}{:>19}{:>11}{:>11.0f}{:>12}{:>10}  {}\n", row.number, row.depths, row.texel, row.receivers,
-               row.error, row.share, row.bias);
+    fmt::print("  {:<10}{:>19}{:>11}{:>11.0f}{:>12}{:>10}{:>28}{:>28}\n", row.number, row.depths, row.texel,
+               row.receivers, row.error, row.share, row.needed, row.set);
   if (const std::string worst = worst_cascade(m.record); !worst.empty()) fmt::print("  {}\n", worst);
+}
+
+// The curve's numbers in the unit of its parameter: the depth of that unit differs from cascade to cascade.
+void print_curve_of_cascades(const Measurement& m, const BiasCurve& c) {
+  const BiasPart& part = bias_part(c.parameter.substr(std::string_view("bias.").size()));
+  const BiasUnit unit = m.technique.settings.bias.unit;
+  const bool in_unit = part.unit == "bias.unit";
+  const double per_depth = !in_unit || unit == BiasUnit::depth ? 1
+                           : unit == BiasUnit::m               ? c.m_per_depth
+                                                               : c.texels_per_depth;
+  const std::string name = !in_unit ? "" : unit == BiasUnit::depth ? " depth" : unit == BiasUnit::m ? " m" : " texels";
+  if (c.window_min_depth)
+    fmt::print("\n  usable {}: {:.4g} ... {:.4g}{}\n", c.parameter, *c.window_min_depth * per_depth,
+               *c.window_max_depth * per_depth, name);
+  else
+    fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
+               c.peter_panning_bound);
+  if (c.acne_free_bias_depth)
+    fmt::print("  free of acne in all cascades from: {:.4g}{}\n", *c.acne_free_bias_depth * per_depth, name);
+  fmt::print("  best {}: {:.4g}{} (error {:.5f}%)\n", c.parameter, c.best_bias_depth * per_depth, name,
+             100 * c.best_error);
 }
 
 // clock: what the times come from.
@@ -129,6 +150,10 @@ void print_ladder(const Measurement& m, const char* clock) {
   if (const std::string why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   const BiasCurve& c = *m.record.curve;
+  if (m.maps.size() > 1) {
+    print_curve_of_cascades(m, c);
+    return;
+  }
   const char* there = m.uniform() ? "" : " (m and texels at the median receiver)";
   if (c.window_min_depth)
     fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",

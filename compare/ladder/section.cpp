@@ -298,6 +298,7 @@ ReceiverSection section_of(const SectionInput& in, glm::ivec2 pixel) {
   section.position_m = in.receivers.position[i];
   section.normal = in.receivers.normal[i];
   section.light = frame.light().name();
+  if (technique.cascade) section.cascade = technique.cascade->index + 1;
   section.map_size = frame.map_size();
 
   const glm::dvec3 receiver = frame.to_light(section.position_m);

@@ -72,6 +72,7 @@ struct ReceiverSection {
   std::string light;                          // "directional"
   bool axial = true;                          // depth is measured along the light's axis, not as a distance
   int tile = 0;                               // the face of a cube; 0 of a flat map
+  int cascade = 0;                            // from 1, the nearest; 0: the point has one map
   glm::ivec2 map_size{1};
   double near_m = 0, far_m = 1;
   glm::dvec2 place{0};         // looked up, in texels of the map's image

@@ -28,15 +28,27 @@ double whole_error(const PointRecord& point) {
   return sum;
 }
 
-// The cause with the largest mean step; null if there is none. The light's size is no part of the error.
-const CauseRow* largest_cause(const Cascade& cascade) {
-  const CauseRow* largest = nullptr;
-  double most = 0;
-  for (const CauseRow& cause : cause_rows) {
-    if (!cause.cause || cause.place == CausePlace::light) continue;
-    const double size = cascade.metrics.at(std::string(cause.name));
-    if (size > most) most = size, largest = &cause;
+struct LargestCause {
+  std::string_view label;
+  double size = 0;    // mean step
+  double of_all = 0;  // its share of the steps of all causes
+};
+
+// The cause, or the kind of cause that darkens and lightens, with the largest mean step. The light's size is no part of the
+// error.
+LargestCause largest_cause(const Cascade& cascade) {
+  LargestCause largest;
+  double all = 0;
+  for (const CauseRow& row : cause_rows) {
+    if (row.place == CausePlace::light || !row.sum.empty()) continue;  // a part is counted in its sum
+    double size = 0;
+    for (const CauseRow& part : cause_rows)
+      if (part.cause && (part.name == row.name || part.sum == row.name))
+        size += cascade.metrics.at(std::string(part.name));
+    all += size;
+    if (size > largest.size) largest = {row.label, size, 0};
   }
+  if (all > 0) largest.of_all = largest.size / all;
   return largest;
 }
 
@@ -49,26 +61,28 @@ struct Need {
   bool too_small = false;
 };
 
-// The part of the bias that the curve varies: what it has to be in this cascade, and what it is. In metres, if it has
-// bias.unit.
+// The amount of the varied part of the bias: "2.22 texels = 0.0539 m", in the unit that the setting has.
+std::string amount_text(const PointRecord& point, const Cascade& cascade, const BiasPart& part, double amount) {
+  if (part.unit != "bias.unit") return fmt::format("{:.3g}{}{}", amount, part.unit.empty() ? "" : " ", part.unit);
+  const std::string unit = setting_of(point, "bias.unit");
+  if (unit == "m") return fmt::format("{:.3g} m", amount);
+  const bool texels = unit == "texel";
+  return fmt::format("{:.3g} {} = {:.3g} m", amount, texels ? "texels" : "depth",
+                     amount * cascade.metrics.at(texels ? "texel_m" : "map_range_m"));
+}
+
+// What the part of the bias that the curve varies has to be in this cascade, and what it is.
 std::optional<Need> need_of(const PointRecord& point, const Cascade& cascade) {
-  if (!point.curve || !cascade.bias_needed) return std::nullopt;
+  if (!point.curve) return std::nullopt;
   // A damaged store may name a part that there is not.
   const std::string& parameter = point.curve->parameter;
   const auto part = std::find_if(bias_parts().begin(), bias_parts().end(),
                                  [&](const BiasPart& one) { return parameter == "bias." + std::string(one.name); });
-  const std::optional<double> amount = number_of(setting_of(point, parameter));
-  if (part == bias_parts().end() || !amount) return std::nullopt;
-  const double set = *amount, needed = *cascade.bias_needed;
-  const bool in_unit = part->unit == "bias.unit";
-  const std::string unit = setting_of(point, "bias.unit");
-  const double metres = unit == "texel"   ? cascade.metrics.at("texel_m")
-                        : unit == "depth" ? cascade.metrics.at("map_range_m")
-                                          : 1;
-  const auto text = [&](double value) {
-    return in_unit ? fmt::format("{:.3g} m", value * metres) : fmt::format("{:.3g}", value);
-  };
-  return Need{text(needed), text(set), set < needed};
+  const std::optional<double> set = number_of(setting_of(point, parameter));
+  if (part == bias_parts().end() || !set) return std::nullopt;
+  const auto text = [&](double amount) { return amount_text(point, cascade, *part, amount); };
+  return Need{cascade.bias_needed ? text(*cascade.bias_needed) : "-", text(*set),
+              cascade.bias_needed && *set < *cascade.bias_needed};
 }
 
 }  // namespace
@@ -84,9 +98,9 @@ std::vector<CascadeRow> cascade_rows_of(const PointRecord& point) {
     row.receivers = cascade.metrics.at("counted");
     row.error = row.receivers > 0 ? fmt::format("{:.4f}%", 100 * cascade.metrics.at("error")) : "-";
     row.share = all > 0 ? fmt::format("{:.0f}%", 100 * error_sum(cascade) / all) : "-";
-    if (const CauseRow* cause = largest_cause(cascade)) row.cause = cause->label;
+    row.cause = largest_cause(cascade).label;
     const std::optional<Need> need = need_of(point, cascade);
-    row.bias = need && row.receivers > 0 ? fmt::format("{}, {}", need->needed, need->set) : "-";
+    if (need) row.needed = need->needed, row.set = need->set;
     rows.push_back(std::move(row));
   }
   return rows;
@@ -99,10 +113,11 @@ std::string worst_cascade(const PointRecord& point) {
   for (size_t k = 1; k < point.cascades.size(); ++k)
     if (error_sum(point.cascades[k]) > error_sum(point.cascades[worst])) worst = k;
   const Cascade& cascade = point.cascades[worst];
-  const CauseRow* cause = largest_cause(cascade);
-  std::string text = fmt::format("Cascade {} ({}, texel {:.2g} m) holds {:.0f}% of the error{}.", worst + 1,
-                                 depths_of(cascade), cascade.metrics.at("texel_m"), 100 * error_sum(cascade) / all,
-                                 cause ? fmt::format(", most of it: {}", cause->label) : "");
+  const LargestCause cause = largest_cause(cascade);
+  std::string text = fmt::format(
+      "Cascade {} ({}, texel {:.2g} m) holds {:.0f}% of the error{}.", worst + 1, depths_of(cascade),
+      cascade.metrics.at("texel_m"), 100 * error_sum(cascade) / all,
+      cause.size > 0 ? fmt::format("; its largest cause: {}, {:.0f}%", cause.label, 100 * cause.of_all) : "");
   if (const std::optional<Need> need = need_of(point, cascade); need && need->too_small)
     text +=
         fmt::format(" Its {} is {} where {} is needed against acne.", point.curve->parameter, need->set, need->needed);

@@ -2,7 +2,7 @@
 // error comes from.
 //
 //   for (const CascadeRow& row : cascade_rows_of(point)) print(row.depths, row.error);
-//   print(worst_cascade(point));   // "Cascade 4 (28 to 80 m, texel 0.37 m) holds 83% of the error: acne. ..."
+//   print(worst_cascade(point));   // "Cascade 4 (28 to 80 m, texel 0.37 m) holds 83% of the error; its largest cause: ..."
 #pragma once
 #include <string>
 #include <vector>
@@ -19,7 +19,9 @@ struct CascadeRow {
   std::string error;     // mean over its own receivers: "1.2%"
   std::string share;     // of the whole picture's error: "83%"; "-" if the picture has none
   std::string cause;     // the largest one's label; empty if nothing is wrong
-  std::string bias;      // needed against acne, and set: "0.93 m, 0.15 m"; "-" without a curve
+  // Of the part of the bias that the curve varies, in the unit of the setting: the least amount without acne, and the one
+  // that is set. "-" without a curve.
+  std::string needed = "-", set = "-";  // "2.22 texels = 0.0539 m"
 };
 
 // Empty for a point with one map.

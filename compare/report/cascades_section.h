@@ -6,7 +6,7 @@
 
 namespace noonmark::report {
 
-// Of at most most_cascade_points points, those with the largest error. Empty if no point has cascades.
+// Of at most most_cascade_points choices of settings, those with the largest error. Empty if no point has cascades.
 inline constexpr size_t most_cascade_points = 12;
 Markup cascades_section(const Results& results);
 

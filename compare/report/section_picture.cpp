@@ -482,9 +482,11 @@ std::string section_svg(const ReceiverSection& section, SectionTheme theme) {
   out += element("rect", Attribute("x", n(margin)), Attribute("y", "8"), Attribute("width", "12"),
                  Attribute("height", "12"), Attribute("fill", color_text(cause)), css("s-soft"));
   out += text_at(margin + 18, 19, title, "f-ink title");
-  out += text_at(right, 19, fmt::format("pixel {}, {}", section.pixel.x, section.pixel.y), "f-soft small", "end");
-  out +=
-      element("g", Attribute("clip-path", "url(#drawing)"), drawn_columns(section, scale), planes(section, scale), cut.drawn);
+  const std::string cascade = section.cascade == 0 ? "" : fmt::format(", cascade {}", section.cascade);
+  out += text_at(right, 19, fmt::format("pixel {}, {}{}", section.pixel.x, section.pixel.y, cascade), "f-soft small",
+                 "end");
+  out += element("g", Attribute("clip-path", "url(#drawing)"), drawn_columns(section, scale), planes(section, scale),
+                 cut.drawn);
   out += element("rect", Attribute("x", n(left)), Attribute("y", n(top)), Attribute("width", n(right - left)),
                  Attribute("height", n(bottom - top)), Attribute("fill", "none"), css("s-soft"));
   out += axis(section, scale);

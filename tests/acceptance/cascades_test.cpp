@@ -1,11 +1,13 @@
 // Cascades, measured: each is a map of its own, and the whole is what they are over their receivers.
 #include "technique/cascades.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
+#include "base/error.h"
 #include "compare/ladder/measure.h"
 #include "compare/report/cascade_rows.h"
 #include "scenes/library.h"
@@ -137,7 +139,8 @@ TEST(CascadedPoint, SaysWhichCascadeNeedsMoreBias) {
     const double needed = m.record.cascades[k].bias_needed.value();
     EXPECT_GT(needed, before) << "texels grow";
     before = needed;
-    EXPECT_NE(rows[k].bias.find(", 0.02 m"), std::string::npos) << rows[k].bias;
+    EXPECT_EQ(rows[k].set, "0.02 m");
+    EXPECT_EQ(rows[k].needed, fmt::format("{:.3g} m", needed));
   }
   EXPECT_GT(before, 0.02);
   const std::string worst = worst_cascade(m.record);
@@ -210,6 +213,31 @@ TEST(CascadedPoint, CountsEachCascadeAtItsOwnWorstPlacement) {
     EXPECT_NEAR(again.record.curve->error_band.mean[1], mean / counted, 1e-9);
     EXPECT_GE(*m.record.curve->acne_free_bias_worst_depth, *m.record.curve->acne_free_bias_depth);
   }
+}
+
+TEST(CascadedPoint, HasSectionsInTheCascadeOfEachPixel) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement m = bench.measure(street({}), std::nullopt);
+  std::vector<glm::ivec2> pixels;
+  std::vector<size_t> cascades;
+  for (size_t k = 0; k < m.maps.size(); ++k)
+    for (size_t i = 0; i < m.cascades.size(); ++i)
+      if (m.cascades[i] == k && is_counted(m.ladder, i)) {
+        pixels.emplace_back(static_cast<int>(i) % m.cascades.width, static_cast<int>(i) / m.cascades.width);
+        cascades.push_back(k);
+        break;
+      }
+  ASSERT_GT(pixels.size(), 2u);
+  const std::vector<ReceiverSection> sections = bench.sections(m, pixels);
+  for (size_t n = 0; n < pixels.size(); ++n) {
+    EXPECT_EQ(sections[n].cascade, static_cast<int>(cascades[n]) + 1);
+    EXPECT_EQ(sections[n].texel_m, m.maps[cascades[n]].technique.frame.texel_m(glm::dvec3(0)));
+  }
+  const auto empty = std::find(m.receivers.primitive.pixels.begin(), m.receivers.primitive.pixels.end(), no_primitive);
+  ASSERT_NE(empty, m.receivers.primitive.pixels.end());
+  const int at = static_cast<int>(empty - m.receivers.primitive.pixels.begin());
+  const glm::ivec2 sky[] = {{at % m.cascades.width, at / m.cascades.width}};
+  EXPECT_THROW(bench.sections(m, sky), Error);
 }
 
 // Nothing that is remembered of a point with cascades enters one without, and the other way round.

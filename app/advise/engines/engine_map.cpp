@@ -69,7 +69,8 @@ std::string fitted_text(const AdvicePlace& place, const std::string& field) {
       number(place.map.texel_m));
   if (place.map.coarser)
     said += fmt::format(
-        " The recommended texel of {} m needs cascades here, which Noonmark does not lay: the engine's largest map has "
+        " The recommended texel of {} m needs cascades here, which these lines do not lay: the engine's largest map "
+        "has "
         "{} texels.",
         number(place.texel_m), place.map.resolution);
   return said;
