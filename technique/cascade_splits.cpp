@@ -18,7 +18,8 @@ std::span<const CascadeSplit> cascade_splits() {
                "texel is as large in the picture as in every other cascade",
        .bounds = logarithmic_bounds},
       {.name = "exponent",
-       .help = "each slice is cascades.exponent times as deep as the one before, as in Unreal Engine",
+       .help = "each slice is cascades.exponent times as deep as the one before, the effect of Unreal Engine's "
+               "Distribution Exponent",
        .bounds = exponent_bounds,
        .reads = {"cascades.exponent"}},
       {.name = "first_bound",

@@ -1,5 +1,6 @@
 // Depths that grow by a constant factor from slice to slice: Cascade Distribution Exponent of Unreal Engine's directional
-// light. Its documentation gives the effect; the formula is this one's own.
+// light (UDirectionalLightComponent::CascadeDistributionExponent). Its documentation gives the effect: 1 spaces them evenly, a
+// larger one moves them to the camera. The formula is this one's own.
 #include <cmath>
 
 #include "technique/cascade_splits.h"

@@ -1,4 +1,4 @@
-// calculate_cascade_bounds() of Bevy 0.14 (crates/bevy_pbr/src/light/mod.rs): the first bound is given, the others are
+// calculate_cascade_bounds() of Bevy (crates/bevy_pbr/src/light/mod.rs, in later versions the crate bevy_light): the first bound is given, the others are
 // geometric from there to far. Without cascades.first_m it is a tenth of far.
 #include <cmath>
 
