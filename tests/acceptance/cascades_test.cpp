@@ -25,6 +25,31 @@ Settings street(const std::vector<Assignment>& more) {
                          small("pillars", 320, 180)));
 }
 
+// Measures maps one by one with the program's stages, over the receivers of a given truth.
+class MapsApart {
+ public:
+  explicit MapsApart(const Settings& settings)
+      : scene_(stages_.load_scene(renderer, settings)),
+        view_(stages_.take_view(renderer, *scene_.scene, settings.view)) {
+    renderer.load_receivers(view_.receivers, view_.camera.eye_m);
+  }
+  const Scene& scene() const { return *scene_.scene; }
+  TruthStage truth_of(const Technique& technique) { return stages_.trace_truth(scene_, view_, technique); }
+  Ladder climb(const Technique& technique, const TruthStage& truth) {
+    LookupStage lookup = stages_.prepare_lookup(renderer, *scene_.tracer, view_, truth, technique);
+    MapStage map = stages_.draw_map(renderer, *scene_.scene, technique);
+    const ShownStage shown = stages_.show(renderer, map, lookup, truth, technique);
+    return stages_.climb_strips(renderer, lookup, view_, truth, shown, technique, nullptr).ladder;
+  }
+
+  gl::Renderer renderer{gl::DebugMode::fatal};
+
+ private:
+  Pipeline stages_;
+  SceneStage scene_;
+  ViewStage view_;
+};
+
 class CascadeCase : public testing::TestWithParam<SceneCase> {
  protected:
   Settings settings() const { return with(GetParam().settings, street({{"scene.name", GetParam().scene}})); }
@@ -42,23 +67,15 @@ TEST_P(CascadeCase, EqualsSeparateMapsOverTheSameReceivers) {
   EXPECT_EQ(metric(m, "contract"), 0);
   EXPECT_LE(metric(m, "rounding_excess"), 1);
 
-  gl::Renderer renderer(gl::DebugMode::fatal);
-  Pipeline stages;
-  const SceneStage scene = stages.load_scene(renderer, s);
-  const ViewStage view = stages.take_view(renderer, *scene.scene, s.view);
-  renderer.load_receivers(view.receivers, view.camera.eye_m);
-  std::vector<Technique> techniques = cascades_of(*scene.scene, s);
-  ASSERT_EQ(m.cascades.pixels, renderer.choose_cascades(techniques[0]).pixels);
+  MapsApart apart(s);
+  std::vector<Technique> techniques = cascades_of(apart.scene(), s);
+  ASSERT_EQ(m.cascades.pixels, apart.renderer.choose_cascades(techniques[0]).pixels);
   std::array<uint64_t, 4> counted{};
   double error = 0;
   for (size_t k = 0; k < techniques.size(); ++k) {
     Technique alone = techniques[k];
     alone.cascade.reset();
-    const TruthStage truth = stages.trace_truth(scene, view, alone);
-    LookupStage lookup = stages.prepare_lookup(renderer, *scene.tracer, view, truth, alone);
-    MapStage map = stages.draw_map(renderer, *scene.scene, alone);
-    const ShownStage shown = stages.show(renderer, map, lookup, truth, alone);
-    const Ladder ladder = stages.climb_strips(renderer, lookup, view, truth, shown, alone, nullptr).ladder;
+    const Ladder ladder = apart.climb(alone, apart.truth_of(alone));
     double own_error = 0;
     for (size_t i = 0; i < ladder.flags.size(); ++i) {
       if (m.cascades[i] != k) continue;
@@ -165,24 +182,17 @@ TEST(CascadedPoint, CountsEachCascadeAtItsOwnWorstPlacement) {
     EXPECT_EQ(metric(m, "placement_disagreements"), 0);
     EXPECT_EQ(metric(m, "contract"), 0);
 
-    gl::Renderer renderer(gl::DebugMode::fatal);
-    Pipeline stages;
-    const SceneStage scene = stages.load_scene(renderer, s);
-    const ViewStage view = stages.take_view(renderer, *scene.scene, s.view);
-    renderer.load_receivers(view.receivers, view.camera.eye_m);
+    MapsApart apart(s);
     const Placements placements(3);
     double mean = 0, worst = 0, acne_worst = 0, counted = 0;
-    for (const Technique& cascade : cascades_of(*scene.scene, s)) {
-      TruthStage truth = stages.trace_truth(scene, view, cascade);
+    for (const Technique& cascade : cascades_of(apart.scene(), s)) {
+      TruthStage truth = apart.truth_of(cascade);
       for (size_t i = 0; i < m.cascades.size(); ++i)
         if (m.cascades[i] != cascade.cascade->index) truth.receivers.facing[i] = 0;
       double own_worst = 0, own_acne = 0, receivers = 0;
       for (int p = 0; p < placements.count(); ++p) {
         const Technique moved = cascade.at(placements.frame(cascade.frame, p));
-        LookupStage lookup = stages.prepare_lookup(renderer, *scene.tracer, view, truth, moved);
-        MapStage map = stages.draw_map(renderer, *scene.scene, moved);
-        const ShownStage shown = stages.show(renderer, map, lookup, truth, moved);
-        const Ladder ladder = stages.climb_strips(renderer, lookup, view, truth, shown, moved, nullptr).ladder;
+        const Ladder ladder = apart.climb(moved, truth);
         double error = 0, acne = 0;
         receivers = 0;
         for (size_t i = 0; i < ladder.flags.size(); ++i) {
