@@ -1,7 +1,7 @@
 // Cascades: a directional light's map as several maps, each with a light frame of its own for a slice of the view's depth.
 // A cascade is measured as a single map is, over the receivers of its slice.
 //
-//   const std::vector<Technique> cascades = cascades_of(scene, settings);   // one without cascades
+//   const std::vector<Technique> cascades = cascades_of(scene, settings);   // with cascades.count = 1 only one
 //   cascades[2].frame; cascades[2].cascade->bounds_m;
 //   int k = cascade_at(*cascades[0].cascade, P);
 #pragma once

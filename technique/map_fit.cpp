@@ -112,7 +112,7 @@ struct Sphere {
 };
 
 // The least sphere of the frustum from the depth `begin` to `end`: its middle lies on the axis where the near and the far
-// corners are equally far, but never beyond the far rectangle, whose corners alone then touch it (law 29).
+// corners are equally far, but never beyond the far rectangle, whose corners alone then touch it.
 Sphere sphere_of_frustum(const CameraFrame& camera, double begin, double end) {
   const double k2 = camera.half_width * camera.half_width + camera.half_height * camera.half_height;
   if (camera.camera.projection != Projection::perspective) {

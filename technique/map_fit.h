@@ -40,7 +40,7 @@ std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& vie
 // square of a perspective camera, law 29 with near = 0). The sphere's radius reads the angle of view, the shape of the
 // picture and map.reach_m, and neither place nor direction of the camera; the square is one texel wider, so that snapping
 // (map.snap) never uncovers its edge. Near and far hold the sphere, and near all of the scene that can cast a shadow into
-// it. slice: the sphere holds this part of the frustum, from begin_m to end_m (law 29); null: from the eye to map.reach_m.
+// it. slice: the part of the frustum that the sphere holds, from begin_m to end_m. Null: from the eye to map.reach_m.
 // cascades.radius_round_m rounds the radius.
 FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const LightFrame& axes,
                         const ViewSlice* slice = nullptr);

@@ -25,7 +25,7 @@ std::map<std::string, double> join_soundness(std::span<const PointRecord::Cascad
 // the whole map. Which placement it is has no name here.
 std::map<std::string, double> join_placements(std::span<const PointRecord::Cascade> cascades);
 
-// Leaves of each cascade what a record keeps: cascade_metrics.
+// Removes all metrics of each cascade that a record does not keep. It keeps those of cascade_metrics.
 void keep_cascade_metrics(std::span<PointRecord::Cascade> cascades);
 
 }  // namespace noonmark

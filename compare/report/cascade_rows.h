@@ -1,5 +1,5 @@
-// The table of a point's cascades as text, for the terminal and the report, and the sentence that says which of them the
-// error comes from.
+// The table of a point's cascades as text, for the terminal and the report. And one sentence: which cascade has most of the
+// error, and why.
 //
 //   for (const CascadeRow& row : cascade_rows_of(point)) print(row.depths, row.error);
 //   print(worst_cascade(point));   // "Cascade 4 (28 to 80 m, texel 0.37 m) holds 83% of the error; its largest cause: ..."

@@ -28,7 +28,7 @@ struct Strip {
   const PointRecord* worst = nullptr;
 };
 
-// The classes of flicker that these results can have: a point goes to another cascade only where there are some.
+// The classes of flicker that these results can have. Without cascades no point goes to another cascade.
 using ShownClasses = std::span<const CauseColor>;
 ShownClasses classes_of(const Results& results) {
   const bool cascades = std::any_of(results.points.begin(), results.points.end(),
