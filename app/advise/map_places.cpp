@@ -129,6 +129,15 @@ MapPlace place_as_given() {
   return place;
 }
 
+MapPlace cascades_as_given(const Settings& settings, bool chooses_bias) {
+  MapPlace place;
+  place.cascades = settings.cascades.count;
+  place.apply = [chooses_bias](Settings& there) {
+    if (chooses_bias) there.bias.unit = BiasUnit::texel;
+  };
+  return place;
+}
+
 std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> conditions,
                                  std::span<const Settings> views) {
   const Settings& first = conditions.front();

@@ -121,15 +121,18 @@ class Search {
     return Chosen{{place[found->least], place[found->balanced], place[found->best]}, found->budget};
   }
 
-  // Something that holds and is simpler: a kind of bias with less parts, a map that holds for every view, or a bias that may vary
-  // more; and that costs and errs hardly more. Null if there is nothing.
+  // Something that holds and is simpler: a kind of bias with less parts, a map that holds for every view, fewer cascades, or a bias
+  // that may vary more; and that costs and errs hardly more. Null if there is nothing.
   const Candidate* simpler(const Candidate& than) {
     const auto moves = [&](const Candidate& one) { return request_.places[one.tried.place].moves_with; };
+    const auto maps = [](const Candidate& one) { return one.tried.settings.cascades.count; };
     const auto fragile = [](const Candidate& one) { return one.tried.bias && is_fragile(*one.tried.bias); };
     for (const Candidate& one : candidates()) {
-      if (!one.holds() || one.level > than.level || moves(one) > moves(than) || fragile(one) > fragile(than)) continue;
+      if (!one.holds() || one.level > than.level || moves(one) > moves(than) || maps(one) > maps(than) ||
+          fragile(one) > fragile(than))
+        continue;
       const bool wider = fragile(one) < fragile(than);
-      if (one.level == than.level && moves(one) == moves(than) && !wider) continue;
+      if (one.level == than.level && moves(one) == moves(than) && maps(one) == maps(than) && !wider) continue;
       const double factor = wider ? factor_for_width : factor_that_pays;
       if (one.tried.cost <= factor * than.tried.cost && one.tried.screened_error <= factor * than.tried.screened_error)
         return &one;
@@ -264,7 +267,7 @@ class Search {
     answer.conditions = one.conditions;
     answer.placements = searched_placements * searched_placements;
     if (const LightFrame frame = make_light_frame(bench_.scene(one.tried.settings.scene), one.tried.settings);
-        frame.kind == LightKind::directional)
+        frame.kind == LightKind::directional && one.tried.settings.cascades.count == 1)
       answer.extent_m = frame.extent_m;
     answer.verified = *one.verified;
     return answer;

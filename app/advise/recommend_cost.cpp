@@ -16,7 +16,7 @@ SeenShare seen_share(const PointRecord& measured) {
 
 double full_texel_work(const Settings& full, const SeenShare& seen) {
   const auto receivers = std::llround(seen.facing * full.view.width_px * full.view.height_px);
-  const auto texels = std::llround(seen.map_squares * full.map.resolution * full.map.resolution);
+  const auto texels = std::llround(seen.map_squares * full.map.resolution * full.map.resolution * full.cascades.count);
   return static_cast<double>(frame_cost(full, 1, texels, receivers, 0).texel_work);
 }
 

@@ -17,8 +17,10 @@ std::string name_of(const Tried& tried, const AdviceRequest& request) {
   const FilterSettings& filter = tried.settings.filter;
   const MapPlace& place = request.places[tried.place];
   return fmt::format("{}, {} texels{}, filter {}{}", tried.level, tried.settings.map.resolution,
-                     place.moves_with ? " over " + place.covers : "", filter.kind,
-                     filter.kind == "castano" ? fmt::format(" {}", filter.whole("size")) : "");
+                     tried.settings.cascades.count > 1 ? fmt::format(" in {} cascades", tried.settings.cascades.count)
+                     : place.moves_with                ? " over " + place.covers
+                                                       : "",
+                     filter.kind, filter.kind == "castano" ? fmt::format(" {}", filter.whole("size")) : "");
 }
 
 Settings Screening::of_choice(Settings settings, size_t level, size_t place, const FilterSettings& filter,

@@ -34,7 +34,15 @@ std::string settings_text(const Tried& tried, const AdviceRequest& request, doub
   const MapSettings& map = tried.settings.map;
   std::string text = map.aspect ? fmt::format("a map of {} x {} texels", map.resolution, map.rows())
                                 : fmt::format("a map of {} texels' width and as many rows as it needs", map.resolution);
-  if (!place.covers.empty()) text += fmt::format(" over {}, {:.4g} m wide", place.covers, place.extent_m);
+  const CascadeSettings& cascades = tried.settings.cascades;
+  if (cascades.count > 1) {
+    text = fmt::format("{} cascades with {}", cascades.count, text);
+    if (!cascades.bounds_m.empty())
+      text += fmt::format(" each, which end at {:.4g} m and at {:.4g} m", fmt::join(cascades.bounds_m, ", "),
+                          tried.settings.map.reach_m.value_or(0));
+  } else if (!place.covers.empty()) {
+    text += fmt::format(" over {}, {:.4g} m wide", place.covers, place.extent_m);
+  }
   if (extent_m > 0)
     text += fmt::format("{} ({} a texel)", place.covers.empty() ? fmt::format(", {:.4g} m wide", extent_m) : "",
                         length_text(extent_m / tried.settings.map.resolution));

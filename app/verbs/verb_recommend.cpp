@@ -10,6 +10,7 @@
 #include <set>
 
 #include "app/advise/answer_engines.h"
+#include "app/advise/cascade_places.h"
 #include "app/advise/engine_promise.h"
 #include "app/advise/engine_trial.h"
 #include "app/advise/experiment_engines.h"
@@ -159,6 +160,7 @@ struct RecommendOptions {
   std::optional<int64_t> texels;              // recommend_texels() is asked for
   std::optional<AnswerKind> answer;           // empty: best with a budget, otherwise least
   int views = 5;                              // of a scene; 1: its own only
+  bool cascades = false;                      // also tries cascade_counts
   bool around = false;                        // also what each setting does around the answer
   std::vector<std::string> engines;           // to try the lines in
   std::optional<std::string> lines;  // the engine whose lines are printed; empty: `engines`, otherwise three.js
@@ -183,12 +185,19 @@ std::vector<Bound> eye_bounds(const Experiment& experiment, const RecommendOptio
   return bounds;
 }
 
+// A setting of the map's place that the user gave; empty: none. How far cascades reach says nothing of one map.
+std::string given_place(const Experiment& experiment) {
+  for (const std::string_view name : settings_of_place)
+    if (name != "map.reach_m" && gives(experiment, name)) return std::string(name);
+  return "";
+}
+
 // Where the map may lie: if the user says nothing of it, also elsewhere than the settings lay it.
 std::vector<MapPlace> places_of(const Experiment& experiment, const AdviceRequest& request, const Scene& scene,
                                 std::span<const Settings> views) {
-  const bool given = std::any_of(std::begin(settings_of_place), std::end(settings_of_place),
-                                 [&](std::string_view name) { return gives(experiment, name); });
-  return given ? std::vector{place_as_given()} : map_places(scene, request.conditions, views);
+  const Settings& first = request.conditions.front();
+  if (first.cascades.count > 1) return {cascades_as_given(first, !gives(experiment, "bias."))};
+  return given_place(experiment).empty() ? map_places(scene, request.conditions, views) : std::vector{place_as_given()};
 }
 
 // What was given that decides the answer, beside the scene: "scene.floor = true, map.resolution = 512 | 1024". Empty: nothing.
@@ -229,11 +238,24 @@ std::string source_of_bounds(const Experiment& experiment, const RecommendOption
   return sources.empty() ? "the defaults of recommend" : fmt::format("{}", fmt::join(sources, ", then "));
 }
 
+// --cascades: beside one map, several counts of them.
+void add_cascades(AdviceRequest& request, const Experiment& experiment, Workbench& bench,
+                  const std::function<void(const std::string&)>& say) {
+  const std::string given = gives(experiment, "cascades.count") ? "cascades.count" : given_place(experiment);
+  if (!given.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("--cascades lays the maps itself, and {} is given too; leave one of them out", given));
+  CascadePlaces cascades = cascade_places(bench, request.conditions, cascade_counts, request.width_px, say);
+  if (cascades.places.empty())
+    throw Error(ErrorKind::usage, fmt::format("--cascades: {}; leave it out", cascades.why_not));
+  for (MapPlace& place : cascades.places) request.places.push_back(std::move(place));
+}
+
 // What is searched: the conditions, the settings to try, and the bounds.
-AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& options, Workbench& bench) {
+AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& options, Workbench& bench,
+                         const std::function<void(const std::string&)>& say) {
   AdviceRequest request;
   request.conditions = conditions_of(experiment);
-  for (const Settings& condition : request.conditions) require_one_map(condition, "a recommendation");
   const Settings first = request.conditions.front();
   const Scene& scene = bench.scene(first.scene);
   if (request.conditions.size() == 1 && options.views > 1) {
@@ -250,6 +272,7 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
   request.between = light == LightKind::directional && !gives(experiment, "map.resolution");
   take_choices(request, experiment);
   request.width_px = searched_width_px(bench, request.conditions.front());
+  if (options.cascades) add_cascades(request, experiment, bench, say);
   request.curve = experiment.curve;
   if (options.acne) request.curve.acne_bound = *options.acne;
   if (options.peter_panning) request.curve.peter_panning_bound = *options.peter_panning;
@@ -292,18 +315,22 @@ int recommend(const RecommendOptions& options) {
   const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
   if (options.texels &&
       (options.acne || options.peter_panning || options.error || options.budget || options.edges || options.patch ||
-       options.answer || options.lines || options.around || !options.engines.empty()))
+       options.answer || options.lines || options.around || options.cascades || !options.engines.empty()))
     throw Error(
         ErrorKind::usage,
         "--texels divides texels and searches nothing else; leave out the bounds, --budget, --answer, --around, "
-        "--lines and --engine");
+        "--cascades, --lines and --engine");
   if (options.texels) return recommend_texels(whole, *options.texels, arguments, out);
   const Experiment& experiment = only_part(whole);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
-  AdviceRequest request = request_of(experiment, options, bench);
+  Progress progress(arguments.quiet);  // shows no remaining time, because each result decides what is tried next
+  const auto say = [&](const std::string& step) { progress.say(printable(step)); };
+  AdviceRequest request = request_of(experiment, options, bench, say);
   if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
-  const std::string no_lines = why_no_engine_lines(request.conditions);
+  std::string no_lines = why_no_engine_lines(request.conditions);
+  if (no_lines.empty() && options.cascades && !options.engines.empty())
+    no_lines = "--engine tries the lines of one map";
   if (!no_lines.empty() && (options.lines || !options.engines.empty()))
     throw Error(ErrorKind::usage, fmt::format("{}; leave it out, or leave out --lines and --engine", no_lines));
   std::optional<TrialPlan> plan;
@@ -319,12 +346,12 @@ int recommend(const RecommendOptions& options) {
   make_output_folder(out);
   clear_abandoned_files(out);
   remove_earlier_advice(out);
-  Progress progress(arguments.quiet);  // shows no remaining time, because each result decides what is tried next
-  const auto say = [&](const std::string& step) { progress.say(printable(step)); };
   Advice advice = search(bench, request, say);
   if (advice.answer() && options.around)
     advice.around = settings_around(bench, under_conditions(advice.answer()->tried, request),
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
+  if (no_lines.empty() && advice.answer() && advice.answer()->tried.settings.cascades.count > 1)
+    no_lines = "no engine's lines can be given for cascades yet";
   std::vector<EngineAdvice> engines;
   if (advice.answer() && no_lines.empty()) engines = measured_engines(bench, advice.answer()->tried, request, say);
   if (advice.answer() && plan) {
@@ -419,6 +446,11 @@ RunVerb add_recommend(CLI::App& verb) {
   verb.add_option("--part", arguments.parts, "The part of the experiment to answer for, if it has parts")
       ->expected(1)
       ->type_name(value_kind::part);
+  verb.add_flag(
+      "--cascades", options->cascades,
+      fmt::format("Beside one map, also try {} cascades that reach to map.reach_m, or as far as the views show, "
+                  "with practical splits and a bias in texels",
+                  fmt::join(cascade_counts, ", ")));
   verb.add_flag("--around", options->around,
                 "Also measure what each setting does around the answer: the error at its half and its double, and the "
                 "range in which the bounds hold");

@@ -1,0 +1,103 @@
+#include "app/advise/cascade_places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "app/advise/experiment_engines.h"
+#include "app/advise/recommend_space.h"
+#include "compare/results/quantities.h"
+#include "scenes/camera_fit.h"
+#include "technique/cascade_splits.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+// The splits that are compared: between half logarithmic and nearly all.
+constexpr double lambdas[] = {0.5, 0.75, 0.95};
+// Texels and a bias at which they are: about the least bias without acne where nothing is filtered.
+constexpr int compared_resolution = 1024;
+constexpr double compared_bias_texels = 2.3;
+
+double nearest_plane(const Scene& scene, const Settings& settings) {
+  return *effective_camera(scene, settings.view).near_m;
+}
+
+MapPlace place_of(const std::vector<double>& bounds_m, double reach_m) {
+  MapPlace place;
+  place.cascades = static_cast<int>(bounds_m.size()) + 1;
+  place.covers = fmt::format("{:.4g} m of the view", reach_m);
+  place.apply = [bounds_m, reach_m](Settings& there) {
+    there.map.fit = MapFit::sphere;
+    there.map.snap = true;
+    there.map.extent_m.reset();
+    there.map.near_m.reset();
+    there.map.far_m.reset();
+    there.map.reach_m = reach_m;
+    there.cascades.count = static_cast<int>(bounds_m.size()) + 1;
+    there.cascades.splits = "manual";
+    there.cascades.bounds_m = bounds_m;
+    there.bias.unit = BiasUnit::texel;
+  };
+  return place;
+}
+
+double error_at(Workbench& bench, const Settings& first, const MapPlace& place, int width_px) {
+  Settings there = small_picture(first, width_px);
+  there.filter = {"none", {}};
+  there.bias = {};
+  there.map.resolution = std::min(compared_resolution, there.map.resolution);
+  there.map.placements = 1;
+  place.apply(there);
+  there.bias["constant"] = compared_bias_texels;
+  return metric_of(bench.measure(there, std::nullopt, MetricSet::searched).record, "error");
+}
+
+}  // namespace
+
+CascadePlaces cascade_places(Workbench& bench, std::span<const Settings> conditions, std::span<const int> counts,
+                             int width_px, const std::function<void(const std::string&)>& say) {
+  const Settings& first = conditions.front();
+  if (make_light_frame(bench.scene(first.scene), first).kind != LightKind::directional)
+    return {{}, "cascades are maps of a directional light"};
+  double near_m = std::numeric_limits<double>::infinity(), farthest_near_m = 0;
+  for (const Settings& condition : conditions) {
+    const double plane = nearest_plane(bench.scene(condition.scene), condition);
+    near_m = std::min(near_m, plane);
+    farthest_near_m = std::max(farthest_near_m, plane);
+  }
+  const double reach_m = first.map.reach_m.value_or(farthest_in_views_m(bench, conditions));
+  if (!(near_m > 0 && near_m < reach_m)) return {{}, "nothing of the scene lies between the camera and map.reach_m"};
+  CascadePlaces found;
+  for (const int count : counts) {
+    std::optional<MapPlace> best;
+    double least = std::numeric_limits<double>::infinity(), best_lambda = 0;
+    for (const double lambda : lambdas) {
+      CascadeSettings settings = first.cascades;
+      settings.lambda = lambda;
+      const std::vector<double> bounds = find_cascade_split("practical").bounds({near_m, reach_m, count, settings});
+      if (!(farthest_near_m < bounds.front())) {
+        found.why_not = fmt::format(
+            "the first cascade would end at {:.3g} m, before the near plane of a view ({:.3g} m); set view.near_m",
+            bounds.front(), farthest_near_m);
+        continue;
+      }
+      MapPlace place = place_of(bounds, reach_m);
+      const double error = error_at(bench, first, place, width_px);
+      if (!(error < least)) continue;
+      least = error;
+      best_lambda = lambda;
+      best = std::move(place);
+    }
+    if (!best) continue;
+    say(fmt::format("{} cascades: of the practical splits lambda = {:g} errs least, {:.3g}%", count, best_lambda,
+                    100 * least));
+    found.places.push_back(std::move(*best));
+  }
+  return found;
+}
+
+}  // namespace noonmark

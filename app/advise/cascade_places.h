@@ -1,0 +1,31 @@
+// The ways to lay cascades over a view that a recommendation compares with single maps.
+//
+//   const auto places = cascade_places(bench, request.conditions, {2, 3, 4}, width_px, say);
+//   request.places.insert(request.places.end(), places.begin(), places.end());
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/advise/map_places.h"
+#include "measure/workbench.h"
+
+namespace noonmark {
+
+// The counts that are tried.
+inline constexpr int cascade_counts[] = {2, 3, 4};
+
+// One place for each count. Its cascades are spheres that are snapped, so that they stand still in the world, with a bias in
+// texels, which is right in all of them (law 31). They end at map.reach_m, or where the farthest receiver of all conditions
+// lies. Their ends are numbers of their own (cascades.splits = manual), the same in every frame: those of the practical scheme
+// whose lambda has the least error under the first condition, of a few. Empty, with why_not: the light is not directional, the
+// conditions differ in the camera's near plane by more than the splits can hold, or nothing is in view. Throws Error.
+struct CascadePlaces {
+  std::vector<MapPlace> places;
+  std::string why_not;
+};
+CascadePlaces cascade_places(Workbench& bench, std::span<const Settings> conditions, std::span<const int> counts,
+                             int width_px, const std::function<void(const std::string&)>& say);
+
+}  // namespace noonmark

@@ -1,0 +1,115 @@
+// The cascades that recommend --cascades compares with one map.
+#include "app/advise/cascade_places.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/advise/experiment_engines.h"
+#include "app/advise/recommend.h"
+#include "technique/cascades.h"
+
+namespace noonmark {
+namespace {
+
+Settings street() {
+  Settings settings;
+  settings.scene.name = "street";
+  settings.view.width_px = 320, settings.view.height_px = 180;
+  return settings;
+}
+
+const auto unheard = [](const std::string&) {};
+
+TEST(CascadePlaces, ReachAsFarAsTheViewsShow) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings first = street();
+  const CascadePlaces found = cascade_places(bench, {&first, 1}, cascade_counts, 320, unheard);
+  ASSERT_EQ(found.places.size(), std::size(cascade_counts)) << found.why_not;
+  const double farthest_m = farthest_in_views_m(bench, {&first, 1});
+  for (size_t n = 0; n < found.places.size(); ++n) {
+    Settings there = first;
+    there.map.extent_m = 4;  // of one map
+    found.places[n].apply(there);
+    EXPECT_EQ(found.places[n].cascades, cascade_counts[n]);
+    EXPECT_EQ(there.cascades.count, cascade_counts[n]);
+    EXPECT_EQ(there.bias.unit, BiasUnit::texel);
+    const std::vector<ViewSlice> slices = view_slices(bench.scene(first.scene), there);
+    EXPECT_EQ(slices.back().end_m, farthest_m);
+    // The practical scheme of a lambda between half and nearly one: each slice is deeper than the one before.
+    for (size_t k = 1; k < slices.size(); ++k)
+      EXPECT_GT(slices[k].end_m - slices[k].begin_m, slices[k - 1].end_m - slices[k - 1].begin_m);
+  }
+  Settings reach = first;
+  reach.map.reach_m = 30;
+  const CascadePlaces near_by = cascade_places(bench, {&reach, 1}, {cascade_counts, 1}, 320, unheard);
+  ASSERT_EQ(near_by.places.size(), 1u);
+  Settings there = reach;
+  near_by.places[0].apply(there);
+  EXPECT_EQ(view_slices(bench.scene(first.scene), there).back().end_m, 30);
+}
+
+// The splits are those of the least error among the ones that are compared.
+TEST(CascadePlaces, HaveTheSplitsOfLeastError) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings first = street();
+  constexpr int three[] = {3};
+  std::vector<std::string> said;
+  const CascadePlaces found =
+      cascade_places(bench, {&first, 1}, three, 320, [&](const std::string& step) { said.push_back(step); });
+  ASSERT_EQ(found.places.size(), 1u);
+  const auto error_of = [&](const std::vector<double>& bounds) {
+    Settings there = first;
+    found.places[0].apply(there);
+    if (!bounds.empty()) there.cascades.bounds_m = bounds;
+    there.bias["constant"] = 2.3;
+    there.map.resolution = 1024;
+    return bench.measure(there, std::nullopt).record.metrics.at("error");
+  };
+  const double least = error_of({});
+  const std::vector<double> even = {27, 53}, near_by = {1.5, 8};
+  EXPECT_LT(least, error_of(even));
+  EXPECT_LT(least, error_of(near_by));
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("lambda = "), std::string::npos) << said[0];
+}
+
+TEST(CascadePlaces, AreOfADirectionalLight) {
+  Workbench bench(gl::DebugMode::fatal);
+  Settings spot;
+  spot.scene.name = "spot-room";
+  const CascadePlaces none = cascade_places(bench, {&spot, 1}, cascade_counts, 320, unheard);
+  EXPECT_TRUE(none.places.empty());
+  EXPECT_NE(none.why_not.find("directional"), std::string::npos) << none.why_not;
+}
+
+// The search weighs them against one map by cost and error.
+TEST(CascadePlaces, AreTheAnswerWhereOneMapOfTheirWorkErrsMore) {
+  Workbench bench(gl::DebugMode::fatal);
+  AdviceRequest request;
+  request.conditions = {street()};
+  request.places = {place_as_given()};
+  request.levels = {bias_levels().front()};
+  request.filters = {{"none", {}}};
+  request.resolutions = {512};
+  request.error = 0.03;  // one map errs by more than 5%
+  const Advice alone = search(bench, request, unheard);
+  EXPECT_EQ(alone.answer(), nullptr);
+  constexpr int four[] = {4};
+  for (MapPlace& place : cascade_places(bench, request.conditions, four, 320, unheard).places)
+    request.places.push_back(std::move(place));
+  const Advice advice = search(bench, request, unheard);
+  ASSERT_NE(advice.answer(), nullptr);
+  const Tried& tried = advice.answer()->tried;
+  EXPECT_GT(tried.settings.cascades.count, 1);
+  EXPECT_LE(tried.error, 0.03);
+  EXPECT_EQ(tried.bias->unit, "texel");
+  EXPECT_GT(tried.bias->value, 1) << "in texels";
+  // Its work counts all its maps.
+  const double texels = 1.0 * tried.settings.map.resolution * tried.settings.map.resolution;
+  EXPECT_GT(tried.cost, texels * tried.settings.cascades.count);
+  EXPECT_LT(tried.cost, texels * tried.settings.cascades.count + 2.0 * 320 * 180);
+}
+
+}  // namespace
+}  // namespace noonmark
