@@ -274,7 +274,7 @@ std::string empty_slices_note(const Scene& scene, const Settings& settings) {
   if (settings.cascades.count == 1 || settings.map.fit != MapFit::view) return "";
   const Light light = effective_light(scene, settings);
   const LightFrame axes = kind_of_light(light.kind).axes(light);
-  const std::vector<ViewSlice> slices = view_slices(scene, settings);
+  const std::vector<ViewSlice> slices = fitted_slices(scene, settings);
   std::vector<std::string> empty;
   for (size_t k = 0; k < slices.size(); ++k)
     if (!fit_to_view(scene, settings.view, settings.map, axes, &slices[k]))

@@ -45,6 +45,13 @@ std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& vie
 FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const LightFrame& axes,
                         const ViewSlice* slice = nullptr);
 
+// The sphere of fit_to_sphere() in the world.
+struct FittedSphere {
+  glm::dvec3 middle_m{0};
+  double radius_m = 0;
+};
+FittedSphere sphere_of_slice(const Scene& scene, const Settings& settings, const ViewSlice& slice);
+
 // map.fit = casters: the smallest square, with the margin of a tight fit and one texel on each side, that holds every triangle
 // that can cast a shadow, also where the map is moved by up to a texel (map.snap, placements); near and far hold the scene
 // inside the square. A triangle can cast none if its plane has the whole scene on the light's
