@@ -88,19 +88,27 @@ void add_volume(CascadePlace& place, const Technique& cascade) {
 
 }  // namespace
 
+std::vector<ViewSlice> fitted_slices(const Scene& scene, const Settings& settings) {
+  const std::vector<ViewSlice> slices = view_slices(scene, settings);
+  std::vector<ViewSlice> fitted = slices;
+  for (size_t k = 1; k < slices.size() && settings.cascades.cover_band; ++k)
+    fitted[k].begin_m = band_begin(slices[k - 1], settings.cascades);
+  return fitted;
+}
+
 std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings) {
   Technique whole(scene, settings);
   if (settings.cascades.count == 1) return {whole};
   CascadePlace place;
   place.slices = view_slices(scene, settings);
+  const std::vector<ViewSlice> fitted_to = fitted_slices(scene, settings);
   place.selection = &find_cascade_selection(settings.cascades.select);
   place.blend = static_cast<float>(settings.cascades.blend);
   place.seam = seam_from;
   place.view_forward = glm::vec3(camera_of(scene, settings).forward);
   std::vector<Technique> cascades;
   for (size_t k = 0; k < place.slices.size(); ++k) {
-    ViewSlice fitted = place.slices[k];
-    if (k > 0 && settings.cascades.cover_band) fitted.begin_m = band_begin(place.slices[k - 1], settings.cascades);
+    const ViewSlice& fitted = fitted_to[k];
     Settings own = settings;
     own.map.resolution = resolution_of(settings, k);
     Technique one = whole.at(make_light_frame(scene, own, &fitted));

@@ -19,6 +19,10 @@ namespace noonmark {
 // Error(usage) as effective_camera() does.
 std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings);
 
+// The slices that the maps are fitted to: with cascades.cover_band each also holds the band in which it is blended in. Throws
+// as view_slices().
+std::vector<ViewSlice> fitted_slices(const Scene& scene, const Settings& settings);
+
 // The techniques of the cascades, near ones first: the settings with the frame of each. With cascades.count = 1 the
 // technique of the settings alone. All frames have the light's position as origin. With cascades.cover_band the frame of a
 // cascade also holds the band in which it is blended in. Throws as Technique() and view_slices().

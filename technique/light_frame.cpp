@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "scenes/camera_frame.h"
+#include "technique/cascades.h"
 #include "technique/chosen_light.h"
 #include "technique/map_fit.h"
 #include "technique/setting_rules.h"
@@ -268,11 +269,30 @@ std::string moving_splits_note(const Scene& scene, const Settings& settings) {
       fmt::join(open, " and "));
 }
 
+// map.fit = view has nothing to fit the map to where a slice holds no part of the scene.
+std::string empty_slices_note(const Scene& scene, const Settings& settings) {
+  if (settings.cascades.count == 1 || settings.map.fit != MapFit::view) return "";
+  const Light light = effective_light(scene, settings);
+  const LightFrame axes = kind_of_light(light.kind).axes(light);
+  const std::vector<ViewSlice> slices = fitted_slices(scene, settings);
+  std::vector<std::string> empty;
+  for (size_t k = 0; k < slices.size(); ++k)
+    if (!fit_to_view(scene, settings.view, settings.map, axes, &slices[k]))
+      empty.push_back(fmt::format("{} ({:.3g} to {:.3g} m)", k + 1, slices[k].begin_m, slices[k].end_m));
+  if (empty.empty()) return "";
+  return fmt::format(
+      "no part of the scene lies in the slice of cascade {}, so {} over the whole scene and nothing is looked up in "
+      "{}; set other cascades.splits, a smaller cascades.count, or view.near_m and map.reach_m closer to the scene",
+      fmt::join(empty, ", "), empty.size() == 1 ? "its map is laid" : "their maps are laid",
+      empty.size() == 1 ? "it" : "them");
+}
+
 }  // namespace
 
 std::vector<std::string> light_notes(const Scene& scene, const Settings& settings) {
   std::vector<std::string> notes;
-  for (const auto& note_of : {first_of_several_note, made_up_light_note, map_fit_note, moving_splits_note})
+  for (const auto& note_of :
+       {first_of_several_note, made_up_light_note, map_fit_note, moving_splits_note, empty_slices_note})
     if (std::string note = note_of(scene, settings); !note.empty()) notes.push_back(std::move(note));
   return notes;
 }

@@ -173,7 +173,8 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings, const 
 std::string map_fit_note(const Scene& scene, const Settings& settings);
 
 // What a user must know of the light and its map volume, one sentence each: first_of_several_note and made_up_light_note
-// (technique/chosen_light.h), map_fit_note, and that the splits of cascades move with a fitted near plane.
+// (technique/chosen_light.h), map_fit_note, that the splits of cascades move with a fitted near plane, and which slices
+// hold no part of the scene, so that map.fit = view has nothing to fit their maps to.
 std::vector<std::string> light_notes(const Scene& scene, const Settings& settings);
 
 // The smallest map volume around the scene: extent, near and far are such that everything the light can reach is

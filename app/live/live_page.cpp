@@ -35,7 +35,7 @@ std::string_view file(std::string_view name) {
 
 json point_json(glm::dvec3 p) { return {p.x, p.y, p.z}; }
 json point_json(const std::optional<glm::dvec3>& p) { return p ? point_json(*p) : json(); }
-json number_json(std::optional<double> value) { return value ? json(*value) : json(); }
+json optional_json(std::optional<double> value) { return value ? json(*value) : json(); }
 
 // Little-endian bytes of 32-bit values, in byte planes, deflated, as base64.
 template <class Value>
@@ -109,8 +109,8 @@ json map_json(const Scene& scene, const MapSettings& map, const LightSettings& l
   return {{"own", own},
           {"range_of_scene", map.depth_range == DepthRange::scene},
           {"extent_scale", map.extent_scale},
-          {"near_m", number_json(map.near_m)},
-          {"far_m", number_json(map.far_m)},
+          {"near_m", optional_json(map.near_m)},
+          {"far_m", optional_json(map.far_m)},
           {"shift", {map.shift_u_texels, map.shift_v_texels}},
           {"wrap", static_cast<int>(map.wrap)},
           {"lit_beyond_far", map.lit_beyond_far}};

@@ -21,6 +21,7 @@
 #include "compare/judge/undecided.h"
 #include "compare/report/cascade_rows.h"
 #include "compare/results/metrics.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "measure/pass_times.h"
 #include "measure/workbench.h"
@@ -90,9 +91,13 @@ void print_cascades(const Measurement& m) {
   if (m.record.cascades.empty()) return;
   fmt::print("\n  {:<10}{:>19}{:>11}{:>11}{:>12}{:>10}{:>28}{:>28}\n", "cascade", "depth", "texel", "receivers",
              "error", "of all", "bias needed", "bias set");
+  const auto share = [](const std::optional<double>& value, int digits) {
+    return value ? quantity_text(*value, "fraction", digits) : "-";
+  };
   for (const CascadeRow& row : cascade_rows_of(m.record))
-    fmt::print("  {:<10}{:>19}{:>11}{:>11.0f}{:>12}{:>10}{:>28}{:>28}\n", row.number, row.depths, row.texel,
-               row.receivers, row.error, row.share, row.needed, row.set);
+    fmt::print("  {:<10}{:>19}{:>11}{:>11.0f}{:>12}{:>10}{:>28}{:>28}\n", row.number, cascade_depths_text(row),
+               quantity_text(row.texel_m, "m", 3), row.receivers, share(row.error, people_digits), share(row.share, 2),
+               cascade_bias_text(m.record, row, row.needed), cascade_bias_text(m.record, row, row.set));
   if (const std::string worst = worst_cascade(m.record); !worst.empty()) fmt::print("  {}\n", worst);
 }
 

@@ -40,6 +40,8 @@ std::vector<std::string> number_names() {
   }
   for (const Metric& row : metrics_table()) names.emplace_back(row.name);
   for (const CurveQuantity& row : curve_quantities()) names.emplace_back(row.name);
+  const auto of_cascades = cascade_number_names();
+  names.insert(names.end(), of_cascades.begin(), of_cascades.end());
   return names;
 }
 
@@ -58,6 +60,7 @@ double number_in(const PointRecord& point, const std::string& name) {
     for (size_t before = 0; before < axis; ++before) text.remove_prefix(std::min(text.find(','), text.size() - 1) + 1);
     return number(text.substr(0, text.find(',')));
   }
+  if (const std::optional<double> of_cascade = cascade_number(point, name)) return *of_cascade;
   return quantity(point, name).value_or(not_a_number);
 }
 
@@ -290,9 +293,12 @@ std::vector<std::string> curve_names(const Law& law) {
   for (const std::string* text : {&law.measured, &law.predicted, &law.slack}) {
     if (text->empty()) continue;
     const Formula formula(*text);
-    for (const std::string& name : formula.names())
-      for (const CurveQuantity& row : curve_quantities())
-        if (row.name == name) names.push_back(name);
+    for (const std::string& name : formula.names()) {
+      const auto table = curve_quantities();
+      if (is_cascade_bias(name) ||
+          std::any_of(table.begin(), table.end(), [&](const CurveQuantity& row) { return row.name == name; }))
+        names.push_back(name);
+    }
   }
   return names;
 }

@@ -5,8 +5,8 @@
 //   std::vector<LawResult> results = evaluate_laws(points, {law}, reproduce);
 //
 // Both sides are formulas (compare/judge/formula.h). Their names are, in this order: the law's own definitions (`let`),
-// the settings that are numbers by their row's name (a flag is 1 or 0, a point has .x .y .z), the metrics, and the
-// quantities of the bias curve.
+// the settings that are numbers by their row's name (a flag is 1 or 0, a point has .x .y .z), the metrics, the
+// quantities of the bias curve, and the numbers of one cascade (cascade_number() in compare/results/quantities.h).
 //
 // A law is broken by a difference beyond the tolerance at any sample, by a side or a tolerance that is not finite, by a
 // tolerance below 0, and if no point matches it.
@@ -47,7 +47,7 @@ struct Law {
 // for a setting that is no number, for a join or an `over` that does not fit, and for wrong conditions (conditions.h).
 void check_law(const Law& law);
 
-// The quantities of the bias curve that the law's sides read.
+// What the law's sides read that is known only with a bias curve.
 std::vector<std::string> curve_names(const Law& law);
 
 // The metrics that any of the law's formulas reads, its definitions and the figures of its sentence included.

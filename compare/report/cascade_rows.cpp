@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "compare/results/causes.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "technique/bias_parts.h"
 #include "technique/settings.h"
@@ -52,75 +53,79 @@ LargestCause largest_cause(const Cascade& cascade) {
   return largest;
 }
 
-std::string depths_of(const Cascade& cascade) {
-  return fmt::format("{:.3g} to {:.3g} m", cascade.begin_m, cascade.end_m);
-}
-
-struct Need {
-  std::string needed, set;
-  bool too_small = false;
-};
-
-// The amount of the varied part of the bias: "2.22 texels = 0.0539 m", in the unit that the setting has.
-std::string amount_text(const PointRecord& point, const Cascade& cascade, const BiasPart& part, double amount) {
-  if (part.unit != "bias.unit") return fmt::format("{:.3g}{}{}", amount, part.unit.empty() ? "" : " ", part.unit);
-  const std::string unit = setting_of(point, "bias.unit");
-  if (unit == "m") return fmt::format("{:.3g} m", amount);
-  const bool texels = unit == "texel";
-  return fmt::format("{:.3g} {} = {:.3g} m", amount, texels ? "texels" : "depth",
-                     amount * cascade.metrics.at(texels ? "texel_m" : "map_range_m"));
-}
-
-// What the part of the bias that the curve varies has to be in this cascade, and what it is.
-std::optional<Need> need_of(const PointRecord& point, const Cascade& cascade) {
-  if (!point.curve) return std::nullopt;
-  // A damaged store may name a part that there is not.
-  const std::string& parameter = point.curve->parameter;
-  const auto part = std::find_if(bias_parts().begin(), bias_parts().end(),
-                                 [&](const BiasPart& one) { return parameter == "bias." + std::string(one.name); });
-  const std::optional<double> set = number_of(setting_of(point, parameter));
-  if (part == bias_parts().end() || !set) return std::nullopt;
-  const auto text = [&](double amount) { return amount_text(point, cascade, *part, amount); };
-  return Need{cascade.bias_needed ? text(*cascade.bias_needed) : "-", text(*set),
-              cascade.bias_needed && *set < *cascade.bias_needed};
+// The part of the bias that the curve varies; null without a curve. A damaged store may name a part that there is not.
+const BiasPart* varied_part(const PointRecord& point) {
+  if (!point.curve) return nullptr;
+  const auto part = std::find_if(bias_parts().begin(), bias_parts().end(), [&](const BiasPart& one) {
+    return point.curve->parameter == "bias." + std::string(one.name);
+  });
+  return part == bias_parts().end() ? nullptr : &*part;
 }
 
 }  // namespace
 
+std::string cascade_bias_unit(const PointRecord& point) {
+  const BiasPart* part = varied_part(point);
+  if (!part) return "";
+  if (part->unit != "bias.unit") return std::string(part->unit);
+  const std::string unit = setting_of(point, "bias.unit");
+  return unit == "texel" ? "texels" : unit;
+}
+
+bool cascade_bias_unit_varies(const PointRecord& point) {
+  const BiasPart* part = varied_part(point);
+  return part && part->unit == "bias.unit" && setting_of(point, "bias.unit") != "m";
+}
+
 std::vector<CascadeRow> cascade_rows_of(const PointRecord& point) {
   std::vector<CascadeRow> rows;
   const double all = whole_error(point);
+  const BiasPart* part = varied_part(point);
+  const std::optional<double> set = part ? number_of(setting_of(point, point.curve->parameter)) : std::nullopt;
   for (const Cascade& cascade : point.cascades) {
     CascadeRow row;
     row.number = static_cast<int>(rows.size()) + 1;
-    row.depths = depths_of(cascade);
-    row.texel = fmt::format("{:.3g} m", cascade.metrics.at("texel_m"));
+    row.begin_m = cascade.begin_m;
+    row.end_m = cascade.end_m;
+    row.texel_m = cascade.metrics.at("texel_m");
     row.receivers = cascade.metrics.at("counted");
-    row.error = row.receivers > 0 ? fmt::format("{:.4f}%", 100 * cascade.metrics.at("error")) : "-";
-    row.share = all > 0 ? fmt::format("{:.0f}%", 100 * error_sum(cascade) / all) : "-";
+    if (row.receivers > 0) row.error = cascade.metrics.at("error");
+    if (all > 0) row.share = error_sum(cascade) / all;
     row.cause = largest_cause(cascade).label;
-    const std::optional<Need> need = need_of(point, cascade);
-    if (need) row.needed = need->needed, row.set = need->set;
-    rows.push_back(std::move(row));
+    if (set) row.needed = cascade.bias_needed, row.set = set;
+    if (cascade_bias_unit_varies(point))
+      row.m_per_unit = cascade.metrics.at(setting_of(point, "bias.unit") == "texel" ? "texel_m" : "map_range_m");
+    rows.push_back(row);
   }
   return rows;
 }
 
+std::string cascade_depths_text(const CascadeRow& row) {
+  return fmt::format("{:.3g} to {:.3g} m", row.begin_m, row.end_m);
+}
+
+std::string cascade_bias_text(const PointRecord& point, const CascadeRow& row, const std::optional<double>& amount) {
+  if (!amount) return "-";
+  if (*amount == 0) return "0";
+  const std::string text = quantity_text(*amount, cascade_bias_unit(point), 3);
+  return cascade_bias_unit_varies(point) ? fmt::format("{} = {}", text, quantity_text(*amount * row.m_per_unit, "m", 3))
+                                         : text;
+}
+
 std::string worst_cascade(const PointRecord& point) {
-  const double all = whole_error(point);
-  if (!(all > 0)) return "";
-  size_t worst = 0;
-  for (size_t k = 1; k < point.cascades.size(); ++k)
-    if (error_sum(point.cascades[k]) > error_sum(point.cascades[worst])) worst = k;
-  const Cascade& cascade = point.cascades[worst];
-  const LargestCause cause = largest_cause(cascade);
+  const std::vector<CascadeRow> rows = cascade_rows_of(point);
+  const auto worst = std::max_element(rows.begin(), rows.end(), [](const CascadeRow& a, const CascadeRow& b) {
+    return a.share.value_or(0) < b.share.value_or(0);
+  });
+  if (worst == rows.end() || !worst->share) return "";
+  const LargestCause cause = largest_cause(point.cascades[static_cast<size_t>(worst - rows.begin())]);
   std::string text = fmt::format(
-      "Cascade {} ({}, texel {:.2g} m) holds {:.0f}% of the error{}.", worst + 1, depths_of(cascade),
-      cascade.metrics.at("texel_m"), 100 * error_sum(cascade) / all,
+      "Cascade {} ({}, texel {:.2g} m) holds {:.0f}% of the error{}.", worst->number, cascade_depths_text(*worst),
+      worst->texel_m, 100 * *worst->share,
       cause.size > 0 ? fmt::format("; its largest cause: {}, {:.0f}%", cause.label, 100 * cause.of_all) : "");
-  if (const std::optional<Need> need = need_of(point, cascade); need && need->too_small)
-    text +=
-        fmt::format(" Its {} is {} where {} is needed against acne.", point.curve->parameter, need->set, need->needed);
+  if (worst->needed && *worst->set < *worst->needed)
+    text += fmt::format(" Its {} is {} where {} is needed against acne.", point.curve->parameter,
+                        cascade_bias_text(point, *worst, worst->set), cascade_bias_text(point, *worst, worst->needed));
   return text;
 }
 

@@ -15,13 +15,29 @@ namespace noonmark::report {
 namespace {
 
 Markup table_of(const PointRecord& point) {
+  const std::string unit = cascade_bias_unit(point);
+  const bool varies = cascade_bias_unit_varies(point);
+  const auto share = [](const std::optional<double>& value) { return value ? cell(*value, "fraction") : "-"; };
+  const auto amounts = [&](const std::optional<double>& amount, double m_per_unit) {
+    Markup cells = td(amount ? number(*amount) : "-");
+    if (varies) cells += td(amount ? number(*amount * m_per_unit) : "-");
+    return cells;
+  };
   Markup rows;
   for (const CascadeRow& row : cascade_rows_of(point))
-    rows +=
-        tr(row_head(css("text"), row.number), td(row.depths), td(row.texel), td(number(row.receivers)), td(row.error),
-           td(row.share), td(css("text"), row.cause.empty() ? "-" : row.cause), td(row.needed), td(row.set));
-  const Markup head = th(css("text"), "Cascade") + th("Depth") + th("Texel") + th("Receivers") + th("Error") +
-                      th("Of all error") + th(css("text"), "Largest cause") + th("Bias needed") + th("Bias set");
+    rows += tr(row_head(std::to_string(row.number)), td(number(row.begin_m)), td(number(row.end_m)),
+               td(number(row.texel_m)), td(cell(row.receivers, "count")), td(share(row.error)), td(share(row.share)),
+               td(css("text"), row.cause.empty() ? "-" : std::string(row.cause)), amounts(row.needed, row.m_per_unit),
+               amounts(row.set, row.m_per_unit));
+  const auto bias = [&](const char* name) {
+    Markup heads = th(with_small(name, unit));
+    if (varies) heads += th(with_small(name, "m"));
+    return heads;
+  };
+  const Markup head = th("Cascade") + th(with_small("From", "m")) + th(with_small("to", "m")) +
+                      th(with_small("Texel", "m")) + th("Receivers") + th(with_small("Error", "%")) +
+                      th(with_small("Of all error", "%")) + th(css("text"), "Largest cause") + bias("Bias needed") +
+                      bias("Bias set");
   return div(css("scroll"), table("numbers", head, rows)) + "\n";
 }
 

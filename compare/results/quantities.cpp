@@ -193,6 +193,47 @@ std::optional<double> quantity(const PointRecord& point, std::string_view name) 
   return std::nullopt;
 }
 
+namespace {
+
+constexpr std::string_view cascade_prefix = "cascades.", of_slice[] = {"begin_m", "end_m", "bias_needed"};
+
+}  // namespace
+
+std::span<const std::string> cascade_number_names() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> names;
+    for (int k = 1; k <= most_cascades; ++k) {
+      const auto add = [&](std::string_view number) {
+        names.push_back(fmt::format("{}{}.{}", cascade_prefix, k, number));
+      };
+      for (const std::string_view number : of_slice) add(number);
+      for (const char* metric : cascade_metrics) add(metric);
+    }
+    return names;
+  }();
+  return all;
+}
+
+std::optional<double> cascade_number(const PointRecord& point, std::string_view name) {
+  if (!name.starts_with(cascade_prefix)) return std::nullopt;
+  name.remove_prefix(cascade_prefix.size());
+  size_t k = 0;
+  const auto [dot, error] = std::from_chars(name.data(), name.data() + name.size(), k);
+  if (error != std::errc{} || dot == name.data() + name.size() || *dot != '.' || k < 1 || k > point.cascades.size())
+    return std::nullopt;
+  const PointRecord::Cascade& cascade = point.cascades[k - 1];
+  const std::string number(dot + 1, name.data() + name.size());
+  if (number == "begin_m") return cascade.begin_m;
+  if (number == "end_m") return cascade.end_m;
+  if (number == "bias_needed") return cascade.bias_needed;
+  const auto metric = cascade.metrics.find(number);
+  return metric == cascade.metrics.end() ? std::nullopt : std::optional(metric->second);
+}
+
+bool is_cascade_bias(std::string_view name) {
+  return name.starts_with(cascade_prefix) && name.ends_with(".bias_needed");
+}
+
 PlacedNames placed_names(std::string_view name) {
   const std::string text(name);
   const auto is_metric = [](const std::string& one) {

@@ -123,8 +123,8 @@ TEST(CascadedPoint, SaysWhichCascadeNeedsMoreBias) {
     const double needed = m.record.cascades[k].bias_needed.value();
     EXPECT_GT(needed, before) << "texels grow";
     before = needed;
-    EXPECT_EQ(rows[k].set, "0.02 m");
-    EXPECT_EQ(rows[k].needed, fmt::format("{:.3g} m", needed));
+    EXPECT_EQ(cascade_bias_text(m.record, rows[k], rows[k].set), "0.02 m");
+    EXPECT_EQ(cascade_bias_text(m.record, rows[k], rows[k].needed), fmt::format("{:.3g} m", needed));
   }
   EXPECT_GT(before, 0.02);
   const std::string worst = worst_cascade(m.record);

@@ -77,6 +77,27 @@ std::vector<Planted> defects() {
                                   MapSettings&) { frame.centre_m.y += frame.extent_m / frame.resolution / 2; }},
                  {{"map_error_quanta", 4, 100}},
                  {"contract", "cascade_choice_excess", "rounding_excess"}});
+  // Each map but the first is drawn with the matrix of the cascade before.
+  all.push_back({"CascadeDrawnWithTheMatrixOfTheOneBefore",
+                 cascades(),
+                 {.drawn_map =
+                      [before = std::optional<LightFrame>()](LightFrame& frame, MapSettings&) mutable {
+                        const LightFrame own = frame;
+                        if (before) frame = *before;
+                        before = own;
+                      }},
+                 {{"map_error_quanta", 4, 1000}},
+                 {"contract", "cascade_choice_excess", "rounding_excess"}});
+  // All maps are drawn from the near plane of the first.
+  all.push_back({"CascadeDrawnFromTheNearPlaneOfTheFirst",
+                 cascades(),
+                 {.drawn_map =
+                      [first = std::optional<double>()](LightFrame& frame, MapSettings&) mutable {
+                        if (!first) first = frame.near_m;
+                        frame.near_m = *first;
+                      }},
+                 {{"map_error_quanta", 4, 1000}},
+                 {"contract", "cascade_choice_excess", "rounding_excess"}});
   return all;
 }
 

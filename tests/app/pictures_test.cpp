@@ -16,6 +16,7 @@
 #include "app/pictures/view_colors.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
+#include "gl/renderer.h"
 #include "tests/app/read_image.h"
 #include "tests/support/sample_results.h"
 
@@ -141,6 +142,91 @@ TEST_F(Pictures, MapHasItsHighestRowOnTop) {
   EXPECT_EQ(map.channels.size(), 2);
   EXPECT_EQ(map.channels.at("depth.stored"), (std::vector<float>{stored[2], stored[3], stored[0], stored[1]}));
   EXPECT_EQ(map.channels.at("depth.exact"), (std::vector<float>{exact[2], exact[3], exact[0], exact[1]}));
+}
+
+// Two cascades: the maps of the fixture, and others that have twice as many rows.
+class PicturesOfCascades : public Pictures {
+ protected:
+  PicturesOfCascades() {
+    far_frame = frame;
+    far_frame.rows = 4;
+    far_stored = Image<float>(2, 4);
+    far_exact = Image<float>(2, 4);
+    for (size_t i = 0; i < far_stored.size(); ++i) {
+      far_stored[i] = 0.5f + static_cast<float>(i) / 32;
+      far_exact[i] = 0.75f + static_cast<float>(i) / 64;
+    }
+    far_map = MapDepths(far_exact);
+    cascades = Image<uint8_t>(3, 2);
+    cascades.pixels = {0, 0, 1, 1, 0, gl::no_cascade};
+  }
+  Measurement measurement() const {
+    Measurement m = Pictures::measurement();
+    const auto rows = [this](int first, int count) {
+      asked.emplace_back(first, count);
+      Image<float> band(2, count);
+      for (int y = 0; y < count; ++y)
+        for (int x = 0; x < 2; ++x) band.at(x, y) = far_stored.at(x, first + y);
+      return band;
+    };
+    m.maps.push_back({{settings, far_frame}, probe, MapDepths(far_stored), far_map, rows});
+    m.cascades = cascades;
+    m.record.cascades = {{0.25, 4, {{"error", 0.125}}, 0.5}, {4, 32, {{"error", nan_value}}, std::nullopt}};
+    return m;
+  }
+  LightFrame far_frame;
+  Image<float> far_stored, far_exact;
+  mutable MapDepths far_map;
+  Image<uint8_t> cascades;
+  mutable std::vector<std::pair<int, int>> asked;
+};
+
+TEST_F(PicturesOfCascades, MapsStandOneAboveTheOther) {
+  write_images(measurement(), folder.path().string(), ".", "");
+  const ReadImage map = read_exr(folder.file("map.exr"));
+  EXPECT_EQ(map.spec.width, 2);
+  EXPECT_EQ(map.spec.height, 6);
+  // From the top: the rows of the far map from its highest one down, then those of the near one.
+  const auto stacked = [](const Image<float>& far, const Image<float>& near) {
+    std::vector<float> all;
+    for (const Image<float>* image : {&far, &near})
+      for (int y = image->height - 1; y >= 0; --y)
+        for (int x = 0; x < 2; ++x) all.push_back(image->at(x, y));
+    return all;
+  };
+  EXPECT_EQ(map.channels.at("depth.stored"), stacked(far_stored, stored));
+  EXPECT_EQ(map.channels.at("depth.exact"), stacked(far_exact, exact));
+  for (const auto& [first, count] : asked) EXPECT_TRUE(first >= 0 && count > 0 && first + count <= 4);
+  EXPECT_EQ(read_exr(folder.file("ladder.exr")).channels.at("cascade"), (std::vector<float>{0, 0, 1, 1, 0, -1}));
+}
+
+TEST_F(PicturesOfCascades, PointJsonListsEach) {
+  far_frame.extent_m = 40;
+  far_frame.centre_m = {3, -2};
+  const nlohmann::json json = nlohmann::json::parse(point_json(measurement(), ""));
+  EXPECT_FALSE(json.contains("light")) << "there is no one map";
+  ASSERT_EQ(json.at("cascades").size(), 2u);
+  const nlohmann::json &near = json["cascades"][0], &far = json["cascades"][1];
+  EXPECT_EQ(near.at("begin_m"), 0.25);
+  EXPECT_EQ(near.at("end_m"), 4);
+  EXPECT_EQ(near.at("bias_needed"), 0.5);
+  EXPECT_EQ(near.at("metrics"), nlohmann::json({{"error", 0.125}}));
+  EXPECT_TRUE(far.at("bias_needed").is_null());
+  EXPECT_EQ(far.at("metrics").at("error"), "nan");
+  EXPECT_EQ(far.at("light").at("extent_m"), 40);
+  EXPECT_EQ(far.at("light").at("texel_m"), 20);
+  EXPECT_EQ(far.at("light").at("map").at("height"), 4);
+  const glm::dvec3 middle = far_frame.to_world({3, -2, 0});
+  EXPECT_EQ(far.at("light").at("origin_m"), nlohmann::json({middle.x, middle.y, middle.z}));
+  EXPECT_TRUE(
+      near.at("light").at("map").at("rows").get<std::string>().starts_with("map.exr has the maps of all cascades"));
+  // The matrix takes the middle of the map to the middle of the clip space.
+  const nlohmann::json& matrix = far.at("light").at("clip_from_world_rows");
+  for (size_t row : {0, 1}) {
+    double at = matrix[row][3].get<double>();
+    for (int axis = 0; axis < 3; ++axis) at += matrix[row][static_cast<size_t>(axis)].get<double>() * middle[axis];
+    EXPECT_NEAR(at, 0, 1e-12);
+  }
 }
 
 TEST_F(Pictures, AreNamedInTheirRecords) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "compare/results/quantities.h"
 #include "frames/frame_keys.h"
 #include "technique/settings.h"
 #include "tests/support/source_dir.h"
@@ -139,6 +140,7 @@ TEST(Documents, EverySettingThatIsNamedIsThere) {
     names.insert(std::string(row.name));
   }
   for (const FrameKey& key : frame_keys()) names.insert(fmt::format("{}.{}", key.object, key.name));
+  names.insert(cascade_number_names().begin(), cascade_number_names().end());
   const std::set<std::string> endings = {".h", ".cpp", ".exr", ".glb", ".glsl"};
   for (const fs::path& file : documents())
     for (const std::string& word : in_backticks(text_of(file))) {

@@ -12,6 +12,7 @@
 #include "scenes/shapes.h"
 #include "technique/cascade_selections.h"
 #include "technique/cascade_splits.h"
+#include "technique/light_frame.h"
 #include "technique/map_fit.h"
 
 namespace noonmark {
@@ -240,6 +241,32 @@ TEST(Cascades, HaveTheMapsOfTheirSlices) {
         }
       }
     }
+}
+
+// map.fit = view has nothing to fit the map of an empty slice to. The notes say it; a sphere is there without a surface too.
+TEST(Cascades, SayWhichSliceIsEmpty) {
+  const Scene scene = floor_scene();
+  Settings s = cascaded(3, MapFit::view);
+  s.cascades.splits = "manual";
+  s.cascades.bounds_m = {1, 65};  // nothing is nearer than 2 m, and the floor ends at 58 m
+  const auto notes = [&] {
+    std::string all;
+    for (const std::string& note : light_notes(scene, s)) all += note + '\n';
+    return all;
+  };
+  EXPECT_NE(notes().find(
+                "no part of the scene lies in the slice of cascade 1 (0.2 to 1 m), 3 (65 to 70 m), so their maps are "
+                "laid over the whole scene"),
+            std::string::npos)
+      << notes();
+  EXPECT_EQ(cascades_of(scene, s)[0].frame.extent_m, cascades_of(scene, s)[2].frame.extent_m) << "of the whole scene";
+  s.cascades.bounds_m = {10, 65};
+  EXPECT_NE(notes().find("cascade 3 (65 to 70 m), so its map is laid"), std::string::npos) << notes();
+  s.cascades.bounds_m = {10, 30};
+  EXPECT_EQ(notes(), "");
+  s.cascades.bounds_m = {1, 65};
+  s.map.fit = MapFit::sphere;
+  EXPECT_EQ(notes(), "");
 }
 
 // Three cascades that end at these depths.

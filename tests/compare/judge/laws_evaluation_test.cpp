@@ -83,6 +83,28 @@ TEST(Laws, NamesAreSettingsMetricsAndDefinitions) {
   EXPECT_FALSE(judge(law("view.eye_m.x", "1", LawRelation::at_least), points).held);
 }
 
+// Cascades count from 1, as the tables of the report count them.
+TEST(Laws, ReadTheNumbersOfOneCascade) {
+  PointRecord two = point(0, 512, "none", 0.5);
+  two.cascades = {{0.5, 2, {{"texel_m", 0.25}}, 0.75}, {2, 8, {{"texel_m", 1}}, std::nullopt}};
+  const auto value_of = [&](const std::string& formula) {
+    return judge(law(formula, "0"), {two}).samples.at(0).measured;
+  };
+  EXPECT_EQ(value_of("cascades.1.begin_m"), 0.5);
+  EXPECT_EQ(value_of("cascades.2.end_m / cascades.1.end_m"), 4);
+  EXPECT_EQ(value_of("cascades.2.texel_m - cascades.1.texel_m"), 0.75);
+  EXPECT_EQ(value_of("cascades.1.bias_needed"), 0.75);
+  // Nothing is enough in the second one, and there is no third one.
+  EXPECT_TRUE(std::isnan(value_of("cascades.2.bias_needed")));
+  EXPECT_TRUE(std::isnan(value_of("cascades.3.texel_m")));
+  EXPECT_FALSE(judge(law("cascades.3.texel_m", "0", LawRelation::at_least), {two}).held);
+  EXPECT_EQ(curve_names(law("cascades.2.bias_needed + cascades.2.texel_m", "0")),
+            std::vector<std::string>{"cascades.2.bias_needed"});
+  for (const char* unknown :
+       {"cascades.0.texel_m", "cascades.9.texel_m", "cascades.1.texels", "cascades.1", "cascades.x.lit"})
+    EXPECT_THROW(check_law(law(unknown, "0")), Error) << unknown;
+}
+
 TEST(Laws, HoldWithinTheirTolerance) {
   const std::vector<PointRecord> points = {point(0, 512, "none", 0.95), point(1, 512, "none", 1.05)};
   const auto held = [&](LawRelation relation, const std::string& predicted, double within, const std::string& slack) {

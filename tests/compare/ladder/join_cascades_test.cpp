@@ -1,0 +1,142 @@
+// The numbers of a point that come from those of its cascades, against values calculated by hand.
+#include "compare/ladder/join_cascades.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compare/ladder/numbers.h"
+#include "compare/results/metrics.h"
+
+namespace noonmark {
+namespace {
+
+using Cascades = std::vector<PointRecord::Cascade>;
+
+// Three cascades with 300, 100 and 0 counted receivers. The last one has 10 that face the light; the numbers that need a counted
+// receiver are NaN there.
+Cascades three(const std::map<std::string, std::array<double, 3>>& rows) {
+  Cascades all(3);
+  for (size_t k = 0; k < 3; ++k) {
+    all[k].metrics = {{"counted", std::array{300.0, 100.0, 0.0}[k]}, {"facing", std::array{310.0, 130.0, 10.0}[k]}};
+    for (const auto& [name, values] : rows) all[k].metrics[name] = values[k];
+  }
+  return all;
+}
+
+// The metrics that join_laws() reads.
+Cascades with_laws() {
+  return three({{"texel_m", {0.02, 0.05, 0.4}},
+                {"map_range_m", {10, 30, 20}},
+                {"depth_quantum_m", {1e-7, 3e-7, 2e-7}},
+                {"acne_free_bias_scene_law_depth", {0.1, 0.2, 0.7}},
+                {"acne_free_bias_scene_law_m", {1, 6, 14}},
+                {"acne_free_bias_law_depth", {0.01, 0.03, not_a_number}},
+                {"acne_free_bias_law_m", {0.1, 0.09, not_a_number}},
+                {"counted_area_m2", {4, 9, not_a_number}},
+                {"filter_area_m2", {0.5, 0.25, not_a_number}},
+                {"displacement_area_m2", {0, 0.125, not_a_number}},
+                {"aliasing_area_m2", {0.25, 0.5, not_a_number}},
+                {"acne_area_m2", {0.125, 0.0625, not_a_number}},
+                {"peter_panning_area_m2", {1, 2, not_a_number}}});
+}
+
+TEST(JoinCascades, LawsAreTheLargestAndAreasAreSums) {
+  const std::map<std::string, double> joined = join_laws(with_laws());
+  const std::map<std::string, double> expected = {{"texel_m", 0.02},  // of the 200th of 400 receivers
+                                                  {"map_range_m", 30},
+                                                  {"depth_quantum_m", 3e-7},
+                                                  {"acne_free_bias_scene_law_depth", 0.7},  // also of faces out of view
+                                                  {"acne_free_bias_scene_law_m", 14},
+                                                  {"acne_free_bias_law_depth", 0.03},
+                                                  {"acne_free_bias_law_m", 0.1},
+                                                  {"counted_area_m2", 13},
+                                                  {"filter_area_m2", 0.75},
+                                                  {"displacement_area_m2", 0.125},
+                                                  {"aliasing_area_m2", 0.75},
+                                                  {"acne_area_m2", 0.1875},
+                                                  {"peter_panning_area_m2", 3}};
+  EXPECT_EQ(joined, expected);
+}
+
+TEST(JoinCascades, TexelIsThatOfTheMedianReceiver) {
+  Cascades all = with_laws();
+  all[1].metrics["counted"] = 301;
+  EXPECT_EQ(join_laws(all).at("texel_m"), 0.05);
+  std::swap(all[0], all[1]);  // the median is by size, whatever the order
+  EXPECT_EQ(join_laws(all).at("texel_m"), 0.05);
+  all[0].metrics["counted"] = 299;
+  EXPECT_EQ(join_laws(all).at("texel_m"), 0.02);
+}
+
+TEST(JoinCascades, WithoutAReceiverNothingIsMeasured) {
+  Cascades all = with_laws();
+  for (PointRecord::Cascade& cascade : all) cascade.metrics["counted"] = cascade.metrics["facing"] = 0;
+  const std::map<std::string, double> joined = join_laws(all);
+  for (const char* metric : {"texel_m", "acne_free_bias_law_depth", "acne_free_bias_law_m", "counted_area_m2",
+                             "filter_area_m2", "aliasing_area_m2"})
+    EXPECT_TRUE(std::isnan(joined.at(metric))) << metric;
+  EXPECT_EQ(joined.at("map_range_m"), 30) << "the map is there without a receiver";
+}
+
+// NaN in a cascade with receivers is a fault, and no larger number hides it.
+TEST(JoinCascades, WhatIsNotFiniteStays) {
+  for (const char* metric : {"acne_free_bias_law_m", "counted_area_m2", "map_range_m"})
+    for (const size_t k : {0, 1}) {
+      Cascades all = with_laws();
+      all[k].metrics[metric] = not_a_number;
+      EXPECT_TRUE(std::isnan(join_laws(all).at(metric))) << metric << " of cascade " << k;
+    }
+}
+
+TEST(JoinCascades, SoundnessIsThatOfTheWorst) {
+  Cascades all = three({{"rounding_excess", {0.5, 0.25, 0.75}},
+                        {"address_error_texels", {1e-4, 2e-4, 3e-4}},
+                        {"reference_error_m", {4e-6, 2e-6, 1e-6}},
+                        {"map_error_quanta", {0, 1, 0.5}},
+                        {"map_bits", {16, 24, 16}},
+                        {"contract", {0, 0.1, 0.5}}});
+  const std::map<std::string, double> expected = {
+      {"rounding_excess", 0.75},  // its receivers face the light, though not counted
+      {"address_error_texels", 3e-4},
+      {"reference_error_m", 4e-6},
+      {"map_error_quanta", 1},
+      {"map_bits", 24},
+      {"contract", (0.1 * 130 + 0.5 * 10) / 450}};
+  EXPECT_EQ(join_soundness(all), expected);
+  all[2].metrics["facing"] = 0;  // then its numbers say nothing
+  all[2].metrics["rounding_excess"] = all[2].metrics["contract"] = not_a_number;
+  EXPECT_EQ(join_soundness(all).at("rounding_excess"), 0.5);
+  EXPECT_DOUBLE_EQ(join_soundness(all).at("contract"), 0.1 * 130 / 440);
+  for (PointRecord::Cascade& cascade : all) cascade.metrics["facing"] = 0;
+  EXPECT_TRUE(std::isnan(join_soundness(all).at("contract")));
+  EXPECT_TRUE(std::isnan(join_soundness(all).at("map_bits")));
+}
+
+// Shares are weighted by the receivers; a root mean square by its squares.
+TEST(JoinCascades, PlacementsAddOverTheReceivers) {
+  ASSERT_TRUE(find_metric("error_worst").of_placements && find_metric("aliasing_rms_mean").of_placements);
+  const Cascades all = three({{"error_worst", {0.1, 0.5, not_a_number}},
+                              {"acne_mean", {0, 0.25, not_a_number}},
+                              {"aliasing_rms_mean", {0.2, 0.4, not_a_number}}});
+  const std::map<std::string, double> joined = join_placements(all);
+  EXPECT_EQ(joined.size(), 3u) << "only what the cascades have";
+  EXPECT_DOUBLE_EQ(joined.at("error_worst"), 0.75 * 0.1 + 0.25 * 0.5);
+  EXPECT_DOUBLE_EQ(joined.at("acne_mean"), 0.25 * 0.25);
+  EXPECT_DOUBLE_EQ(joined.at("aliasing_rms_mean"), std::sqrt(0.75 * 0.04 + 0.25 * 0.16));
+  Cascades none = all;
+  for (PointRecord::Cascade& cascade : none) cascade.metrics["counted"] = 0;
+  EXPECT_TRUE(std::isnan(join_placements(none).at("error_worst")));
+}
+
+TEST(JoinCascades, ARecordKeepsItsOwnMetricsOnly) {
+  Cascades all(1);
+  for (const char* metric : cascade_metrics) all[0].metrics[metric] = 1;
+  const std::map<std::string, double> kept = all[0].metrics;
+  all[0].metrics["contract"] = 0;
+  keep_cascade_metrics(all);
+  EXPECT_EQ(all[0].metrics, kept);
+}
+
+}  // namespace
+}  // namespace noonmark
