@@ -1,11 +1,14 @@
 """The cascades of engines against Noonmark's prediction: each frame of the street that an engine draws with its cascades has the
 error that Noonmark measures with the engine's splits, fit, bias and filter, to 0.05 points.
    engine_cascades_test.py NOONMARK SOURCE FOLDER
-It prints the rows of the table in examples/engines/README.md. Skips (77) where no engine can run: node, Chromium or the
+And the lines that a report prints for the engine lay these cascades, typed in as they are. It prints the rows of the table in
+examples/engines/README.md. Skips (77) where no engine can run: node, Chromium or the
 packages of examples/engines/package.json (npm install in that folder, or NODE_MODULES names another one) are not installed."""
+import html
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -17,9 +20,9 @@ SKIP = 77
 POINTS = 0.05  # of a hundred: how far the prediction may be from the frame
 
 # The street as its scene is seen, with near and far planes that both sides are given.
-NEAR, FAR = 0.2, 79
-SHOT = ["eye=0,1.6,0", "target=0.15,1.25,-12", "fov_y_deg=60", f"near={NEAR}", f"far={FAR}", "resolution=1024"]
-PREDICTED = ["scene.name=street", f"view.near_m={NEAR}", f"view.far_m={FAR}", f"map.reach_m={FAR}", "map.resolution=1024", "map.snap=true"]
+NEAR, FAR, RESOLUTION = 0.2, 79, 1024
+SHOT = ["eye=0,1.6,0", "target=0.15,1.25,-12", "fov_y_deg=60", f"near={NEAR}", f"far={FAR}"]
+PREDICTED = ["scene.name=street", f"view.near_m={NEAR}", f"view.far_m={FAR}", f"map.reach_m={FAR}", f"map.resolution={RESOLUTION}", "map.snap=true"]
 
 FLOATS = 2 ** -24 * FAR / NEAR  # Babylon.js finds the corners by an inverse matrix of floats, which loses far / near
 
@@ -40,7 +43,7 @@ def babylon(stabilize, bias):
     """The sphere about the corners' mean; what lies before near is clamped to it, so near and far are the slice's. Without
     stabilizeCascades it is the corners' box, whose texels are narrower by up to a half along one side: between texels of the longer
     side and texels of half of that."""
-    fits = [["map.fit=corner_sphere", "cascades.radius_round_m=0.0625"]] if stabilize else [["map.fit=corner_box"], ["map.fit=corner_box", "map.resolution=2048"]]
+    fits = [["map.fit=corner_sphere", "cascades.radius_round_m=0.0625"]] if stabilize else [["map.fit=corner_box"], ["map.fit=corner_box", f"map.resolution={2 * RESOLUTION}"]]
     return (["babylon/page.html", "class=CascadedShadowGenerator", "blend=0", f"stabilize={str(stabilize).lower()}", f"bias={bias}"],
             [["cascades.count=4", "map.depth_clamp=true", f"bias.constant={bias}", *fit] for fit in fits])
 
@@ -78,8 +81,9 @@ shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
 found(run(program, "export", "street", "--out", folder / "street.glb"), "export")
 bad = []
-for i, (name, (page, *shot), predictions) in enumerate(able):
-    out = folder / str(i)
+
+def compared(name, out, page, shot, predictions):
+    """Draws a frame and measures the points; the texels are the same, and the errors as near as they must be."""
     found(run("node", engines / "shoot.mjs", page, folder / "street.glb", out, *SHOT, *shot), name)
     found(run(program, "judge", out / "frame.json", "--out", out / "judged"), name)
     of_frame = 100 * json.loads((out / "judged/judge.json").read_text())["metrics"]["frame_error"]
@@ -90,13 +94,48 @@ for i, (name, (page, *shot), predictions) in enumerate(able):
         found(run(program, "render", *settings, "--out", out / f"predicted-{k}"), name)
         point = json.loads((out / f"predicted-{k}/point.json").read_text())
         errors.append(100 * point["metrics"]["error"])
-        for one, other in zip(laid, point["cascades"]):
-            widest = max(one["width_m"], one["height_m"]) / one["resolution"] * 1024 / other["light"]["resolution"]
+        for one, other in zip(laid, point["cascades"], strict=True):
+            widest = max(one["width_m"], one["height_m"]) / one["resolution"] * RESOLUTION / other["light"]["resolution"]
             if abs(other["light"]["texel_m"] / widest - 1) > FLOATS:
                 bad.append(f"{name}: a texel is {other['light']['texel_m']} m, the engine's {widest} m")
     print(f"| {name} | {of_frame:.3f}% | {' to '.join(f'{error:.3f}%' for error in sorted(errors))} |", flush=True)
-    near = min(errors) - POINTS <= of_frame <= max(errors) + POINTS if len(errors) == 1 else min(errors) <= of_frame <= max(errors)
+    near = abs(errors[0] - of_frame) <= POINTS if len(errors) == 1 else min(errors) <= of_frame <= max(errors)
     if not near:
         bad.append(f"{name}: the frame has {of_frame:.3f}%, the prediction {errors}")
+    return laid
+
+
+for i, (name, (page, *shot), predictions) in enumerate(able):
+    compared(name, folder / str(i), page, [f"resolution={RESOLUTION}", *shot], predictions)
+
+# The lines of the report of one point: 2.3 texels of bias in each cascade, as the engine can have it.
+ENDS, TEXELS = [9, 20, 37], 2.3
+TYPED = ["cascades.count=4", "cascades.splits=manual", f"cascades.bounds_m={','.join(map(str, ENDS))}", "bias.unit=texel", f"bias.constant={TEXELS}"]
+(folder / "typed.toml").write_text('scene = "street"\n')
+found(run(program, "run", folder / "typed.toml", "--out", folder / "typed", *[word for one in PREDICTED + TYPED + ["map.fit=sphere"] for word in ("--set", one)]), "run")
+report = html.unescape(re.sub("<[^>]+>", "", (folder / "typed/report.html").read_text()))
+
+
+def typed(engine, page, fit):
+    """fit: the settings that predict the frame, from the text of the lines."""
+    lines = re.search(rf"^{re.escape(engine)} \(.*\n((?:    .*\n)+)", report, re.M).group(1)
+    (folder / "lines.txt").write_text(lines)
+    # The lines' own ends and biases, by which the frame is predicted.
+    laid = compared(f"{engine}, the lines of a report", folder / f"typed-{page.split('/')[0]}", page, [f"lines={folder / 'lines.txt'}"], [TYPED + fit(lines)])
+    return [one["end_m"] for one in laid]
+
+
+if not missing("three/page.html"):
+    longer = (FAR + NEAR) / FAR  # the maps' slices end at the ends' shares of maxFar, which is near beyond the reach
+    ends = typed("three.js", "three/page.html", lambda lines: ["map.fit=corner_square", f"map.reach_m={FAR * longer}",
+                                                               f"cascades.bounds_m={','.join(repr(end * longer) for end in ENDS)}"])
+    if max(abs(a / b - 1) for a, b in zip(ends, ENDS + [FAR], strict=True)) > 1e-5:  # of six digits
+        bad.append(f"three.js: the lines end cascades at {ends}")
+if not missing("babylon/page.html"):
+    def of_babylon(lines):
+        number = lambda field: re.search(rf"{field} = ([-0-9.e]+);", lines).group(1)
+        return ["map.fit=corner_sphere", "cascades.radius_round_m=0.0625", "map.depth_clamp=true", "cascades.splits=practical",
+                f"cascades.lambda={number('lambda')}", "bias.unit=depth", f"bias.constant={number('shadowGenerator.bias')}"]
+    typed("Babylon.js", "babylon/page.html", of_babylon)
 print("\n".join(bad))
 sys.exit(bool(bad))
