@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "gl/bias_text.h"
+#include "technique/cascade_selections.h"
 
 namespace noonmark::gl {
 
@@ -11,6 +12,10 @@ namespace {
 std::string uniform(const FilterRead& read) { return fmt::format("filter_{}", read.parameter->name()); }
 
 }  // namespace
+
+std::string cascade_file(const Technique& technique) {
+  return technique.cascade ? std::string(technique.cascade->selection->shader) : "shaders/cascade/single.glsl";
+}
 
 ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias) {
   const std::string bias_name = bias_text_name(bias);
@@ -36,17 +41,24 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
 
   ShaderSlots slots = receiver_slots(programs, technique.frame, technique.bias);
   slots["filter"] = "filter " + name;
-  slots["cascade"] = technique.cascade ? "shaders/cascade/by_depth.glsl" : "shaders/cascade/single.glsl";
+  slots["cascade"] = cascade_file(technique);
   programs.define(slots["filter"], text);
   return slots;
 }
 
 void set_cascade_uniforms(Program& program, const CascadePlace& cascade) {
   program.set_if_used("this_cascade", cascade.index);
-  program.set("cascade_bounds", static_cast<int>(cascade.bounds_m.size()));
-  for (size_t k = 0; k < cascade.bounds_m.size(); ++k)
-    program.set_if_used(fmt::format("cascade_bound_m[{}]", k).c_str(), cascade.bounds_m[k]);
-  program.set_if_used("view_forward", cascade.forward);
+  program.set("last_cascade", cascade.last());
+  program.set("cascade_blend", cascade.blend);
+  program.set("cascade_seam", cascade.seam);
+  program.set_if_used("view_forward", cascade.view_forward);
+  program.set_if_used("cascade_axes", cascade.light_axes);
+  const auto set_each = [&](const char* name, const auto& list) {
+    for (size_t k = 0; k < list.size(); ++k) program.set_if_used(fmt::format("{}[{}]", name, k).c_str(), list[k]);
+  };
+  set_each("cascade_depths", cascade.depths);
+  set_each("cascade_middle", cascade.middles);
+  set_each("cascade_half", cascade.halves);
 }
 
 void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings) {

@@ -17,8 +17,10 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
 // If a formula gives the weights of the filter's taps, the text has before that file
 //   float filter_weight(int texel, float s)   the weight of texel 0 ... filter_size along one axis
 // <cascade> defines
-//   bool in_this_map(vec3 position)           whether a receiver belongs to the map that is looked up
+//   bool in_this_map(vec3 position)           whether the map that is looked up has a part in a receiver's result
 ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
+
+std::string cascade_file(const Technique& technique);  // of <cascade>
 
 void set_cascade_uniforms(Program& program, const CascadePlace& cascade);
 void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings);

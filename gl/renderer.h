@@ -23,6 +23,7 @@
 #include "base/image.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
+#include "technique/cascades.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
 #include "technique/map_depths.h"
@@ -80,8 +81,6 @@ class ShadowMap {
   explicit ShadowMap(std::unique_ptr<Impl>);
   std::unique_ptr<Impl> impl_;
 };
-
-inline constexpr uint8_t no_cascade = 255;
 
 class Renderer {
  public:
@@ -146,9 +145,8 @@ class Renderer {
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
   Image<float> lookup(const ShadowMap& map, const Technique& technique, double* time_ms = nullptr);
 
-  // The cascade of each receiver, as the lookup chooses it (shaders/cascade/by_depth.glsl); no_cascade where there is no
-  // receiver. technique: of any of the cascades.
-  Image<uint8_t> choose_cascades(const Technique& technique);
+  // What the lookup chooses for each receiver (shaders/cascade/choice.glsl). technique: of any of the cascades.
+  ChosenCascades choose_cascades(const Technique& technique);
 
   // The numbers that lookup computes before it compares. They do not depend on the contents of the map. Of the bias,
   // they depend only on the parts that move the lookup.

@@ -99,26 +99,34 @@ LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
   return probe;
 }
 
-Image<uint8_t> Renderer::choose_cascades(const Technique& technique) {
+ChosenCascades Renderer::choose_cascades(const Technique& technique) {
   Impl& r = *impl_;
   r.context->make_current();
   if (!technique.cascade) throw std::logic_error("choose_cascades: a technique without cascades");
   if (!r.position_image.texture) throw std::logic_error("load_receivers comes before choose_cascades");
-  Program& program = r.programs.get({"shaders/screen.vert", "shaders/choose_cascade.frag"});
+  ShaderSlots slots;
+  slots["cascade"] = cascade_file(technique);
+  Program& program = r.programs.get({"shaders/screen.vert", "shaders/choose_cascade.frag"}, slots);
   set_cascade_uniforms(program, *technique.cascade);
-  program.set("eye_m", r.eye_m);
+  program.set_if_used("eye_m", r.eye_m);
   glBindTextureUnit(0, r.position_image.texture.id());
   const int width = r.position_image.width, height = r.position_image.height;
-  r.require(r.lit, GL_R32F, width, height);
-  r.draw_into({r.lit.texture.id()}, 0, width, height);
+  Target target;
+  r.require(target, GL_RGBA32F, width, height);
+  r.draw_into({target.texture.id()}, 0, width, height);
   r.draw_screen(program);
   r.detach(1);
-  const Image<float> chosen = read_back<float>(r.lit, GL_RED, GL_FLOAT);
+  const Image<glm::vec4> read = read_back<glm::vec4>(target, GL_RGBA, GL_FLOAT);
   r.context->check("choose_cascades");
-  Image<uint8_t> cascades(width, height, no_cascade);
-  for (size_t i = 0; i < chosen.size(); ++i)
-    if (chosen[i] >= 0) cascades[i] = static_cast<uint8_t>(chosen[i]);
-  return cascades;
+  ChosenCascades chosen{Image<uint8_t>(width, height, no_cascade), {}, Image<uint8_t>(width, height, 0)};
+  if (technique.cascade->blend > 0) chosen.next = Image<float>(width, height, 0);
+  for (size_t i = 0; i < read.size(); ++i) {
+    if (!(read[i].x >= 0)) continue;
+    chosen.of[i] = static_cast<uint8_t>(read[i].x);
+    if (chosen.blends()) chosen.next[i] = read[i].y;
+    chosen.seam[i] = read[i].z != 0;
+  }
+  return chosen;
 }
 
 void Renderer::probe_strip(LookupProbe& probe, const Technique& technique, PixelRange strip) {

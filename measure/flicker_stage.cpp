@@ -113,9 +113,15 @@ Flicker trace_flicker(const FlickerInput& in) {
   FlickerPoints points{Image<uint8_t>(width, height, 0), Image<uint8_t>(width, height, 0)};
   const double reach = reach_of_taps(next_technique.taps);
   Image<uint32_t> pixels(width, height, 0);
-  const auto map_of = [](std::span<const Technique> techniques, const Image<uint8_t>* cascades,
-                         size_t i) -> const LightFrame& { return techniques[cascades ? (*cascades)[i] : 0].frame; };
-  std::optional<Image<uint8_t>> next_cascades;  // as the next frame's camera chooses them
+  // Whether each map that has a part in the receiver's result holds it.
+  const auto all_hold = [&](std::span<const Technique> techniques, const ChosenCascades* cascades, size_t i) {
+    const glm::dvec3 place(receivers.position[i]);
+    for (size_t k = 0; k < techniques.size(); ++k)
+      if ((!cascades || cascades->share(i, static_cast<int>(k)) > 0) && !holds(techniques[k].frame, place, reach))
+        return false;
+    return true;
+  };
+  std::optional<ChosenCascades> next_cascades;  // as the next frame's camera chooses them
   if (in.cascades) {
     in.renderer.load_receivers(receivers, camera.eye_m);
     next_cascades = in.renderer.choose_cascades(next_technique);
@@ -145,21 +151,21 @@ Flicker trace_flicker(const FlickerInput& in) {
       continue;
     }
     points.counted[i] = 1;
-    const glm::dvec3 place(receivers.position[i]);
-    const Image<uint8_t>* const chosen = next_cascades ? &*next_cascades : nullptr;
-    points.held[i] = holds(map_of(in.techniques, in.cascades, i), place, reach) &&
-                     holds(map_of(in.techniques, chosen, i), place, reach) &&
-                     holds(map_of(next_techniques, chosen, i), place, reach);
+    const ChosenCascades* const chosen = next_cascades ? &*next_cascades : nullptr;
+    points.held[i] = all_hold(in.techniques, in.cascades, i) && all_hold(in.techniques, chosen, i) &&
+                     all_hold(next_techniques, chosen, i);
   }
 
-  // The lookups, each of which differs from the one before in one respect. Of cascades each receiver is looked up in one
-  // map, and 0 in the others.
+  // The lookups, each of which differs from the one before in one respect. Cascades are the next frame's choice.
   const auto shown = [&](std::span<const Technique> techniques) {
     Image<float> all(width, height, 0);
-    for (const Technique& technique : techniques) {
-      MapStage map = in.stages.draw_map(in.renderer, scene, technique);
-      const Image<float> one = in.stages.look_up(in.renderer, *map.map, technique);
-      for (size_t i = 0; i < all.size(); ++i) all[i] += one[i];
+    for (size_t k = 0; k < techniques.size(); ++k) {
+      MapStage map = in.stages.draw_map(in.renderer, scene, techniques[k]);
+      const Image<float> one = in.stages.look_up(in.renderer, *map.map, techniques[k]);
+      for (size_t i = 0; i < all.size(); ++i) {
+        const double share = next_cascades ? next_cascades->share(i, static_cast<int>(k)) : 1;
+        if (share > 0) all[i] = static_cast<float>(static_cast<double>(all[i]) + share * static_cast<double>(one[i]));
+      }
     }
     return all;
   };

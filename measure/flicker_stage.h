@@ -18,7 +18,7 @@ struct FlickerInput {
   const ViewStage& view;
   const TruthStage& truth;                // of all receivers
   std::span<const Technique> techniques;  // one, or one for each cascade
-  const Image<uint8_t>* cascades;         // the cascade of each receiver; null with one map
+  const ChosenCascades* cascades;         // of this frame; null with one map
   const Image<float>& r5;
 };
 

@@ -117,6 +117,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 
   const double maps = s.cascades.count;
+  if (maps > 1) scene += pixels * sizeof(double) * maps;  // ReceiverTruth::share
   double curve = 0;
   if (input.curve && curve_part(s.bias))
     curve = std::min<double>(taps, batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +

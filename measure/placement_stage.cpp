@@ -65,7 +65,7 @@ void LatticeStage::add(const TapTruth& known, PixelRange strip) {
         PlacedTaps taps;
         LatticeBox box;
         for (size_t i = range.begin(); i != range.end(); ++i) {
-          if (!stage.truth_.facing[i]) continue;
+          if (!stage.truth_.facing[i] || stage.truth_.share_of(i) == 0) continue;
           stage.probe_.taps_of(i, taps);
           stage.rays_.judge(i, taps, box);
           counts.add(evidence, i, taps, box);

@@ -134,10 +134,18 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
   raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, technique.frame, technique.settings.map,
                                               technique.bias, polygon_offset_unit(renderer, technique));
   StageTime texel_stage;
+  Image<uint8_t> shown = truth.receivers.facing, compared;
+  if (truth.receivers.share.size() != 0) {
+    compared = Image<uint8_t>(shown.width, shown.height, 0);
+    for (size_t i = 0; i < shown.size(); ++i)
+      if (shown[i] && truth.receivers.share[i] == 0) compared[i] = 1, shown[i] = 0;
+  }
   for (const PixelRange& strip : strips) {
     renderer.probe_strip(probe, technique, strip);
-    rays.ask(probe, strip, &texel_stage);
+    rays.ask(shown, probe, strip, &texel_stage);
   }
+  const size_t seen_texels = rays.asked_texels();
+  if (compared.size() != 0) rays.ask(compared, probe, {0, compared.size()}, &texel_stage);  // of a flat map
   keep_small_index(renderer, technique.frame);
   MapDepths depth = rays.trace_map(&texel_stage);
   const TruthAnswers answers = rays.texel_answers();
@@ -150,7 +158,8 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
           .edge_distance_texels = Image<float>(view.receivers.width(), view.receivers.height(), 0),
           .texel_stage = texel_stage,
           .tap_stage = {},
-          .texel_answers = answers};
+          .texel_answers = answers,
+          .seen_texels = seen_texels};
 }
 
 Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique) {

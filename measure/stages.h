@@ -69,6 +69,7 @@ struct LookupStage {
   Image<float> edge_distance_texels;
   StageTime texel_stage, tap_stage;
   TruthAnswers texel_answers{};
+  size_t seen_texels = 0;  // those of exact_depth that receivers read whose result the map has a part in
 };
 
 // What OpenGL shows: the technique on its own map, on the exact map and on the tie map.

@@ -18,6 +18,7 @@
 #include "compare/results/records.h"
 #include "measure/phase_diagram.h"
 #include "measure/stages.h"
+#include "technique/cascades.h"
 
 namespace noonmark {
 
@@ -42,13 +43,13 @@ struct Measurement {
   const Scene& scene;
   const ReceiverImage& receivers;
   std::vector<MeasuredMap> maps;   // one, or one for each cascade
-  Image<uint8_t> cascades;         // the map that each receiver is looked up in; empty with one map
+  ChosenCascades cascades;         // the map that each receiver is looked up in, and what blends in; empty with one map
   std::optional<Flicker> flicker;  // from this frame to the next, if the settings have a motion
 
   const MeasuredMap& map() const { return maps.front(); }  // of a point with one map
-  // That of the receiver; the first where there is none.
+  // That of the receiver, in a blend band the nearer of its two; the first where there is none.
   const MeasuredMap& map_of(size_t i) const {
-    return maps[cascades.size() != 0 && cascades[i] < maps.size() ? cascades[i] : 0];
+    return maps[maps.size() > 1 && cascades.of[i] < maps.size() ? cascades.of[i] : 0];
   }
   // Whether the size of a texel and the step of depth are the same at all receivers.
   bool uniform() const { return maps.size() == 1 && technique.frame.uniform(); }

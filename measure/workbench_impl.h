@@ -8,6 +8,7 @@
 #include "measure/placement_stage.h"
 #include "measure/stage_keys.h"
 #include "measure/workbench.h"
+#include "technique/cascades.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -54,10 +55,10 @@ struct OneMap {
   LookupStage& lookup() const { return *kept.lookup.value(); }
 };
 
-// The cascade of each receiver as the lookup chooses it, and how far that is off (compare/results/metrics.cpp:
+// The cascades of the receivers as the lookup chooses them, how far that is off (compare/results/metrics.cpp:
 // cascade_choice_excess).
-struct ChosenCascades {
-  Image<uint8_t> of;
+struct ChoiceStage {
+  ChosenCascades chosen;
   double excess = 0;
 };
 
@@ -135,10 +136,10 @@ struct Workbench::Impl {
     return stage;
   }
 
-  // The cascade of each receiver.
-  const ChosenCascades& choose(const Asked& asked, const ViewStage& seen, const Technique& of_any_cascade);
+  // The cascades of the receivers.
+  const ChoiceStage& choose(const Asked& asked, const ViewStage& seen, const Technique& of_any_cascade);
 
-  // The truth of the receivers of this map: of a cascade those that it is chosen for.
+  // The truth of the receivers of this map: of a cascade those that it has a part in, and those of the seam before it.
   const TruthStage& truth_of(const Asked& asked, const Looked& looked, MapStages& kept, const Technique& technique);
 
   // varied: the part of the bias whose curve is wanted, or null. each_strip: as of Pipeline::climb_strips(), with the
@@ -182,7 +183,7 @@ struct Workbench::Impl {
   Remembered<ViewStage> view;
   Remembered<TruthStage> truth;
   std::deque<MapStages> maps;  // whose addresses the stages refer to
-  Remembered<ChosenCascades> chosen;
+  Remembered<ChoiceStage> chosen;
   Remembered<CurveStage> curve;
   std::string receivers_on_device;
 };

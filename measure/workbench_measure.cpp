@@ -6,6 +6,7 @@
 #include "compare/ladder/law_metrics.h"
 #include "compare/ladder/measure.h"
 #include "compare/ladder/numbers.h"
+#include "compare/ladder/seams.h"
 #include "compare/results/quantities.h"
 #include "measure/flicker_stage.h"
 #include "measure/texel_footprint.h"
@@ -56,8 +57,16 @@ struct Recorded {
   const ViewStage& view;
   const TruthStage& truth;  // of these receivers
   std::vector<LookedUpMap> maps;
-  const Image<uint8_t>* cascades = nullptr;
+  const ChosenCascades* cascades = nullptr;
   MetricSet metrics = MetricSet::all;
+  const Image<uint8_t>* of() const { return cascades ? &cascades->of : nullptr; }
+  // How many lookups the facing receivers need: two in a blend band.
+  int64_t lookups(double facing) const {
+    int64_t count = static_cast<int64_t>(facing);
+    if (cascades)
+      for (size_t i = 0; i < cascades->next.size(); ++i) count += truth.receivers.facing[i] && cascades->next[i] > 0;
+    return count;
+  }
 };
 
 // The numbers that come from the ladder and the receivers, of any number of maps.
@@ -68,7 +77,7 @@ PointRecord record_of(const Recorded& in) {
   const Image<float> occluders = in.loaded.tracer->occluder_distance(receivers, t.frame, peter_panning_mask(ladder));
   PointRecord record;
   record.settings = settings_map(t.settings);
-  const MeasureInput input{ladder, receivers, in.maps, occluders, t.moves_casters(), in.loaded.surfaces, in.cascades};
+  const MeasureInput input{ladder, receivers, in.maps, occluders, t.moves_casters(), in.loaded.surfaces, in.of()};
   record.metrics = measure_ladder(input);
   record.metrics.insert(in.view.metrics.begin(), in.view.metrics.end());
   if (in.metrics == MetricSet::all) {
@@ -78,12 +87,12 @@ PointRecord record_of(const Recorded& in) {
     std::vector<const LightFrame*> frames;
     for (const LookedUpMap& map : in.maps) frames.push_back(&map.frame);
     record.metrics.merge(
-        footprint_metrics(texel_footprint(receivers, camera, frames, in.cascades, in.truth.receivers.facing)));
+        footprint_metrics(texel_footprint(receivers, camera, frames, in.of(), in.truth.receivers.facing)));
   }
   int64_t texels = 0;
   int tiles = 0;
   for (const LookedUpMap& map : in.maps) texels += map.frame.texels(), tiles += map.frame.tiles;
-  add_cost(record, frame_cost(t.settings, tiles, texels, static_cast<int64_t>(record.metrics["facing"]),
+  add_cost(record, frame_cost(t.settings, tiles, texels, in.lookups(record.metrics["facing"]),
                               static_cast<int64_t>(in.loaded.scene->triangles.size())));
   add_time(record, "hard_truth", in.truth.hard);
   add_time(record, "soft_truth", in.truth.soft);
@@ -99,20 +108,26 @@ std::map<std::string, double> laws_of(const Technique& technique, const Ladder& 
                        technique.settings.map.format, lookup.probe});
 }
 
-PointRecord::Cascade record_of_cascade(const OneMap& map, const SceneStage& loaded, const ViewStage& view) {
+// Of the receivers of one cascade, in the ladder of the whole point. It hides the others for that time.
+PointRecord::Cascade record_of_cascade(const OneMap& map, Ladder& ladder, const Image<uint8_t>& cascades,
+                                       const SceneStage& loaded, const ViewStage& view) {
   const LookupStage& lookup = map.lookup();
   const Technique& technique = map.technique;
+  const CascadePlace& place = *technique.cascade;
+  const Image<uint8_t> flags = ladder.flags;
+  for (size_t i = 0; i < cascades.size(); ++i)
+    if (cascades[i] != place.index) ladder.flags[i] = 0;
   PointRecord record = record_of({technique,
-                                  map.climbed.ladder,
+                                  ladder,
                                   loaded,
                                   view,
                                   map.truth,
                                   {{technique.frame, lookup.probe, technique.bias, lookup.edge_distance_texels}},
                                   nullptr,
                                   MetricSet::searched});
-  record.metrics.merge(laws_of(technique, map.climbed.ladder, loaded, view, lookup));
+  record.metrics.merge(laws_of(technique, ladder, loaded, view, lookup));
+  ladder.flags = flags;
   record.metrics.insert(map.climbed.soundness.begin(), map.climbed.soundness.end());
-  const CascadePlace& place = *technique.cascade;
   const ViewSlice slice = place.slices[static_cast<size_t>(place.index)];
   return {slice.begin_m, slice.end_m, std::move(record.metrics), {}};
 }
@@ -132,7 +147,7 @@ void add_maps(PointRecord& record, std::span<const OneMap> maps, const TruthStag
     add(tap_stage, lookup.tap_stage);
     texels += lookup.texel_answers;
     taps += map.climbed.tap_answers;
-    seen += static_cast<double>(lookup.exact_depth.texels->count());
+    seen += static_cast<double>(lookup.seen_texels);
     if (metrics == MetricSet::all) used += static_cast<double>(*map.kept.map.value()->used);
   }
   add_time(record, "texel", texel_stage);
@@ -142,13 +157,40 @@ void add_maps(PointRecord& record, std::span<const OneMap> maps, const TruthStag
   if (metrics == MetricSet::all) record.metrics["map_used"] = used / record.metrics.at("map_texels");
 }
 
-// The truth of the receivers of one cascade; the others do not face the light.
-TruthStage truth_of_cascade(const TruthStage& all, const Image<uint8_t>& cascades, int cascade) {
+// The truth of the receivers that a cascade has a part in, and of the seam before it; the others do not face the light.
+TruthStage truth_of_cascade(const TruthStage& all, const ChosenCascades& choice, int cascade) {
   TruthStage one = all;
   one.receivers.answers = {};
-  for (size_t i = 0; i < cascades.size(); ++i)
-    if (cascades[i] != cascade) one.receivers.facing[i] = 0;
+  one.receivers.share = Image<double>(choice.of.width, choice.of.height, 0);
+  for (size_t i = 0; i < choice.of.size(); ++i) {
+    one.receivers.share[i] = choice.share(i, cascade);
+    const bool at_seam = choice.seam[i] && choice.of[i] + 1 == cascade;
+    if (one.receivers.share[i] == 0 && !at_seam) one.receivers.facing[i] = 0;
+  }
   return one;
+}
+
+// The weighted mean of |R5 - R1| over the receivers of a map, and over all of them the sum of the weights.
+double error_of_map(const Ladder& ladder, const ReceiverTruth& truth) {
+  if (truth.share.size() == 0) return error_of(ladder);
+  double sum = 0, all = 0;
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    if (!is_counted(ladder, i)) continue;
+    sum += truth.share[i] * std::abs(static_cast<double>(ladder.shown()[i]) - static_cast<double>(ladder.truth()[i]));
+    all += truth.share[i];
+  }
+  return all > 0 ? sum / all : not_a_number;
+}
+
+// Of each cascade the seam to the next; the last has none.
+std::vector<Seam> seams_of(std::span<const OneMap> maps, const ChosenCascades& choice) {
+  std::vector<Seam> seams(maps.size());
+  for (size_t k = 0; k + 1 < maps.size(); ++k) {
+    Image<uint8_t> here = choice.seam;
+    for (size_t i = 0; i < here.size(); ++i) here[i] = here[i] && choice.of[i] == k;
+    seams[k] = seam_of(maps[k].climbed.ladder, maps[k + 1].climbed.ladder, here);
+  }
+  return seams;
 }
 
 }  // namespace
@@ -157,31 +199,24 @@ const TruthStage& Workbench::Impl::truth_of(const Asked& asked, const Looked& lo
                                             const Technique& technique) {
   if (!technique.cascade) return looked.truth;
   return kept.truth.get(asked.keys.truth + asked.keys.lookup, [&] {
-    return truth_of_cascade(looked.truth, choose(asked, looked.view, technique).of, technique.cascade->index);
+    return truth_of_cascade(looked.truth, choose(asked, looked.view, technique).chosen, technique.cascade->index);
   });
 }
 
-const ChosenCascades& Workbench::Impl::choose(const Asked& asked, const ViewStage& seen,
-                                              const Technique& of_any_cascade) {
+const ChoiceStage& Workbench::Impl::choose(const Asked& asked, const ViewStage& seen, const Technique& of_any_cascade) {
   return chosen.get(asked.keys.view + asked.keys.lookup, [&] {
-    ChosenCascades made{renderer.choose_cascades(of_any_cascade)};
+    ChoiceStage made{renderer.choose_cascades(of_any_cascade)};
     const CascadePlace& place = *of_any_cascade.cascade;
-    const glm::dvec3 eye = seen.camera.eye_m;
-    for (size_t i = 0; i < made.of.size(); ++i) {
-      if (made.of[i] == gl::no_cascade) continue;
+    ChosenCascades& choice = made.chosen;
+    for (size_t i = 0; i < choice.of.size(); ++i) {
+      if (choice.of[i] == no_cascade) continue;
       const glm::vec3 at = seen.receivers.position[i];
-      const int exact = cascade_at(place, eye, at), found = made.of[i];
-      if (exact == found) continue;
-      if (found > static_cast<int>(place.bounds_m.size())) {  // there is no such cascade
-        made.of[i] = static_cast<uint8_t>(exact);
-        made.excess = infinity;
-        continue;
-      }
-      // Each bound between the two is passed on the wrong side.
-      for (int bound = std::min(exact, found); bound < std::max(exact, found); ++bound) {
-        const double off =
-            cascade_depth(place, eye, at) - static_cast<double>(place.bounds_m[static_cast<size_t>(bound)]);
-        raise(made.excess, std::abs(off) / cascade_depth_error(place, eye, at));
+      const CascadeChoice found{choice.of[i], choice.share(i, choice.of[i] + 1)};
+      raise(made.excess, choice_excess(place, seen.camera.eye_m, at, found));
+      if (made.excess == infinity) {  // there is no such cascade, or no such weight
+        const CascadeChoice exact = choose_cascade(place, seen.camera.eye_m, at);
+        choice.of[i] = static_cast<uint8_t>(exact.cascade);
+        if (choice.blends()) choice.next[i] = static_cast<float>(exact.next);
       }
     }
     return made;
@@ -204,7 +239,7 @@ OneMap Workbench::Impl::measure_map(const Asked& asked, const ViewStage& seen, M
   // What is not needed again is freed before the point's numbers are computed, because it is large.
   made.shown.r4 = Image<float>();
   made.shown.tie_lookup = Image<float>();
-  if (!technique.settings.view.motion.any()) made.shown.r5 = Image<float>();
+  made.shown.r5 = Image<float>();
   return made;
 }
 
@@ -224,7 +259,7 @@ Workbench::Impl::WorstPlacement Workbench::Impl::render_worst(const Asked& asked
       [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
   climbed.soundness["residual"] = climbed.ladder.residual;
   climbed.soundness["tap_residual"] = climbed.ladder.tap_residual;
-  return {error_of(climbed.ladder), std::move(climbed.soundness)};
+  return {error_of_map(climbed.ladder, map.truth.receivers), std::move(climbed.soundness)};
 }
 
 // Adds the metrics over all placements of a map, or of each of the cascades, whose worst placements are independent.
@@ -233,13 +268,14 @@ void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap
                                      std::span<const std::unique_ptr<PlacementStage>> placements,
                                      std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked) {
   record.metrics.merge(of_maps);
-  double error = 0, disagreements = 0;
+  double error = 0, disagreements = 0, receivers = 0;
+  for (const auto& stage : placements) receivers += stage->counts().receivers();
   StageTime time;
   for (size_t k = 0; k < maps.size(); ++k) {
     PlacementStage& stage = *placements[k];
     time.milliseconds += stage.time().milliseconds;
     time.rays += stage.time().rays;
-    const double share = maps.size() == 1 ? 1 : record.cascades[k].metrics.at("counted") / record.metrics.at("counted");
+    const double share = stage.counts().receivers() / receivers;
     if (!(share > 0)) continue;
     const WorstPlacement worst = render_worst(asked, seen, maps[k], stage);
     error += share * worst.error_shown;
@@ -275,8 +311,9 @@ std::vector<ReceiverSection> Workbench::sections(const Measurement& m, std::span
         const size_t i = outside ? 0 : m.receivers.primitive.index(pixel.x, pixel.y);
         const bool here = outside || (strip.first <= i && i < strip.end && &m.map_of(i) == &map);
         if (!found[k] && here)
-          found[k] =
-              section_of({m.scene, m.receivers, map.technique, m.ladder, evidence, map.stored, map.stored_rows}, pixel);
+          found[k] = section_of({m.scene, m.receivers, map.technique, m.ladder, evidence, map.stored, map.stored_rows,
+                                 m.maps.size() > 1 ? m.cascades.share(i, static_cast<int>(n)) : 1},
+                                pixel);
       }
     };
     each_strip_of(b.renderer, lookup, truth, map.technique, cut);
@@ -300,7 +337,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const std::vector<Technique> techniques = cascades_of(scene, settings);
   const bool cascaded = techniques.size() > 1;
   std::deque<MapStages>& kept = b.of_maps(techniques.size());
-  const ChosenCascades* const chosen = cascaded ? &b.choose(asked, view, techniques.front()) : nullptr;
+  const ChoiceStage* const choice = cascaded ? &b.choose(asked, view, techniques.front()) : nullptr;
   std::vector<const TruthStage*> truths;
   std::vector<ScaledMap> scaled;
   for (size_t k = 0; k < techniques.size(); ++k) {
@@ -341,28 +378,40 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       const PlacementStage& stage = *placements.front();
       of_placements = placement_metrics(stage.counts(), stage.facts(worst_placement(stage.counts())));
     }
-  } else {
-    for (size_t k = 0; k < maps.size(); ++k) {
-      cascades.push_back(record_of_cascade(maps[k], loaded, view));
-      if (!placements.empty()) cascades.back().metrics.merge(placement_metrics(placements[k]->counts(), {}));
-    }
-    of_placements = join_placements(cascades);
-    laws = join_laws(cascades);
-    soundness = join_soundness(cascades);
-    soundness["cascade_choice_excess"] = chosen->excess;
-    keep_cascade_metrics(cascades);
   }
+  const std::vector<Seam> seams = cascaded ? seams_of(maps, choice->chosen) : std::vector<Seam>();
   Measurement m{{}, technique, std::move(maps.front().climbed.ladder), view.camera, scene, view.receivers, {}, {}, {}};
   for (size_t k = 1; k < maps.size(); ++k) {
-    join(m.ladder, maps[k].climbed.ladder);
+    join(m.ladder, maps[k].climbed.ladder, truths[k]->receivers.share);
     maps[k].climbed.ladder = Ladder();
   }
-  if (cascaded) m.cascades = chosen->of;
+  if (cascaded) {
+    m.cascades = choice->chosen;
+    for (size_t k = 0; k < maps.size(); ++k) {
+      cascades.push_back(record_of_cascade(maps[k], m.ladder, m.cascades.of, loaded, view));
+      cascades.back().metrics.merge(seam_metrics(seams[k]));
+      if (!placements.empty()) cascades.back().metrics.merge(placement_metrics(placements[k]->counts(), {}));
+    }
+    if (!placements.empty()) {
+      std::vector<double> receivers;
+      for (const auto& stage : placements) receivers.push_back(stage->counts().receivers());
+      of_placements = join_placements(cascades, receivers, m.cascades.blends());
+    }
+    laws = join_laws(cascades);
+    soundness = join_soundness(cascades);
+    soundness["cascade_choice_excess"] = choice->excess;
+    keep_cascade_metrics(cascades);
+  }
   Recorded recorded{technique, m.ladder, loaded, view, truth, {}, cascaded ? &m.cascades : nullptr, metrics};
   for (const OneMap& map : maps)
     recorded.maps.push_back(
         {map.technique.frame, map.lookup().probe, map.technique.bias, map.lookup().edge_distance_texels});
   m.record = record_of(recorded);
+  if (cascaded) {
+    Seam all;
+    for (const Seam& seam : seams) all.add(seam);
+    m.record.metrics.merge(seam_metrics(all));
+  }
   m.record.metrics.merge(laws);
   m.record.metrics.merge(soundness);
   add_maps(m.record, maps, truth, metrics);
@@ -388,11 +437,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   }
   if (settings.view.motion.any()) {
     b.see(asked);
-    Image<float>& r5 = maps.front().shown.r5;  // of cascades each receiver is looked up in one map, and 0 in the others
-    for (size_t k = 1; k < maps.size(); ++k)
-      for (size_t i = 0; i < r5.size(); ++i) r5[i] += maps[k].shown.r5[i];
-    m.flicker =
-        trace_flicker({*b.stages, b.renderer, loaded, view, truth, techniques, cascaded ? &m.cascades : nullptr, r5});
+    m.flicker = trace_flicker({*b.stages, b.renderer, loaded, view, truth, techniques, cascaded ? &m.cascades : nullptr,
+                               m.ladder[Rung::shown]});
     m.record.metrics.merge(measure_flicker(*m.flicker));
   }
   if (!placements.empty() && !nothing_judged(m.record))

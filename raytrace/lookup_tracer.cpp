@@ -112,10 +112,14 @@ LookupTracer::LookupTracer(LookupTracer&&) noexcept = default;
 LookupTracer& LookupTracer::operator=(LookupTracer&&) noexcept = default;
 LookupTracer::~LookupTracer() = default;
 
-void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* stage) {
+const Image<uint8_t>& LookupTracer::facing() const { return impl_->truth.facing; }
+
+void LookupTracer::ask(const Image<uint8_t>& of, const LookupProbe& probe, PixelRange strip, StageTime* stage) {
   const StageWatch watch(stage, impl_->traced.device);
-  impl_->texels.ask(impl_->truth.facing, probe, strip);
+  impl_->texels.ask(of, probe, strip);
 }
+
+size_t LookupTracer::asked_texels() const { return impl_->texels.asked(); }
 
 MapDepths LookupTracer::trace_map(StageTime* stage) {
   const StageWatch watch(stage, impl_->traced.device);

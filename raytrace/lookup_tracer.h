@@ -32,8 +32,12 @@ class LookupTracer {
   LookupTracer(LookupTracer&&) noexcept;
   LookupTracer& operator=(LookupTracer&&) noexcept;
 
-  // The map will hold the texels of these pixels' taps.
-  void ask(const LookupProbe& probe, PixelRange strip, StageTime* stage = nullptr);
+  // The map will hold the texels of these pixels' taps. of: those of the facing receivers that are not 0 in it.
+  void ask(const LookupProbe& probe, PixelRange strip, StageTime* stage = nullptr) {
+    ask(facing(), probe, strip, stage);
+  }
+  void ask(const Image<uint8_t>& of, const LookupProbe& probe, PixelRange strip, StageTime* stage = nullptr);
+  size_t asked_texels() const;  // how many the map will hold; before trace_map()
 
   // Window depth at the centres of the texels that were asked for, 1 elsewhere.
   MapDepths trace_map(StageTime* stage = nullptr);
@@ -51,6 +55,7 @@ class LookupTracer {
   TapTruth trace_places(const LookupProbe& probe, PixelRange strip, StageTime* stage = nullptr);
 
  private:
+  const Image<uint8_t>& facing() const;
   TapTruth trace(const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels, StageTime* stage);
   friend class TapTracing;
   struct Impl;

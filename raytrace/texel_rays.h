@@ -30,6 +30,7 @@ class TexelRays {
   // Asks for the texel of every tap of those pixels' receivers with facing != 0, at its place in the unbounded grid;
   // and, where that is outside the map, for the texel that `wrap` reads in its stead.
   void ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels);
+  size_t asked() const { return wanted_->asked(); }  // how many so far; before trace()
 
   // Finds the first hit at the centre of each texel that was asked for. by_rays: the surfaces of this light, if those of
   // a flat map are found by rays too.

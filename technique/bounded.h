@@ -43,6 +43,12 @@ inline Bounded operator*(Bounded a, Bounded b) {
   return computed(a.value * b.value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error,
                   float_rounding);
 }
+// The bound is infinite if the divisor can be 0.
+inline Bounded operator/(Bounded a, Bounded b) {
+  const double quotient = a.value / b.value, least = std::abs(b.value) - b.error;
+  const double lost = least > 0 ? (a.error + std::abs(quotient) * b.error) / least : HUGE_VAL;
+  return computed(quotient, lost, float_division);
+}
 inline Bounded abs(Bounded a) { return {std::abs(a.value), a.error}; }
 inline Bounded max(Bounded a, Bounded b) { return {std::max(a.value, b.value), std::max(a.error, b.error)}; }
 inline Bounded min(Bounded a, Bounded b) { return {std::min(a.value, b.value), std::max(a.error, b.error)}; }

@@ -1,6 +1,7 @@
 // The rows of the settings of cascades (CascadeSettings), for the table in technique/settings.cpp.
 #include <algorithm>
 
+#include "technique/cascade_selections.h"
 #include "technique/cascade_splits.h"
 #include "technique/light_kind.h"
 #include "technique/setting_rows.h"
@@ -50,6 +51,29 @@ std::string bounds_of_another_count(const Settings& s, std::optional<LightKind>)
       wanted, s.cascades.count, s.cascades.bounds_m.size());
 }
 
+std::string without_blend(const Settings& s, LightKind light) {
+  if (std::string why = without_cascades(s, light); !why.empty()) return why;
+  return s.cascades.blend > 0 ? "" : "with cascades.blend = 0";
+}
+
+std::string without_blend_by_depth(const Settings& s, LightKind light) {
+  if (std::string why = without_blend(s, light); !why.empty()) return why;
+  return s.cascades.select == "depth" ? "" : "with cascades.select = " + s.cascades.select;
+}
+
+std::string spheres_without_sphere(const Settings& s, std::optional<LightKind>) {
+  if (s.cascades.count == 1 || s.cascades.select != "sphere" || s.map.fit == MapFit::sphere) return "";
+  return fmt::format(
+      "cascades.select = sphere needs the spheres of map.fit = sphere, and map.fit = {}; set one of them",
+      find_setting("map.fit").get(s));
+}
+
+std::string resolutions_of_another_count(const Settings& s, std::optional<LightKind>) {
+  const size_t given = s.cascades.resolutions.size(), wanted = static_cast<size_t>(s.cascades.count);
+  if (s.cascades.count == 1 || given == 0 || given == wanted) return "";
+  return fmt::format("cascades.resolutions needs one number for each of the {} cascades, and has {}", wanted, given);
+}
+
 }  // namespace
 
 #define MEMBER(path) [](Settings& s) -> decltype((s.cascades.path)) { return s.cascades.path; }
@@ -73,10 +97,36 @@ std::vector<Setting> cascade_rows() {
       real("cascades.first_m", "m", 1e-6, 1e9,
            "first_bound: the depth at which the first slice ends; auto: a tenth of the last.", MEMBER(first_m))
           .idle(without_split_that_reads("cascades.first_m")),
-      ascending_list("cascades.bounds_m", "m", 1e-6, 1e9,
-                     "manual: the depths at which all slices but the last end, in ascending order.", MEMBER(bounds_m))
+      number_list(ValueType::list, "cascades.bounds_m", "m", 1e-6, 1e9,
+                  "manual: the depths at which all slices but the last end, in ascending order.", MEMBER(bounds_m))
           .idle(without_split_that_reads("cascades.bounds_m"))
           .refused(bounds_of_another_count),
+      named("cascades.select",
+            "By what the lookup chooses the cascade of a receiver; what no other holds is looked up in the last.",
+            cascade_selections(), MEMBER(select))
+          .idle(without_cascades)
+          .refused(spheres_without_sphere),
+      real("cascades.blend", "", 0, 0.5,
+           "The part of a cascade, before its end, in which the next one is blended in: its weight grows evenly from 0 "
+           "to 1. By "
+           "cascades.select = map or sphere it is a part of the way from the middle to the edge. 0: none.",
+           MEMBER(blend))
+          .idle(without_cascades),
+      choice("cascades.blend_of", {"slice", "end"},
+             "cascades.select = depth: of what cascades.blend is a part. slice: of the depth of the slice, as in "
+             "Babylon.js; end: of the depth at which it ends, as in Bevy.",
+             MEMBER(blend_of))
+          .idle(without_blend_by_depth),
+      flag("cascades.cover_band",
+           "Whether the map of a cascade is fitted to the band too in which it is blended in. Without it, what the map "
+           "does "
+           "not hold there is wrong by its coverage.",
+           MEMBER(cover_band))
+          .idle(without_blend),
+      number_list(ValueType::whole_list, "cascades.resolutions", "texels", 1, 16384,
+                  "A resolution for each cascade, near ones first; auto: all have map.resolution.", MEMBER(resolutions))
+          .idle(without_cascades)
+          .refused(resolutions_of_another_count),
       real("cascades.radius_round_m", "m", 0, 1e6,
            "map.fit = sphere and corner_*, also with one map: the radius of the sphere, or half of the square's side, "
            "is "

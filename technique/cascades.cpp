@@ -4,23 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
+#include "technique/cascade_selections.h"
 #include "technique/cascade_splits.h"
-#include "technique/formulas.h"
+#include "technique/map_fit.h"
 #include "technique/setting_rules.h"
-
-#define precise
-namespace noonmark::in_double {
-static
-#include "technique/cascade_depth.glsl"
-}  // namespace noonmark::in_double
-namespace noonmark::in_bounds {
-static
-#include "technique/cascade_depth.glsl"
-}  // namespace noonmark::in_bounds
-#undef precise
 
 namespace noonmark {
 namespace {
@@ -61,41 +53,106 @@ std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings)
   return slices;
 }
 
+namespace {
+
+// The depth at which the place in a cascade is 0: cascades.blend is a share of what lies between it and the cascade's end.
+double band_from(const ViewSlice& slice, const CascadeSettings& settings) {
+  return settings.blend_of == CascadeBlendOf::end ? 0 : slice.begin_m;
+}
+
+// Where the band begins in which the next cascade is blended in.
+double band_begin(const ViewSlice& slice, const CascadeSettings& settings) {
+  return slice.end_m - settings.blend * (slice.end_m - band_from(slice, settings));
+}
+
+int resolution_of(const Settings& settings, size_t cascade) {
+  const std::vector<double>& own = settings.cascades.resolutions;
+  return own.empty() ? settings.map.resolution : static_cast<int>(own[cascade]);
+}
+
+// What the selection by map compares: the volume in which a receiver's taps all lie in the map.
+void add_volume(CascadePlace& place, const Technique& cascade) {
+  const LightFrame& frame = cascade.frame;
+  const double texel_m = frame.extent_m / frame.resolution, reach_m = (cascade.taps.reach_texels() + 0.5) * texel_m;
+  const glm::dvec3 half(frame.extent_m / 2 - reach_m, frame.rows * texel_m / 2 - reach_m,
+                        (frame.far_m - frame.near_m) / 2);
+  if (!(std::min(half.x, half.y) > 0))
+    throw SettingConflict(
+        "cascades.select",
+        fmt::format("cascades.select = map: the filter's taps reach {:.3g} texels, so that the map of "
+                    "{} texels holds no receiver with all of them; set a larger map.resolution",
+                    cascade.taps.reach_texels(), frame.resolution));
+  place.middles.emplace_back(frame.to_world(glm::dvec3(frame.centre_m, (frame.near_m + frame.far_m) / 2)));
+  place.halves.emplace_back(half);
+}
+
+}  // namespace
+
 std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings) {
   Technique whole(scene, settings);
   if (settings.cascades.count == 1) return {whole};
-  const std::vector<ViewSlice> slices = view_slices(scene, settings);
   CascadePlace place;
-  for (const ViewSlice& slice : slices) place.slices.push_back(slice);
-  for (size_t k = 0; k + 1 < slices.size(); ++k) place.bounds_m.push_back(static_cast<float>(slices[k].end_m));
-  place.forward = glm::vec3(camera_of(scene, settings).forward);
+  place.slices = view_slices(scene, settings);
+  place.selection = &find_cascade_selection(settings.cascades.select);
+  place.blend = static_cast<float>(settings.cascades.blend);
+  place.seam = seam_from;
+  place.view_forward = glm::vec3(camera_of(scene, settings).forward);
   std::vector<Technique> cascades;
-  for (const ViewSlice& slice : slices) {
-    Technique one = whole.at(make_light_frame(scene, settings, &slice));
-    place.index = static_cast<int>(cascades.size());
-    one.cascade = place;
+  for (size_t k = 0; k < place.slices.size(); ++k) {
+    ViewSlice fitted = place.slices[k];
+    if (k > 0 && settings.cascades.cover_band) fitted.begin_m = band_begin(place.slices[k - 1], settings.cascades);
+    Settings own = settings;
+    own.map.resolution = resolution_of(settings, k);
+    Technique one = whole.at(make_light_frame(scene, own, &fitted));
+    one.settings = std::move(own);
     cascades.push_back(std::move(one));
+    if (k + 1 == place.slices.size()) break;
+    const ViewSlice& slice = place.slices[k];
+    place.depths.emplace_back(band_from(slice, settings.cascades), slice.end_m);
+    if (settings.cascades.select == "sphere") {
+      const FittedSphere sphere = sphere_of_slice(scene, settings, fitted);
+      place.middles.emplace_back(sphere.middle_m);
+      place.halves.emplace_back(sphere.radius_m);
+    } else {
+      add_volume(place, cascades.back());
+    }
+  }
+  const LightFrame& frame = cascades.front().frame;
+  place.light_axes = glm::mat3(glm::vec3(frame.right), glm::vec3(frame.up), glm::vec3(frame.forward));
+  for (Technique& cascade : cascades) {
+    cascade.cascade = place;
+    ++place.index;
   }
   return cascades;
 }
 
-double cascade_depth(const CascadePlace& place, glm::dvec3 eye_m, glm::dvec3 world) {
-  return in_double::cascade_depth(world, eye_m, glm::dvec3(place.forward));
+CascadeChoice choose_cascade(const CascadePlace& place, glm::dvec3 eye_m, glm::dvec3 world) {
+  for (int k = 0; k < place.last(); ++k) {
+    const double at = place.selection->place_in_double(place, k, eye_m, world);
+    if (at <= 1) return {k, place.blend > 0 ? weight_of_next(at, place.blend) : 0};
+  }
+  return {place.last(), 0};
 }
 
-int cascade_at(const CascadePlace& place, glm::dvec3 eye_m, glm::dvec3 world) {
-  const double depth = cascade_depth(place, eye_m, world);
-  return static_cast<int>(std::count_if(place.bounds_m.begin(), place.bounds_m.end(),
-                                        [&](float bound) { return depth > static_cast<double>(bound); }));
-}
-
-double cascade_depth_error(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 position) {
-  const auto exact = [](float value) { return Bounded(static_cast<double>(value)); };
-  const auto rounded = [](double value) { return Bounded(value, float_rounding * std::abs(value)); };
-  return in_bounds::cascade_depth({exact(position.x), exact(position.y), exact(position.z)},
-                                  {rounded(eye_m.x), rounded(eye_m.y), rounded(eye_m.z)},
-                                  {exact(place.forward.x), exact(place.forward.y), exact(place.forward.z)})
-      .error;
+double choice_excess(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 position, CascadeChoice made) {
+  const CascadeChoice exact = choose_cascade(place, eye_m, position);
+  if (made.cascade < 0 || made.cascade > place.last() || !(made.next >= 0 && made.next <= 1))
+    return std::numeric_limits<double>::infinity();
+  const auto wrong_side = [&](int k) {  // of the end of cascade k
+    const Bounded at = place.selection->place_in_bounds(place, k, eye_m, position);
+    return std::abs(at.value - 1) / at.error;
+  };
+  if (made.cascade == exact.cascade) {
+    if (made.next == exact.next) return 0;
+    const Bounded at = place.selection->place_in_bounds(place, made.cascade, eye_m, position);
+    return std::abs(made.next - exact.next) / weight_of_next(at, place.blend).error;
+  }
+  if (made.cascade < exact.cascade) return wrong_side(made.cascade);
+  // It left out the one that holds the point, and all between.
+  double excess = 0;
+  for (int k = exact.cascade; k < made.cascade; ++k)
+    if (place.selection->place_in_double(place, k, eye_m, position) <= 1) excess = std::max(excess, wrong_side(k));
+  return excess;
 }
 
 }  // namespace noonmark

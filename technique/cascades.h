@@ -3,11 +3,12 @@
 //
 //   const std::vector<Technique> cascades = cascades_of(scene, settings);   // with cascades.count = 1 only one
 //   cascades[2].frame; cascades[2].cascade->bounds_m;
-//   int k = cascade_at(*cascades[0].cascade, P);
+//   int k = cascade_at(*cascades[0].cascade, eye_m, P);
 #pragma once
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/image.h"
 #include "scenes/scene.h"
 #include "technique/technique.h"
 
@@ -19,16 +20,42 @@ namespace noonmark {
 std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings);
 
 // The techniques of the cascades, near ones first: the settings with the frame of each. With cascades.count = 1 the
-// technique of the settings alone. All frames have the light's position as origin. Throws as Technique() and view_slices().
+// technique of the settings alone. All frames have the light's position as origin. With cascades.cover_band the frame of a
+// cascade also holds the band in which it is blended in. Throws as Technique() and view_slices().
 std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings);
 
-// Which cascade a point of the world belongs to: how many bounds its depth along the view lies beyond. In double.
-int cascade_at(const CascadePlace& place, glm::dvec3 eye_m, glm::dvec3 world);
-// The depth along the view.
-double cascade_depth(const CascadePlace& place, glm::dvec3 eye_m, glm::dvec3 world);
+// The cascade that a point is looked up in, and the weight of the one after it, which is above 0 in the blend band.
+struct CascadeChoice {
+  int cascade = 0;
+  double next = 0;
+};
+// The choice of technique/cascade_place.glsl, in double.
+CascadeChoice choose_cascade(const CascadePlace& place, glm::dvec3 eye_m, glm::dvec3 world);
+inline int cascade_at(const CascadePlace& place, glm::dvec3 eye_m, glm::dvec3 world) {
+  return choose_cascade(place, eye_m, world).cascade;
+}
 
-// The largest error that a shader's float arithmetic makes of cascade_depth() at this point, in metres: its inputs are
-// rounded to float, and so is each operation (technique/bounded.h). position: as the shader has it.
-double cascade_depth_error(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 position);
+inline constexpr uint8_t no_cascade = 255;
+
+// Seams (compare/ladder/seams.h) are measured over the receivers in the part of a cascade from this place on, whatever its
+// blend band: a constant, so that the numbers of different settings compare.
+inline constexpr float seam_from = 0.96f;
+
+// The choice for each pixel of a picture.
+struct ChosenCascades {
+  Image<uint8_t> of;    // no_cascade where there is no receiver
+  Image<float> next;    // the weight of the cascade after it; empty: no cascade blends into the next
+  Image<uint8_t> seam;  // 1: the cascade after it is looked up too, for comparison (CascadePlace::seam)
+  bool blends() const { return next.size() != 0; }
+  // The share that a cascade has in a receiver's result. The shares of all cascades have the sum 1, exactly.
+  double share(size_t i, int cascade) const {
+    const double later = blends() ? static_cast<double>(next[i]) : 0;
+    return of[i] == cascade ? 1 - later : of[i] + 1 == cascade ? later : 0;
+  }
+};
+
+// How far a choice that a shader made in float is off the one in double, as a multiple of the largest error that float
+// arithmetic makes there (technique/bounded.h): at most 1, if the shader is right. 0 if they are equal. position: as the shader has it.
+double choice_excess(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 position, CascadeChoice made);
 
 }  // namespace noonmark

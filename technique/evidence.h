@@ -189,6 +189,10 @@ struct ReceiverTruth {
   Image<uint8_t> ambiguous;  // 1 if float error can change the verdict of R1; taps have bits of their own
   Image<float> soft;         // R0: the fraction of the light's disc that is seen; equals `lit` for a light without size
   TruthAnswers answers{};    // of R1
+  // Of one map among several: the part that it has in each receiver's result, 0 to 1; empty: all of it. 0 where the receiver
+  // is looked up in it for comparison only (compare/ladder/seams.h).
+  Image<double> share{};
+  double share_of(size_t i) const { return share.size() == 0 ? 1 : share[i]; }
 };
 
 // Time and number of rays of one stage, for the report. No test asserts them.

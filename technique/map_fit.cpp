@@ -128,20 +128,24 @@ Sphere sphere_of_frustum(const CameraFrame& camera, double begin, double end) {
 
 }  // namespace
 
-FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const LightFrame& axes, const ViewSlice* slice) {
+FittedSphere sphere_of_slice(const Scene& scene, const Settings& settings, const ViewSlice& slice) {
   const ViewSettings& view = settings.view;
-  const MapSettings& map = settings.map;
   const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
-  const ViewSlice whole{0, slice ? 0 : map.reach_m.value_or(diagonal_of(scene))};
-  if (!slice) slice = &whole;
-  Sphere sphere = sphere_of_frustum(camera, slice->begin_m, slice->end_m);
+  Sphere sphere = sphere_of_frustum(camera, slice.begin_m, slice.end_m);
   if (const double step = settings.cascades.radius_round_m; step > 0)
     sphere.radius = step * std::ceil(sphere.radius / step);
-  const glm::dvec2 area = lights::area_around(glm::dvec2(sphere.radius), 1, map);
-  const glm::dvec3 middle = axes.to_light(camera.eye_m + sphere.along * camera.forward);
+  return {camera.eye_m + sphere.along * camera.forward, sphere.radius};
+}
+
+FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const LightFrame& axes, const ViewSlice* slice) {
+  const MapSettings& map = settings.map;
+  const ViewSlice whole{0, slice ? 0 : map.reach_m.value_or(diagonal_of(scene))};
+  const FittedSphere sphere = sphere_of_slice(scene, settings, slice ? *slice : whole);
+  const glm::dvec2 area = lights::area_around(glm::dvec2(sphere.radius_m), 1, map);
+  const glm::dvec3 middle = axes.to_light(sphere.middle_m);
   const double near_m =
-      std::min(depths_inside(scene, axes, middle, area * (1 + lights::map_margin)).least, middle.z - sphere.radius);
-  return {lights::with_margin(area, near_m, middle.z + sphere.radius), middle};
+      std::min(depths_inside(scene, axes, middle, area * (1 + lights::map_margin)).least, middle.z - sphere.radius_m);
+  return {lights::with_margin(area, near_m, middle.z + sphere.radius_m), middle};
 }
 
 namespace {

@@ -45,6 +45,13 @@ std::optional<FittedMap> fit_to_view(const Scene& scene, const ViewSettings& vie
 FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const LightFrame& axes,
                         const ViewSlice* slice = nullptr);
 
+// The sphere of fit_to_sphere() in the world.
+struct FittedSphere {
+  glm::dvec3 middle_m{0};
+  double radius_m = 0;
+};
+FittedSphere sphere_of_slice(const Scene& scene, const Settings& settings, const ViewSlice& slice);
+
 // map.fit = corner_sphere, corner_square, corner_box: the square that an engine fits to the eight corners of the slice, and
 // nothing wider: neither the margin of a tight fit nor a texel, so that snapping (map.snap) may uncover up to half a texel of
 // its edge, as it does there. Near and far hold the slice (of corner_sphere its sphere), but nothing beyond the scene's box along

@@ -30,7 +30,7 @@ std::string number_text(double value);
 std::string point_text(glm::dvec3 p);
 std::string list_text(const std::vector<double>& list);  // "5,15,50"; empty: "auto"
 
-// Throw Error(usage) if the text is not a number, a point or an ascending list, or is outside the row's range.
+// Throw Error(usage) if the text is not a number, a point or a list of the row's type, or is outside the row's range.
 double parse_real(const Setting& row, std::string_view text);
 glm::dvec3 parse_point(const Setting& row, std::string_view text);
 std::vector<double> parse_list(const Setting& row, std::string_view text);  // "5, 15, 50"
@@ -144,11 +144,12 @@ Setting text(std::string_view name, std::string_view help, Member member) {
   return row;
 }
 
-// A list of ascending numbers between min and max. An empty list is "auto".
+// A list of numbers between min and max: ascending ones (ValueType::list), or whole ones in any order (whole_list). An empty
+// list is "auto".
 template <class Member>
-Setting ascending_list(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
-                       Member member) {
-  Setting row{name, unit, ValueType::list, min, max, true, {}, std::string(help), {}, {}};
+Setting number_list(ValueType type, std::string_view name, std::string_view unit, double min, double max,
+                    std::string_view help, Member member) {
+  Setting row{name, unit, type, min, max, true, {}, std::string(help), {}, {}};
   row.get = [member](const Settings& s) { return list_text(member(const_cast<Settings&>(s))); };
   row.set = [member, row](Settings& s, std::string_view text) {
     if (text == "auto")

@@ -99,6 +99,9 @@ struct MapSettings {
 };
 
 // Cascades: the map of a directional light as several maps, each for a slice of the view's depth (technique/cascades.h).
+// Of what cascades.blend is a share: of the slice's depth, or of the depth of its end.
+enum class CascadeBlendOf { slice, end };
+
 struct CascadeSettings {
   int count = 1;                     // 1: one map for all of the view
   std::string splits = "practical";  // the name of one of cascade_splits() (technique/cascade_splits.h)
@@ -106,6 +109,11 @@ struct CascadeSettings {
   double exponent = 3;               // exponent: how much deeper each slice is than the one before
   std::optional<double> first_m;     // first_bound: the end of the first slice
   std::vector<double> bounds_m;      // manual: the ends of all slices but the last, ascending; empty: not given
+  std::string select = "depth";      // the name of one of cascade_selections() (technique/cascade_selections.h)
+  double blend = 0;                  // the part of a cascade in which the next one is blended in
+  CascadeBlendOf blend_of = CascadeBlendOf::slice;
+  bool cover_band = true;           // the next cascade's map holds that part too
+  std::vector<double> resolutions;  // whole texels, one number for each cascade; empty: map.resolution
   double radius_round_m =
       0;  // map.fit = sphere, corner_*: the radius is rounded up to a multiple of it; 0: not rounded
 };
@@ -186,10 +194,10 @@ struct Stages {
   constexpr bool has(Stage stage) const { return (bits & static_cast<uint8_t>(stage)) != 0; }
 };
 
-enum class ValueType { integer, real, flag, choice, text, point, list };
+enum class ValueType { integer, real, flag, choice, text, point, list, whole_list };
 
 // One row of the table. A value is stored as text in one canonical form: "auto" for an empty optional or list, "x,y,z" for a
-// point, "5,15,50" for a list of ascending numbers, the shortest decimal that reads back as the same double. So the same value always has the same key in the
+// point, "5,15,50" for a list of ascending numbers or of whole ones, the shortest decimal that reads back as the same double. So the same value always has the same key in the
 // store.
 struct Setting {
   std::string_view name;  // "map.resolution"
@@ -217,7 +225,9 @@ struct Setting {
   Setting only_read_by(Stages stages) const;
 
   // True if a value is several numbers: an experiment file may give them as an array.
-  bool is_of_numbers() const { return type == ValueType::point || type == ValueType::list; }
+  bool is_of_numbers() const {
+    return type == ValueType::point || type == ValueType::list || type == ValueType::whole_list;
+  }
 
   std::string range_text() const;       // "1 ... 170 or auto", "16 | 24 | 32f", "x,y,z" ...
   std::string range_with_unit() const;  // "1 ... 170 deg, or auto"

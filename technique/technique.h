@@ -15,12 +15,22 @@
 
 namespace noonmark {
 
-// A cascade's place among the others: what the lookup chooses by.
+struct CascadeSelection;
+
+// A cascade's place among the others: what the lookup chooses by, as floats, because the shader has them so.
 struct CascadePlace {
-  int index = 0;                  // 0 is the nearest
-  std::vector<ViewSlice> slices;  // of all cascades
-  std::vector<float> bounds_m;    // the ends of all slices but the last, as the shader compares them
-  glm::vec3 forward{0};           // the view's direction, as the shader has it
+  int index = 0;                                // 0 is the nearest
+  std::vector<ViewSlice> slices;                // of all cascades
+  const CascadeSelection* selection = nullptr;  // never null in a technique
+  float blend = 0;  // the part of a cascade, before its end, in which the next one is blended in; 0: none
+  float seam = 1;   // from this place in a cascade on, the next one is looked up too, for comparison
+  glm::vec3 view_forward{0, 0, -1};
+  glm::mat3 light_axes{1};  // right, up and forward
+  // Of all cascades but the last. The selection reads some of them (technique/cascade_place.glsl).
+  std::vector<glm::vec2> depths;           // where the place by depth is 0 and 1
+  std::vector<glm::vec3> middles, halves;  // of the map's volume; or of the sphere, whose radius is x
+
+  int last() const { return static_cast<int>(slices.size()) - 1; }
 };
 
 struct Technique {

@@ -61,6 +61,13 @@ class TexelSet {
     }
   }
 
+  // How many texels have been added, before or after close().
+  size_t asked() const {
+    size_t all = 0;
+    for (const Row& row : rows_) all += static_cast<size_t>(std::popcount(row.texels));
+    return all;
+  }
+
   // The following are for a closed set.
   glm::ivec2 size() const { return size_; }
   size_t count() const { return count_; }

@@ -54,8 +54,10 @@ Json form_of(const Setting& row) {
       form = any_of({{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}},
                      {{"type", "string"}, {"pattern", "^[^,]+,[^,]+,[^,]+$"}}});
       break;
-    case ValueType::list: {
-      const Json number = {{"type", "number"}, {"minimum", row.min}, {"maximum", row.max}};
+    case ValueType::list:
+    case ValueType::whole_list: {
+      const char* const type = row.type == ValueType::list ? "number" : "integer";
+      const Json number = {{"type", type}, {"minimum", row.min}, {"maximum", row.max}};
       form = any_of({{{"type", "array"}, {"items", number}, {"minItems", 1}},
                      number,
                      {{"type", "string"}, {"pattern", "^[^,]+(,[^,]+)*$"}}});

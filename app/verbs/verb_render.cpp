@@ -44,6 +44,7 @@ void print_placements(const Measurement& m) {
   constexpr std::string_view ending = "_mean";
   for (const Metric& metric : metrics_table()) {
     if (!metric.of_placements || !metric.name.ends_with(ending)) continue;
+    if (!metrics.contains(std::string(metric.name))) continue;  // a blend band has none of some
     const std::string name(metric.name.substr(0, metric.name.size() - ending.size()));
     fmt::print("  {:<32}{:>11.5f}%{:>11.5f}%\n", name, 100 * metrics.at(name + "_mean"),
                100 * metrics.at(name + "_worst"));

@@ -33,22 +33,39 @@ void BiasCounts::add(const LookupEvidence& e, const MapDepths& stored_map, Pixel
 }
 
 void BiasCounts::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& part) const {
-  if (e_.truth.ambiguous[i]) return;
-  const bool blended = counts_.blended_, should_be_lit = e_.truth.lit[i] != 0;
+  const double share = e_.truth.share_of(i);
+  if (e_.truth.ambiguous[i] || share == 0) return;
+  const bool blended = counts_.blended_, should_be_lit = e_.truth.lit[i] != 0, shared = share != 1;
   std::optional<TapThreshold> threshold;  // made for the first tap that needs it
   const auto list = [&](List to, float at, double weight) {
-    if (blended)
-      part.lists.weighted[to].emplace_back(at, weight);
+    if (blended || shared)
+      part.lists.weighted[to].emplace_back(at, weight * share);
     else
       part.lists.whole[to].push(at);
   };
-  ++part.receivers;
-  if (e_.truth.soft[i] != static_cast<float>(e_.truth.lit[i])) soft_receiver(i, taps, part);
+  if (!shared) ++part.receivers;
+  ThresholdSums::Weighted steps;
+  if (e_.truth.soft[i] != static_cast<float>(e_.truth.lit[i])) steps = soft_steps(i, taps);
   float least = infinity_f, most = 0;
+  const auto end = [&] {  // of a receiver, when its taps are done
+    const float turns = should_be_lit ? most : least;
+    if (shared) {
+      for (auto& [at, weight] : steps) weight *= share;
+      part.shared.push_back({i, {should_be_lit, turns, e_.truth.soft[i], std::move(steps)}});
+      return;
+    }
+    if (!steps.empty())
+      counts_.add_soft(steps, e_.truth.soft[i], should_be_lit, part.lists.weighted[softer], part.softer_before);
+    if (!counts_.lists_wrong_) return;  // wrong taps are wrong receivers
+    if (!should_be_lit)
+      part.lists.whole[wrong_light].push(turns);
+    else if (turns > 0)
+      part.lists.whole[wrong_dark].push(turns);
+  };
   // Taps that should be lit and are lit without a bias have thresholds of 0, and are never wrong.
   if (should_be_lit && taps.alike() && taps[0].moved_sure && taps[0].moved_lit &&
       taps.lit_on(e_.exact_map, 0) == taps.size() && taps.lit_on(stored_map_, 0) == taps.size())
-    return;
+    return end();
   for (size_t t = 0; t < taps.size(); ++t) {
     const Tap exact = taps[t];
     if (exact.weight == 0) continue;  // P lies exactly on a texel's centre: the sampler reads no other texel
@@ -77,35 +94,36 @@ void BiasCounts::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& part
     else if (at_r5 > 0)
       list(error_dark, at_r5, exact.weight);
   }
-  if (taps.size() == 1) return;  // wrong taps are wrong receivers
-  if (!should_be_lit)
-    part.lists.whole[wrong_light].push(least);
-  else if (most > 0)
-    part.lists.whole[wrong_dark].push(most);
+  end();
 }
 
-// In the penumbra the error against R0 falls and rises again as tap after tap turns lit: in the order of the thresholds
-// each one adds the change that it makes.
-void BiasCounts::Adding::soft_receiver(size_t i, const ReceiverTaps& taps, Part& part) const {
-  const double soft = static_cast<double>(e_.truth.soft[i]) * counts_.whole_;
-  const double hard = e_.truth.lit[i] * counts_.whole_;
-  const auto softer_by = [&](double lit) { return std::abs(lit - soft) - std::abs(lit - hard); };
+ThresholdSums::Weighted BiasCounts::Adding::soft_steps(size_t i, const ReceiverTaps& taps) const {
   const TapThreshold threshold(e_.probe, e_.bias, *counts_.varied_, i);
   ThresholdSums::Weighted steps;
   for (size_t t = 0; t < taps.size(); ++t)
     if (taps[t].weight != 0)
       steps.emplace_back(threshold(taps.on(stored_map_, e_.map.format, t)), counts_.blended_ ? taps[t].weight : 1.0);
+  return steps;
+}
+
+// In the penumbra the error against R0 falls and rises again as tap after tap turns lit: in the order of the thresholds
+// each one adds the change that it makes.
+void BiasCounts::add_soft(ThresholdSums::Weighted& steps, float soft_truth, bool should_be_lit,
+                          ThresholdSums::Weighted& list, double& before) const {
+  const double soft = static_cast<double>(soft_truth) * whole_, hard = should_be_lit * whole_;
+  const auto softer_by = [&](double lit) { return std::abs(lit - soft) - std::abs(lit - hard); };
   std::sort(steps.begin(), steps.end());
   double lit = 0;
-  part.softer_before += softer_by(0);
+  before += softer_by(0);
   for (const auto& [at, weight] : steps) {
-    part.lists.weighted[softer].emplace_back(at, softer_by(lit + weight) - softer_by(lit));
+    list.emplace_back(at, softer_by(lit + weight) - softer_by(lit));
     lit += weight;
   }
 }
 
 void BiasCounts::Adding::join(Part& part) {
   counts_.receivers_ += part.receivers;
+  for (auto& [pixel, shared] : part.shared) counts_.shared_.emplace(pixel, std::move(shared));
   counts_.softer_before_ += part.softer_before;
   counts_.stored_acne_free_from_ = std::max(counts_.stored_acne_free_from_, part.stored_acne);
   for (size_t l = 0; l < lists; ++l) {
@@ -128,9 +146,31 @@ void BiasCounts::add(BiasCounts&& other) {
   if (varied_ != other.varied_ || taps_ != other.taps_ || blended_ != other.blended_)
     throw std::logic_error("BiasCounts: counts of different lookups");
   receivers_ += other.receivers_;
+  lists_wrong_ = lists_wrong_ || other.lists_wrong_;
   stored_acne_free_from_ = std::max(stored_acne_free_from_, other.stored_acne_free_from_);
   softer_before_ += other.softer_before_;
   for (size_t l = 0; l < lists; ++l) sums_[l].add(std::move(other.sums_[l]));
+  ThresholdList wrong_as_dark, wrong_as_light;
+  ThresholdSums::Weighted soft;
+  for (auto& [pixel, there] : other.shared_) {
+    const auto here = shared_.find(pixel);
+    if (here == shared_.end()) {
+      shared_.emplace(pixel, std::move(there));
+      continue;
+    }
+    Shared& both = here->second;
+    ++receivers_;
+    if (!both.lit)
+      wrong_as_light.push(std::min(both.turns, there.turns));
+    else if (const float turns = std::max(both.turns, there.turns); turns > 0)
+      wrong_as_dark.push(turns);
+    both.steps.insert(both.steps.end(), there.steps.begin(), there.steps.end());
+    if (!both.steps.empty()) add_soft(both.steps, both.soft, both.lit, soft, softer_before_);
+    shared_.erase(here);
+  }
+  sums_[wrong_dark].add(wrong_as_dark);
+  sums_[wrong_light].add(wrong_as_light);
+  sums_[softer].add(soft);
 }
 
 double BiasCounts::caused(Cause cause, float x) const {

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "compare/ladder/ladder.h"
@@ -39,7 +40,8 @@ class BiasCounts {
 
   class Adding;
 
-  // Adds the receivers that another one counts, with the same varied part and filter: those of another cascade.
+  // Adds what another one counts, with the same varied part and filter: the receivers of another cascade. A receiver that
+  // both have a share in (ReceiverTruth::share) is wrong if it is wrong in one of them, and counts once.
   void add(BiasCounts&& other);
 
   const BiasPart& varied() const { return *varied_; }
@@ -58,7 +60,7 @@ class BiasCounts {
   }
   // The receivers with R5 != R1.
   uint64_t wrong_receivers(float x) const {
-    if (taps_ == 1) return static_cast<uint64_t>(wrong_taps(x));
+    if (taps_ == 1 && !lists_wrong_) return static_cast<uint64_t>(wrong_taps(x));
     return static_cast<uint64_t>(sums_[wrong_dark].above(x) + sums_[wrong_light].up_to(x));
   }
   // The taps at R4 that have this cause. cause: one of the six that are booked tap by tap, or undecided. Among
@@ -85,7 +87,7 @@ class BiasCounts {
 
  private:
   // Taps that should be lit are wrong below their threshold. Taps that should be dark are wrong from their threshold
-  // on. wrong_*: of receivers; empty if each has one tap, because then the lists of errors say the same. softer: what
+  // on. wrong_*: of receivers; empty if each has one tap and one map, because then the lists of errors say the same. softer: what
   // |R5 - R0| - |R5 - R1| gains as taps of receivers in the penumbra turn lit, each weight with its sign.
   enum List : size_t {
     error_dark,
@@ -100,7 +102,20 @@ class BiasCounts {
   static constexpr size_t lists = first_cause + cause_count;
   static List of_cause(Cause cause) { return static_cast<List>(first_cause + static_cast<size_t>(cause)); }
 
+  // A receiver that two maps have a share in, as one of them counts it.
+  struct Shared {
+    bool lit = false;                    // R1
+    float turns = 0;                     // dark receivers: the least threshold of a tap, lit ones: the greatest
+    float soft = 0;                      // R0
+    ThresholdSums::Weighted steps = {};  // the taps' thresholds and weights, if R0 is not R1
+  };
+  // Adds what a receiver's taps change of |R5 - R0| - |R5 - R1|, and what it is while all are dark. steps: of all its taps.
+  void add_soft(ThresholdSums::Weighted& steps, float soft, bool lit, ThresholdSums::Weighted& list,
+                double& before) const;
+
   uint64_t receivers_ = 0;
+  bool lists_wrong_ = false;
+  std::unordered_map<size_t, Shared> shared_;  // by the pixel, until the other map's counts are added
   const BiasPart* varied_;
   bool blended_ = false;
   int taps_ = 1;  // of a receiver
@@ -119,14 +134,17 @@ class BiasCounts::Adding {
   };
   struct Part {
     Lists lists;
+    std::vector<std::pair<size_t, Shared>> shared{};
     uint64_t receivers = 0;
     float stored_acne = 0;  // the largest threshold
     double softer_before = 0;
   };
   Adding(BiasCounts& counts, const LookupEvidence& evidence, const MapDepths& stored_map)
-      : counts_(counts), e_(evidence), stored_map_(stored_map) {}
+      : counts_(counts), e_(evidence), stored_map_(stored_map) {
+    counts.lists_wrong_ = counts.taps_ > 1 || evidence.truth.share.size() != 0;
+  }
   void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
-  void soft_receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
+  ThresholdSums::Weighted soft_steps(size_t i, const ReceiverTaps& taps) const;
   void join(Part& part);
   void end_batch();
 

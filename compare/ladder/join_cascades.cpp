@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "compare/ladder/numbers.h"
@@ -84,21 +85,21 @@ std::map<std::string, double> join_soundness(Cascades cascades) {
   return joined;
 }
 
-std::map<std::string, double> join_placements(Cascades cascades) {
+std::map<std::string, double> join_placements(Cascades cascades, std::span<const double> receivers, bool shared) {
   std::map<std::string, double> joined;
-  double counted = 0;
-  for (const PointRecord::Cascade& cascade : cascades) counted += cascade.metrics.at("counted");
+  const double all = std::accumulate(receivers.begin(), receivers.end(), 0.0);
   for (const Metric& metric : metrics_table()) {
     const std::string name(metric.name);
     if (!metric.of_placements || !cascades.front().metrics.contains(name)) continue;
     // A root mean square adds by its squares.
     const bool squares = name.starts_with("aliasing_rms");
+    if (shared && (squares || name.starts_with("wrong_"))) continue;
     double sum = 0;
-    for (const PointRecord::Cascade& cascade : cascades) {
-      const double count = cascade.metrics.at("counted"), value = cascade.metrics.at(name);
-      if (count > 0) sum += count * (squares ? value * value : value);
+    for (size_t k = 0; k < cascades.size(); ++k) {
+      const double value = cascades[k].metrics.at(name);
+      if (receivers[k] > 0) sum += receivers[k] * (squares ? value * value : value);
     }
-    const double mean = counted > 0 ? sum / counted : not_a_number;
+    const double mean = all > 0 ? sum / all : not_a_number;
     joined[name] = squares ? std::sqrt(mean) : mean;
   }
   return joined;

@@ -183,17 +183,45 @@ void Climb::join(const Part& part) {
   ladder_.tap_residual = larger(ladder_.tap_residual, part.taps);
 }
 
-void join(Ladder& ladder, const Ladder& other) {
+namespace {
+
+void take(Ladder& ladder, const Ladder& other, size_t i) {
+  for (size_t n = 0; n < ladder.rungs.size(); ++n) ladder.rungs[n].lit[i] = other.rungs[n].lit[i];
+  for (size_t c = 0; c < ladder.causes.size(); ++c) ladder.causes[c].step[i] = other.causes[c].step[i];
+  ladder.cause[i] = other.cause[i];
+  ladder.flags[i] = other.flags[i];
+  ladder.doubt[i] = other.doubt[i];
+}
+
+void mix(Ladder& ladder, const Ladder& other, size_t i, double share) {
+  const auto mixed = [&](float& here, float there) {
+    here = static_cast<float>((1 - share) * static_cast<double>(here) + share * static_cast<double>(there));
+  };
+  for (size_t n = 0; n < ladder.rungs.size(); ++n) mixed(ladder.rungs[n].lit[i], other.rungs[n].lit[i]);
+  double steps = 0;
+  for (size_t c = 0; c < ladder.causes.size(); ++c) {
+    mixed(ladder.causes[c].step[i], other.causes[c].step[i]);
+    steps += static_cast<double>(ladder.causes[c].step[i]);
+  }
+  mixed(ladder.doubt[i], other.doubt[i]);
+  ladder.flags[i] |= other.flags[i];
+  ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, true));
+  const double change = static_cast<double>(ladder.shown()[i]) - static_cast<double>(ladder.soft_truth()[i]);
+  ladder.residual = larger(ladder.residual, std::abs(change - steps));
+}
+
+}  // namespace
+
+void join(Ladder& ladder, const Ladder& other, const Image<double>& share) {
   if (ladder.rungs.size() != other.rungs.size() || ladder.causes.size() != other.causes.size() ||
-      ladder.flags.size() != other.flags.size())
+      ladder.flags.size() != other.flags.size() || share.size() != ladder.flags.size())
     throw std::logic_error("join: ladders of different rungs, causes or sizes");
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     if (!(other.flags[i] & flag_facing)) continue;
-    for (size_t n = 0; n < ladder.rungs.size(); ++n) ladder.rungs[n].lit[i] = other.rungs[n].lit[i];
-    for (size_t c = 0; c < ladder.causes.size(); ++c) ladder.causes[c].step[i] = other.causes[c].step[i];
-    ladder.cause[i] = other.cause[i];
-    ladder.flags[i] = other.flags[i];
-    ladder.doubt[i] = other.doubt[i];
+    if (!(ladder.flags[i] & flag_facing))
+      take(ladder, other, i);
+    else if (share[i] > 0)
+      mix(ladder, other, i, share[i]);
   }
   ladder.residual = larger(ladder.residual, other.residual);
   ladder.tap_residual = larger(ladder.tap_residual, other.tap_residual);

@@ -145,9 +145,11 @@ Ladder climb(const LookupEvidence& evidence);
 Ladder empty_ladder(int width, int height);
 void climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);
 
-// Takes the facing receivers of another ladder of the same size and rungs, none of which faces in this one: the receivers
-// of another cascade.
-void join(Ladder& ladder, const Ladder& other);
+// Adds what another map shows to its receivers, in a ladder of the same size and rungs. share: the part that it has in each
+// receiver's result (ReceiverTruth::share). A receiver that this ladder does not have is taken as it is. For one that it
+// has, each rung and step is mixed: (1 - share) of this ladder's and share of the other's. So the steps still sum to the
+// error. Both ladders have the same R0 and R1, so that no receiver is further off than in the worse of the two maps.
+void join(Ladder& ladder, const Ladder& other, const Image<double>& share);
 
 class ReceiverTaps;
 

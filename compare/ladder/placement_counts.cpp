@@ -76,8 +76,9 @@ PlacementCounts::Kind PlacementCounts::kind_of(Cause cause, bool dark) {
 
 void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const PlacedTaps& taps, const LatticeBox& box) {
   const LookupProbe& probe = e.probe;
-  if (e.truth.ambiguous[pixel]) return;
-  ++receivers_;
+  const double share = e.truth.share_of(pixel);
+  if (e.truth.ambiguous[pixel] || share == 0) return;
+  receivers_ += share;
   const size_t side = static_cast<size_t>(placements_.side());
   const int tap_count = probe.taps();
   const bool truth = e.truth.lit[pixel] != 0, asks = probe.asks(pixel);
@@ -102,8 +103,9 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
       read = {placements_.texel_of(point), box.depth[n], {taps.x[i], taps.y[j]}};
       bits = static_cast<uint8_t>((bits & ~of_texel) | box.bits[n]);
     }
-    const Tap exact = tap_of(probe, bits, e.map, size, pixel, t, read);
+    Tap exact = tap_of(probe, bits, e.map, size, pixel, t, read);
     if (exact.weight == 0) return;
+    exact.weight *= share;
     read.depth = stored_depth(read.depth, e.map.format);
     const Tap shown = e.map.format == DepthFormat::d32f ? exact : tap_of(probe, bits, e.map, size, pixel, t, read);
     book(j * side + i, truth, bias, threshold, exact, shown, e.map.format != DepthFormat::d32f, receiver);
@@ -118,7 +120,7 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
     book_beside(e, pixel, box, truth, bias, threshold);
     return;
   }
-  const bool by_depth = flat && !beyond_far && inside_map(low, size) && inside_map(high, size);
+  const bool by_depth = share == 1 && flat && !beyond_far && inside_map(low, size) && inside_map(high, size);
   if (!by_depth) {
     for (size_t j = 0; j < side; ++j)
       for (size_t i = 0; i < side; ++i) {
@@ -162,7 +164,7 @@ void PlacementCounts::book_beside(const PlacementEvidence& e, size_t pixel, cons
   Tap tap = tap_of(e.probe, bits, e.map, e.map_size, pixel, 0, {.texel = {-1, -1}, .depth = border_depth});
   // The border is lit at any bias that is not negative. A tap that should be lit is never wrong then.
   if (truth && tap.moved_sure && tap.moved_lit && tap.lit(0) && tap.lit(bias)) return;
-  tap.weight = e.probe.taps();
+  tap.weight = e.probe.taps() * e.truth.share_of(pixel);
   for (size_t placement = 0; placement < count_; ++placement) {
     OfReceiver receiver;
     book(placement, truth, bias, threshold, tap, tap, false, receiver);
@@ -237,8 +239,9 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
 
 void PlacementCounts::add(const LookupEvidence& e, size_t pixel) {
   if (count_ != 1) throw std::logic_error("the evidence of one placement is added to the counts of one");
-  if (e.truth.ambiguous[pixel]) return;
-  ++receivers_;
+  const double share = e.truth.share_of(pixel);
+  if (e.truth.ambiguous[pixel] || share == 0) return;
+  receivers_ += share;
   const bool truth = e.truth.lit[pixel] != 0, rounded = e.map.format != DepthFormat::d32f;
   const float bias = e.bias.at(e.probe, pixel);
   std::optional<TapThreshold> threshold;
@@ -247,8 +250,9 @@ void PlacementCounts::add(const LookupEvidence& e, size_t pixel) {
   ReceiverTaps taps;
   taps.read(e, pixel);
   for (size_t t = 0; t < taps.size(); ++t) {
-    const Tap exact = taps[t];
+    Tap exact = taps[t];
     if (exact.weight == 0) continue;
+    exact.weight *= share;
     const Tap shown = rounded ? taps.at_depth(stored_depth(exact.depth, e.map.format), e.map.format, t) : exact;
     book(0, truth, bias, threshold, exact, shown, rounded, receiver);
   }
@@ -347,13 +351,13 @@ std::map<std::string, std::vector<double>> PlacementCounts::shares() const {
   const auto sum = [&](Kind a, Kind b) { return [this, a, b](size_t p) { return own_[a][p] + own_[b][p]; }; };
   const auto one = [&](Kind a) { return [this, a](size_t p) { return own_[a][p]; }; };
   add("error", taps(), sum(error_dark, error_light));
-  add("wrong", static_cast<double>(receivers_), [&](size_t p) { return wrong_receivers_[p]; });
+  add("wrong", receivers_, [&](size_t p) { return wrong_receivers_[p]; });
   add("acne", taps(), one(acne));
   add("peter_panning", taps(), one(peter_panning));
   add("aliasing", taps(), sum(aliasing_dark, aliasing_light));
   add("aliasing_dark", taps(), one(aliasing_dark));
   add("aliasing_light", taps(), one(aliasing_light));
-  add("aliasing_rms", static_cast<double>(receivers_), [&](size_t p) { return aliasing_squares_[p]; });
+  add("aliasing_rms", receivers_, [&](size_t p) { return aliasing_squares_[p]; });
   for (double& value : shares["aliasing_rms"]) value = std::sqrt(value);
   add("coverage", taps(), sum(coverage_dark, coverage_light));
   add("coverage_dark", taps(), one(coverage_dark));

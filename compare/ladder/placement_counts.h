@@ -68,8 +68,9 @@ class PlacementCounts {
   uint64_t disagreements(int placement, const PlacementCounts& one) const;
 
   const Placements& placements() const { return placements_; }
-  uint64_t receivers() const { return receivers_; }
-  double taps() const { return static_cast<double>(receivers_) * whole_; }
+  // Of a map that others share receivers with: the sum of its shares (ReceiverTruth::share).
+  double receivers() const { return receivers_; }
+  double taps() const { return receivers_ * whole_; }
 
   // The taps with this cause at one of the edges; Cause::undecided too. At R4.
   double caused(Cause cause, int placement, size_t edge) const;
@@ -97,7 +98,7 @@ class PlacementCounts {
     error_light,
     kinds
   };
-  // What the taps of one receiver sum up to, at one placement.
+  // What the taps of one receiver sum up to, at one placement. Of a receiver that other maps share it is no part of a number.
   struct OfReceiver {
     double wrong_weight = 0, aliasing = 0;
   };
@@ -129,7 +130,7 @@ class PlacementCounts {
   const BiasPart* varied_;
   ThresholdBins bins_;
   double whole_ = 1;
-  uint64_t receivers_ = 0;
+  double receivers_ = 0;
   float acne_free_from_ = 0;
   // [kind][bin][placement]: weight of the thresholds. The taps of a receiver have neighbouring bins at all placements.
   std::vector<double> histogram_;

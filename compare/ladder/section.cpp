@@ -335,7 +335,17 @@ ReceiverSection section_of(const SectionInput& in, glm::ivec2 pixel) {
   if (in.ladder.cause[i] < cause_count) section.cause = static_cast<Cause>(in.ladder.cause[i]);
   section.largest = section.cause;
 
+  section.share = in.share;
   section.taps = taps_of(in, tile, section, i, bias);
+  if (section.share != 1) {  // the ladder has the mix of two maps
+    double on_exact_map = 0, shown = 0;
+    for (const SectionTap& tap : section.taps) {
+      if (tap.lit) on_exact_map += tap.weight;
+      if (tap.shown_lit) shown += tap.weight;
+    }
+    section.on_exact_map = static_cast<float>(on_exact_map);
+    section.shown = static_cast<float>(shown);
+  }
   section.key_tap = key_tap_of(section, probe.middle_tap());
   double reach = least_reach;
   for (const SectionTap& tap : section.taps)

@@ -73,6 +73,7 @@ struct ReceiverSection {
   bool axial = true;                          // depth is measured along the light's axis, not as a distance
   int tile = 0;                               // the face of a cube; 0 of a flat map
   int cascade = 0;                            // from 1, the nearest; 0: the point has one map
+  double share = 1;                           // of this map in the pixel's result: below 1 in a blend band
   glm::ivec2 map_size{1};
   double near_m = 0, far_m = 1;
   glm::dvec2 place{0};         // looked up, in texels of the map's image
@@ -88,7 +89,7 @@ struct ReceiverSection {
   bool beyond_far = false;
   bool casters_moved = false;  // the map is drawn from moved or offset casters, or without some faces
   bool front_culled = false;
-  float soft_truth = 0, truth = 0, on_exact_map = 0, shown = 0;  // R0, R1, R4, R5
+  float soft_truth = 0, truth = 0, on_exact_map = 0, shown = 0;  // R0, R1, R4, R5; the latter two of this map alone
   Cause cause = Cause::none;                                     // of the pixel, as the ladder names it
   std::vector<SectionColumn> columns;                            // by s
   std::vector<SectionTap> taps;                                  // in the order of the pattern
@@ -107,6 +108,7 @@ struct SectionInput {
   const LookupEvidence& evidence;                            // holds the taps of the pixel
   const MapDepths& stored;                                   // OpenGL's map at the texels that taps read
   const std::function<Image<float>(int, int)>& stored_rows;  // rows of the whole of it: (first, number)
+  double share = 1;                                          // of this map in the pixel's result
 };
 
 // The pixels of a measured picture whose sections explain it: the one with the largest error, and of each cause the one with

@@ -157,10 +157,58 @@ constexpr Metric measured_with_causes[] = {
      "Above 1 it is a defect.",
      false},
     {"cascade_choice_excess", "",
-     "Of cascades: how far beyond a split a receiver lies that the lookup counts to the wrong side of it, as a "
-     "multiple of "
-     "the largest error that float arithmetic can make of its depth; 0: none does. Above 1 it is a defect.",
+     "Of cascades: how far beyond the end of a cascade a receiver lies that the lookup counts to the wrong side of it, "
+     "or how far its weight in a blend band is off, as a multiple of the largest error that float arithmetic can make "
+     "of it; 0: the choice is exact. Above 1 it is a defect.",
      false, false, false, false, false, true},
+    {"seam_points", "receivers",
+     "Of cascades: the counted receivers in the last 4% of a cascade, over which seams are measured.", false, false,
+     false, false, false, true},
+    {"seam_jump", "fraction",
+     "Of cascades: mean |R5 in the next cascade - R5 in its own| over the receivers in the last 4% of a cascade that "
+     "is "
+     "not the last: the step that the picture has there without a blend band.",
+     true, false, false, false, false, true},
+    {"seam_filter", "fraction",
+     "The part of seam_jump because the filter blurs wider or narrower: mean |difference of the steps|. Parts of "
+     "opposite sign can add up to more than "
+     "seam_jump.",
+     true, false, false, false, false, true},
+    {"seam_displacement", "fraction",
+     "The part of seam_jump because the moved lookup has another effect: mean |difference of the steps|. Parts of "
+     "opposite sign can add up to more than "
+     "seam_jump.",
+     true, false, false, false, false, true},
+    {"seam_aliasing", "fraction",
+     "The part of seam_jump because aliasing differs: mean |difference of the steps|. Parts of opposite sign can add "
+     "up to more than "
+     "seam_jump.",
+     true, false, false, false, false, true},
+    {"seam_acne", "fraction",
+     "The part of seam_jump because acne differs: mean |difference of the steps|. Parts of opposite sign can add up to "
+     "more than "
+     "seam_jump.",
+     true, false, false, false, false, true},
+    {"seam_peter_panning", "fraction",
+     "The part of seam_jump because Peter Panning differs: mean |difference of the steps|. Parts of opposite sign can "
+     "add up to more than "
+     "seam_jump.",
+     true, false, false, false, false, true},
+    {"seam_coverage", "fraction",
+     "The part of seam_jump because coverage differs: for example where the next map does not hold the receiver: mean "
+     "|difference of the steps|. Parts of opposite sign can add up to more than "
+     "seam_jump.",
+     true, false, false, false, false, true},
+    {"seam_undecided", "fraction",
+     "The part of seam_jump because the truth of a tap is undecided in one of them: mean |difference of the steps|. "
+     "Parts of opposite sign can add up to more than "
+     "seam_jump.",
+     true, false, false, false, false, true},
+    {"seam_precision", "fraction",
+     "The part of seam_jump because the stored maps differ from exact ones: mean |difference of the steps|. Parts of "
+     "opposite sign can add up to more than "
+     "seam_jump.",
+     true, false, false, false, false, true},
     {"address_error_texels", "texels",
      "Largest distance in the map from the exact place where a receiver is looked up to the texel that the lookup "
      "reads.",

@@ -123,7 +123,9 @@ inline constexpr const char* cascade_metrics[] = {"facing",
                                                   "texel_m",
                                                   "map_range_m",
                                                   "acne_free_bias_law_m",
-                                                  "edge_displacement_texels"};
+                                                  "edge_displacement_texels",
+                                                  "seam_points",
+                                                  "seam_jump"};
 
 struct PointRecord : PointPictures {
   int64_t id = 0;                               // position in the sweep, from 0
@@ -149,8 +151,10 @@ struct PointRecord : PointPictures {
   std::vector<WorstOf> worst_of;
   // Of a point with several cascades each, near ones first; empty with one map.
   struct Cascade {
-    double begin_m = 0, end_m = 0;          // the depths along the view at which its slice begins and ends
-    std::map<std::string, double> metrics;  // those of cascade_metrics, over the receivers of this cascade alone
+    double begin_m = 0, end_m = 0;  // the depths along the view at which its slice begins and ends
+    std::map<std::string, double>
+        metrics;  // those of cascade_metrics, over the receivers of this cascade alone; the seam is the
+                  // one to the next
     // The least amount of the curve's parameter from which on no tap of this cascade is acne; empty: no curve, or no amount
     // is enough.
     std::optional<double> bias_needed;

@@ -11,44 +11,11 @@
 #include "compare/ladder/measure.h"
 #include "compare/report/cascade_rows.h"
 #include "scenes/library.h"
+#include "tests/acceptance/maps_apart.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {
 namespace {
-
-Settings street(const std::vector<Assignment>& more) {
-  return with(more, with({{"cascades.count", "4"},
-                          {"map.fit", "sphere"},
-                          {"map.resolution", "256"},
-                          {"bias.unit", "texel"},
-                          {"bias.constant", "1.5"}},
-                         small("pillars", 320, 180)));
-}
-
-// Measures maps one by one with the program's stages, over the receivers of a given truth.
-class MapsApart {
- public:
-  explicit MapsApart(const Settings& settings)
-      : scene_(stages_.load_scene(renderer, settings)),
-        view_(stages_.take_view(renderer, *scene_.scene, settings.view)) {
-    renderer.load_receivers(view_.receivers, view_.camera.eye_m);
-  }
-  const Scene& scene() const { return *scene_.scene; }
-  TruthStage truth_of(const Technique& technique) { return stages_.trace_truth(scene_, view_, technique); }
-  Ladder climb(const Technique& technique, const TruthStage& truth) {
-    LookupStage lookup = stages_.prepare_lookup(renderer, *scene_.tracer, view_, truth, technique);
-    MapStage map = stages_.draw_map(renderer, *scene_.scene, technique);
-    const ShownStage shown = stages_.show(renderer, map, lookup, truth, technique);
-    return stages_.climb_strips(renderer, lookup, view_, truth, shown, technique, nullptr).ladder;
-  }
-
-  gl::Renderer renderer{gl::DebugMode::fatal};
-
- private:
-  Pipeline stages_;
-  SceneStage scene_;
-  ViewStage view_;
-};
 
 class CascadeCase : public testing::TestWithParam<SceneCase> {
  protected:
@@ -69,7 +36,7 @@ TEST_P(CascadeCase, EqualsSeparateMapsOverTheSameReceivers) {
 
   MapsApart apart(s);
   std::vector<Technique> techniques = cascades_of(apart.scene(), s);
-  ASSERT_EQ(m.cascades.pixels, apart.renderer.choose_cascades(techniques[0]).pixels);
+  ASSERT_EQ(m.cascades.of.pixels, apart.renderer.choose_cascades(techniques[0]).of.pixels);
   std::array<uint64_t, 4> counted{};
   double error = 0;
   for (size_t k = 0; k < techniques.size(); ++k) {
@@ -78,7 +45,7 @@ TEST_P(CascadeCase, EqualsSeparateMapsOverTheSameReceivers) {
     const Ladder ladder = apart.climb(alone, apart.truth_of(alone));
     double own_error = 0;
     for (size_t i = 0; i < ladder.flags.size(); ++i) {
-      if (m.cascades[i] != k) continue;
+      if (m.cascades.of[i] != k) continue;
       ASSERT_EQ(m.ladder.flags[i], ladder.flags[i]) << k << " " << i;
       for (size_t n = 0; n < ladder.rungs.size(); ++n)
         ASSERT_EQ(m.ladder.rungs[n].lit[i], ladder.rungs[n].lit[i]) << k << " " << ladder.rungs[n].name << " " << i;
@@ -187,8 +154,8 @@ TEST(CascadedPoint, CountsEachCascadeAtItsOwnWorstPlacement) {
     double mean = 0, worst = 0, acne_worst = 0, counted = 0;
     for (const Technique& cascade : cascades_of(apart.scene(), s)) {
       TruthStage truth = apart.truth_of(cascade);
-      for (size_t i = 0; i < m.cascades.size(); ++i)
-        if (m.cascades[i] != cascade.cascade->index) truth.receivers.facing[i] = 0;
+      for (size_t i = 0; i < m.cascades.of.size(); ++i)
+        if (m.cascades.of[i] != cascade.cascade->index) truth.receivers.facing[i] = 0;
       double own_worst = 0, own_acne = 0, receivers = 0;
       for (int p = 0; p < placements.count(); ++p) {
         const Technique moved = cascade.at(placements.frame(cascade.frame, p));
@@ -231,9 +198,9 @@ TEST(CascadedPoint, HasSectionsInTheCascadeOfEachPixel) {
   std::vector<glm::ivec2> pixels;
   std::vector<size_t> cascades;
   for (size_t k = 0; k < m.maps.size(); ++k)
-    for (size_t i = 0; i < m.cascades.size(); ++i)
-      if (m.cascades[i] == k && is_counted(m.ladder, i)) {
-        pixels.emplace_back(static_cast<int>(i) % m.cascades.width, static_cast<int>(i) / m.cascades.width);
+    for (size_t i = 0; i < m.cascades.of.size(); ++i)
+      if (m.cascades.of[i] == k && is_counted(m.ladder, i)) {
+        pixels.emplace_back(static_cast<int>(i) % m.cascades.of.width, static_cast<int>(i) / m.cascades.of.width);
         cascades.push_back(k);
         break;
       }
@@ -246,7 +213,7 @@ TEST(CascadedPoint, HasSectionsInTheCascadeOfEachPixel) {
   const auto empty = std::find(m.receivers.primitive.pixels.begin(), m.receivers.primitive.pixels.end(), no_primitive);
   ASSERT_NE(empty, m.receivers.primitive.pixels.end());
   const int at = static_cast<int>(empty - m.receivers.primitive.pixels.begin());
-  const glm::ivec2 sky[] = {{at % m.cascades.width, at / m.cascades.width}};
+  const glm::ivec2 sky[] = {{at % m.cascades.of.width, at / m.cascades.of.width}};
   EXPECT_THROW(bench.sections(m, sky), Error);
 }
 

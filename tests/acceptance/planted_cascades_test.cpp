@@ -4,7 +4,8 @@
 namespace noonmark::planted {
 namespace {
 
-const char* const choice = "shaders/cascade/by_depth.glsl";
+const char* const choice = "shaders/cascade/choice.glsl";
+const char* const by_depth = "shaders/cascade/by_depth.glsl";
 
 // Texels of 3 cm near the eye and of half a metre 100 m away.
 Settings cascades(std::initializer_list<acceptance::Assignment> more = {}) {
@@ -20,31 +21,49 @@ std::vector<Planted> defects() {
   std::vector<Planted> all;
   // The choice, in lookup and probe alike: each receiver is then looked up soundly in the cascade that was chosen, so that
   // nothing but the choice is wrong.
-  all.push_back(
-      {"CascadeByTheDistanceInsteadOfTheDepth",
-       cascades(),
-       {.shaders = patched(choice, "cascade_depth(position, eye_m, view_forward)", "distance(position, eye_m)")},
-       {{"cascade_choice_excess", 1, 1000}},
-       {"contract", "rounding_excess"}});
+  all.push_back({"CascadeByTheDistanceInsteadOfTheDepth",
+                 cascades(),
+                 {.shaders = patched(by_depth,
+                                     "place_by_depth(position, eye_m, view_forward, cascade_depths[cascade].x, "
+                                     "cascade_depths[cascade].y)",
+                                     "(distance(position, eye_m) - cascade_depths[cascade].x + 0.0 * view_forward.x) / "
+                                     "(cascade_depths[cascade].y - cascade_depths[cascade].x)")},
+                 {{"cascade_choice_excess", 1, 1000}},
+                 {"contract", "rounding_excess"}});
   // The upper half of a float: 8 bits.
-  all.push_back(
-      {"CascadeByADepthOf8Bits",
-       cascades({{"cascades.count", "8"}, {"cascades.splits", "logarithmic"}}),
-       {.shaders = patched(choice, "if (depth > cascade_bound_m[i])",
-                           "if (uintBitsToFloat(floatBitsToUint(depth) & 0xffff0000u) > cascade_bound_m[i])")},
-       {{"cascade_choice_excess", 1, 100}},
-       {"contract"}});
+  all.push_back({"CascadeByADepthOf8Bits",
+                 cascades({{"cascades.count", "8"}, {"cascades.splits", "logarithmic"}}),
+                 {.shaders = patched(choice, "if (place <= 1.0)",
+                                     "if (uintBitsToFloat(floatBitsToUint(place) & 0xffff0000u) <= 1.0)")},
+                 {{"cascade_choice_excess", 1, 100}},
+                 {"contract"}});
   all.push_back({"CascadesCountedFromOne",
                  cascades(),
-                 {.shaders = patched(choice, "int cascade = 0;", "int cascade = cascade_bound_m[0] > 0.0 ? 1 : 0;")},
+                 {.shaders = patched(choice, "int k = 0; k < last_cascade", "int k = 1; k < last_cascade")},
                  {{"cascade_choice_excess", 1, 1000}}});
   // In the lookup alone: the receivers of the next cascade are looked up, and a cascade's own are left out.
-  all.push_back(
-      {"CascadeOfTheNextReceivers",
-       cascades(),
-       {.shaders = patched(choice, "cascade_of(position) == this_cascade", "cascade_of(position) == this_cascade + 1")},
-       {{"contract", 0, 0.5}},
-       {"cascade_choice_excess", "rounding_excess"}});
+  all.push_back({"CascadeOfTheNextReceivers",
+                 cascades(),
+                 {.shaders = patched(choice, "choice.cascade == this_cascade ", "choice.cascade == this_cascade + 1 ")},
+                 {{"contract", 0, 0.5}},
+                 {"cascade_choice_excess", "rounding_excess"}});
+  // The weight of the next cascade falls where it should grow; and it is that of another band.
+  all.push_back({"CascadeBlendTurned",
+                 cascades({{"cascades.blend", "0.3"}}),
+                 {.shaders = patched(choice, "weight_of_next(place, cascade_blend)",
+                                     "1.0 - weight_of_next(place, cascade_blend)")},
+                 {{"cascade_choice_excess", 1, 1000}}});
+  all.push_back({"CascadeBlendOfHalfTheBand",
+                 cascades({{"cascades.blend", "0.3"}}),
+                 {.shaders = patched(choice, "weight_of_next(place, cascade_blend)",
+                                     "weight_of_next(place, 0.5 * cascade_blend)")},
+                 {{"cascade_choice_excess", 1, 1000}}});
+  // The first map that holds a receiver, forgetting what lies beyond its far plane.
+  all.push_back({"CascadeByAMapWithoutItsDepth",
+                 cascades({{"scene.name", "street"}, {"cascades.select", "map"}, {"map.fit", "view"}}),
+                 {.shaders = patched("technique/cascade_place.glsl", "max(max(across, along), behind)",
+                                     "max(across, along) + 0.0 * behind")},
+                 {{"cascade_choice_excess", 1, 1000}}});
   // The map is drawn for a larger slice than it is looked up for.
   all.push_back({"CascadeDrawnForAnotherSlice",
                  cascades(),

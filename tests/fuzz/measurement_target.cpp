@@ -115,6 +115,7 @@ double most_of(const Setting& row) {
   if (row.name == "view.width_px") return 24;
   if (row.name == "view.height_px") return 18;
   if (row.name == "map.resolution") return 96;
+  if (row.name == "cascades.resolutions") return 200;
   if (row.name == "map.placements") return 3;
   if (row.name == "filter.size") return 7;
   return row.max;
@@ -143,6 +144,12 @@ std::string any_value(const Setting& row, Choices& choices) {
         number += std::pow(10.0, choices.between(-2, 2));
         list += fmt::format("{}{}", list.empty() ? "" : ",", number);
       }
+      return list;
+    }
+    case ValueType::whole_list: {
+      std::string list;
+      for (int n = choices.below(most_cascades); n >= 0; --n)
+        list += fmt::format("{}{}", list.empty() ? "" : ",", 1 + choices.below(static_cast<int>(most)));
       return list;
     }
     case ValueType::real:

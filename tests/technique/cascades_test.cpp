@@ -10,6 +10,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/shapes.h"
+#include "technique/cascade_selections.h"
 #include "technique/cascade_splits.h"
 #include "technique/map_fit.h"
 
@@ -241,33 +242,152 @@ TEST(Cascades, HaveTheMapsOfTheirSlices) {
     }
 }
 
-TEST(Cascades, AreChosenByTheDepthAlongTheView) {
+// Three cascades that end at these depths.
+CascadePlace by_depth(double first, double second) {
   CascadePlace place;
-  place.bounds_m = {2, 8};
-  place.forward = {0, 0, -1};
+  place.slices = {{0.5, first}, {first, second}, {second, 100}};
+  place.selection = &find_cascade_selection("depth");
+  place.depths = {{0.5, first}, {first, second}};
+  place.view_forward = {0, 0, -1};
+  return place;
+}
+
+TEST(Cascades, AreChosenByTheDepthAlongTheView) {
+  const CascadePlace place = by_depth(2, 8);
   const glm::dvec3 eye(1, 2, 3);
   const auto at = [&](double depth) { return cascade_at(place, eye, eye + glm::dvec3(5, -4, -depth)); };
-  EXPECT_EQ(at(0.5), 0);
+  EXPECT_EQ(at(0.25), 0);
   EXPECT_EQ(at(2), 0) << "a bound belongs to the nearer cascade";
   EXPECT_EQ(at(2.001), 1);
   EXPECT_EQ(at(8.001), 2);
   EXPECT_EQ(at(1000), 2);
-  // Float arithmetic stays within its bound.
+}
+
+TEST(Cascades, BlendIntoTheNextEvenly) {
+  CascadePlace place = by_depth(2, 8);
+  place.blend = 0.25f;
+  const glm::dvec3 eye(1, 2, 3);
+  const auto at = [&](double depth) { return choose_cascade(place, eye, eye + glm::dvec3(5, -4, -depth)); };
+  EXPECT_EQ(at(6.4).next, 0);
+  EXPECT_NEAR(at(7.25).next, 0.5, 1e-12) << "half of the last quarter of 6 m";
+  EXPECT_EQ(at(7.25).cascade, 1);
+  EXPECT_NEAR(at(8).next, 1, 1e-12);
+  EXPECT_EQ(at(8.01).next, 0) << "the next one has begun";
+  EXPECT_EQ(at(90).next, 0) << "the last blends into none";
+}
+
+TEST(Cascades, AreChosenByTheFirstMapOrSphereThatHoldsThePoint) {
+  CascadePlace place = by_depth(2, 8);
+  place.middles = {{0, 0, -1}, {0, 0, -5}};
+  place.halves = {{2, 1, 3}, {4, 4, 10}};
+  place.light_axes = glm::mat3({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+  const glm::dvec3 eye(0);
+  place.selection = &find_cascade_selection("map");
+  EXPECT_EQ(cascade_at(place, eye, {1.9, 0, -1.9}), 0);
+  EXPECT_EQ(cascade_at(place, eye, {2.1, 0, -1}), 1) << "beside the first";
+  EXPECT_EQ(cascade_at(place, eye, {0, 0, -2.1}), 1) << "above the first";
+  EXPECT_EQ(cascade_at(place, eye, {0, -3.1, -1}), 1) << "beyond the first";
+  EXPECT_EQ(cascade_at(place, eye, {0, 9, -1}), 0) << "before it: it is still drawn and looked up there";
+  EXPECT_EQ(cascade_at(place, eye, {0, 0, -9.5}), 2);
+  place.selection = &find_cascade_selection("sphere");
+  EXPECT_EQ(cascade_at(place, eye, {1.2, 1.2, -2}), 0);
+  EXPECT_EQ(cascade_at(place, eye, {1.3, 1.3, -2}), 1);
+  EXPECT_EQ(cascade_at(place, eye, {0, 0, -9.1}), 2);
+  place.blend = 0.5f;
+  EXPECT_NEAR(choose_cascade(place, eye, {0, 0, -2.5}).next, 0.5, 1e-12) << "three quarters of the radius";
+}
+
+// A choice in float stays within the bound of its error, by every selection, and where it does not, the excess says so.
+TEST(Cascades, FloatArithmeticStaysWithinItsBound) {
   std::mt19937 random(64);
   std::uniform_real_distribution<float> unit(-1, 1);
-  double largest = 0;
-  for (int n = 0; n < 20000; ++n) {
-    const glm::dvec3 way = glm::normalize(glm::dvec3(unit(random), unit(random), unit(random)));
-    place.forward = glm::vec3(way);
-    const glm::dvec3 from(100.0 * unit(random), 5.0 * unit(random), 1e3 * unit(random));
-    const glm::vec3 p(20 * unit(random), 3 * unit(random), 50 * unit(random));
-    const glm::vec3 there = p - glm::vec3(from);
-    const float depth = there.x * place.forward.x + there.y * place.forward.y + there.z * place.forward.z;
-    const double error = std::abs(static_cast<double>(depth) - cascade_depth(place, from, p));
-    largest = std::max(largest, error / cascade_depth_error(place, from, p));
+  for (const CascadeSelection& selection : cascade_selections()) {
+    double largest = 0;
+    for (int n = 0; n < 20000; ++n) {
+      const auto vector = [&](float x, float y, float z) {
+        return glm::vec3(x * unit(random), y * unit(random), z * unit(random));
+      };
+      CascadePlace place = by_depth(2, 8);
+      place.selection = &selection;
+      place.view_forward = glm::normalize(vector(1, 1, 1));
+      place.middles = {vector(50, 5, 50), vector(50, 5, 50)};
+      place.halves = {glm::vec3(2 + unit(random), 3, 4), glm::vec3(12 + unit(random), 13, 14)};
+      const glm::dvec3 eye(100.0 * unit(random), 5.0 * unit(random), 1e3 * unit(random));
+      const glm::vec3 p = vector(20, 3, 50), e(eye);
+      const auto dot = [](glm::vec3 a, glm::vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+      const glm::vec3 way = p - place.middles[0];
+      float made = 0;
+      if (selection.name == "depth")
+        made = (dot(p - e, place.view_forward) - place.depths[0].x) / (place.depths[0].y - place.depths[0].x);
+      else if (selection.name == "sphere")
+        made = std::sqrt(dot(way, way)) / place.halves[0].x;
+      else
+        made = std::max(
+            {std::abs(way.x) / place.halves[0].x, std::abs(way.y) / place.halves[0].y, way.z / place.halves[0].z});
+      const Bounded bounds = selection.place_in_bounds(place, 0, eye, p);
+      EXPECT_NEAR(bounds.value, selection.place_in_double(place, 0, eye, p), 1e-9 * (1 + std::abs(bounds.value)));
+      largest = std::max(largest, std::abs(static_cast<double>(made) - bounds.value) / bounds.error);
+    }
+    EXPECT_LE(largest, 1) << selection.name;
+    EXPECT_GT(largest, 0.05) << selection.name << ": the bound says nothing";
   }
-  EXPECT_LE(largest, 1);
-  EXPECT_GT(largest, 0.05) << "the bound says nothing";
+}
+
+TEST(Cascades, TheExcessOfAChoiceCountsEveryWrongSide) {
+  CascadePlace place = by_depth(2, 8);
+  const glm::dvec3 eye(0);
+  const glm::vec3 first(0, 0, -1), second(0, 0, -5);
+  EXPECT_EQ(choice_excess(place, eye, first, {0, 0}), 0);
+  EXPECT_GT(choice_excess(place, eye, first, {1, 0}), 1e5);
+  EXPECT_GT(choice_excess(place, eye, second, {0, 0}), 1e5);
+  EXPECT_GT(choice_excess(place, eye, second, {2, 0}), 1e5);
+  EXPECT_EQ(choice_excess(place, eye, second, {3, 0}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(choice_excess(place, eye, second, {1, std::nan("")}), std::numeric_limits<double>::infinity());
+  // Just beyond a bound both choices are within float's error.
+  const glm::vec3 near_bound(0, 0, std::nextafter(-2.0f, -3.0f));
+  EXPECT_EQ(cascade_at(place, eye, near_bound), 1);
+  EXPECT_LE(choice_excess(place, eye, near_bound, {0, 0}), 1);
+  place.blend = 0.5f;
+  EXPECT_GT(choice_excess(place, eye, {0, 0, -7}, {1, 0.5}), 1e5);
+  EXPECT_LE(choice_excess(place, eye, {0, 0, -7}, {1, static_cast<double>(2.0f / 3)}), 1);
+}
+
+// The map of the next cascade holds the band in which it is blended in, unless it is not to.
+TEST(Cascades, CoverTheBandInWhichTheyAreBlendedIn) {
+  Settings s;
+  s.scene.name = "street";
+  s.map.fit = MapFit::sphere;
+  s.map.reach_m = 80;
+  s.cascades.count = 3;
+  s.cascades.blend = 0.2;
+  const Scene scene = make_scene(s.scene);
+  const std::vector<ViewSlice> slices = view_slices(scene, s);
+  for (const CascadeBlendOf of : {CascadeBlendOf::slice, CascadeBlendOf::end})
+    for (const bool cover : {true, false}) {
+      s.cascades.blend_of = of;
+      s.cascades.cover_band = cover;
+      const std::vector<Technique> cascades = cascades_of(scene, s);
+      for (size_t k = 1; k < slices.size(); ++k) {
+        const double begin = slices[k - 1].begin_m, end = slices[k - 1].end_m;
+        const double band = of == CascadeBlendOf::slice ? 0.2 * (end - begin) : 0.2 * end;
+        const ViewSlice fitted{cover ? end - band : end, slices[k].end_m};
+        EXPECT_EQ(cascades[k].frame, make_light_frame(scene, s, &fitted)) << k;
+        EXPECT_NEAR(cascades[0].cascade->depths[k - 1].x, of == CascadeBlendOf::slice ? begin : 0, 1e-5);
+      }
+    }
+}
+
+TEST(Cascades, MayHaveAResolutionEach) {
+  Settings s;
+  s.scene.name = "street";
+  s.map.fit = MapFit::sphere;
+  s.cascades.count = 3;
+  s.cascades.resolutions = {1024, 512, 256};
+  const std::vector<Technique> cascades = cascades_of(make_scene(s.scene), s);
+  for (size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(cascades[k].frame.resolution, s.cascades.resolutions[k]);
+    EXPECT_EQ(cascades[k].settings.map.resolution, s.cascades.resolutions[k]);
+  }
 }
 
 }  // namespace

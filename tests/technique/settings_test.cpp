@@ -53,7 +53,7 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
   const std::set<std::string_view> pure = {
       "scene.animation",    "map.placements", "map.extent_scale", "truth.standard_error", "bias.polygon_factor",
       "bias.polygon_units", "view.up",        "motion.frame",     "motion.zoom",          "light.index",
-      "map.aspect",         "cascades.count", "cascades.lambda",  "cascades.exponent"};
+      "map.aspect",         "cascades.count", "cascades.lambda",  "cascades.exponent",    "cascades.blend"};
   const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "frames", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
@@ -93,6 +93,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
                                 d20, d21, d22, d23] = s.map;
+  [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12] = s.cascades;
   [[maybe_unused]] const auto& [g1, g2] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
   // Unit, reference and plane_cap, and every parameter of a part.
@@ -104,7 +105,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
                                               {"motion", 9},
                                               {"light", 11},
                                               {"map", 23},
-                                              {"cascades", 7},
+                                              {"cascades", 12},
                                               {"bias", bias},
                                               {"filter", filter},
                                               {"truth", 2},
@@ -135,7 +136,7 @@ TEST(SettingsTable, ChangesOneMemberEach) {
     if (row.type == ValueType::choice) other = before == row.choices[0] ? row.choices[1] : row.choices[0];
     if (row.type == ValueType::flag) other = before == "true" ? "false" : "true";
     if (row.type == ValueType::text) other = "other";
-    if (row.name == "truth.standard_error") other = "0.25";  // its range ends below 1
+    if (row.name == "truth.standard_error" || row.name == "cascades.blend") other = "0.25";  // ranges that end below 1
     ASSERT_NE(other, before) << row.name;
     Settings settings;
     row.set(settings, other);
@@ -169,12 +170,13 @@ TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
 }
 
 // Of the junk below, what a list takes.
-bool is_ascending_list(std::string_view text) { return text == "1,2" || text == "1,2,3,4"; }
+bool is_list(std::string_view text) { return text == "1,2" || text == "1,2,3,4"; }
 
 TEST(SettingsTable, RefusesWhatIsNoValue) {
   for (const Setting& row : settings_table()) {
     refusal(row, "");
     if (row.type == ValueType::text) continue;
+    const bool lists = row.type == ValueType::list || row.type == ValueType::whole_list;
     for (std::string_view junk : {" ",
                                   "nonsense",
                                   "1x",
@@ -201,12 +203,14 @@ TEST(SettingsTable, RefusesWhatIsNoValue) {
                                   "0,inf,0",
                                   "1,,2",
                                   "1,2,3,4"})
-      if (row.type != ValueType::list || !is_ascending_list(junk)) refusal(row, junk);
+      if (!(lists && is_list(junk))) refusal(row, junk);
     if (row.type != ValueType::real && row.type != ValueType::list) refusal(row, "0.5");
     if (row.type != ValueType::flag) refusal(row, "true");
     if (!row.is_of_numbers()) refusal(row, "1,2,3");
     if (row.type == ValueType::list)
       for (const char* junk : {"3,2", "2,2", "-1,2", "1,1e30"}) refusal(row, junk);
+    if (row.type == ValueType::whole_list)
+      for (const char* junk : {"2,1.5", "2,0", "-1,2", "1,1e30"}) refusal(row, junk);
     const bool may_be_auto = row.may_be_auto || std::count(row.choices.begin(), row.choices.end(), "auto") > 0;
     if (!may_be_auto) refusal(row, "auto");
   }

@@ -134,7 +134,7 @@ std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
       fmt::format("shadowGenerator.lambda = {};", number(lambda_of(cascades))),
       fmt::format("shadowGenerator.shadowMaxZ = {};", number(cascades.reach_m())),
       "shadowGenerator.stabilizeCascades = true;",
-      "shadowGenerator.cascadeBlendPercentage = 0;",
+      fmt::format("shadowGenerator.cascadeBlendPercentage = {};", number(cascades.blend)),
       "shadowGenerator.depthClamp = true;",
       fmt::format("shadowGenerator.forceBackFacesOnly = {};", place.settings.map.cull == CulledFaces::back),
       "for (const mesh of scene.meshes) {",
@@ -151,6 +151,8 @@ std::vector<std::string> cascade_limits(const AdvisedCascades& cascades) {
       "scene: "
       "where the slices are deeper than the scene, all cascades have the same bias in metres.",
       "Without stabilizeCascades the maps are smaller, but their texels are oblong and change as the camera turns."};
+  if (cascades.blend > 0)
+    said.push_back("A map begins where the cascade before it ends: what it does not hold of the band before is lit.");
   const std::vector<std::string> shared = shared_limits(LightKind::directional);
   said.insert(said.end(), shared.begin(), shared.end());
   said.push_back(
@@ -196,13 +198,13 @@ Engine babylon_js() {
       {},
       [](Settings& settings, const AdvicePlace& place) { settings.map.cull = drawn_cull(place); },
       {},
-      EngineCascades{
-          {2, 3, 4},
-          "the sphere about the mean of its slice's corners, with a radius of whole sixteenths of a metre",
-          lay_cascades,
-          cascade_lines,
-          cascade_limits,
-          "@babylonjs/core Lights/Shadows/cascadedShadowGenerator and Shaders/ShadersInclude/lightFragment"}};
+      EngineCascades{{2, 3, 4},
+                     "the sphere about the mean of its slice's corners, with a radius of whole sixteenths of a metre",
+                     lay_cascades,
+                     cascade_lines,
+                     cascade_limits,
+                     "@babylonjs/core Lights/Shadows/cascadedShadowGenerator and Shaders/ShadersInclude/lightFragment",
+                     CascadeBlendOf::slice}};
 }
 
 }  // namespace noonmark

@@ -90,17 +90,18 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 // CascadeShadowConfigBuilder are geometric from the first; CascadeShadowConfig takes any.
 std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
   const AdvicePlace& place = cascades.places.front();
+  const std::string overlap = cascades.blend == 0 ? "0.0" : number(cascades.blend);  // Rust reads 0 as an integer
   const bool first_bound = cascades.settings().cascades.splits == "first_bound";
   return {
       fmt::format("DirectionalLightShadowMap {{ size: {} }}", place.map.resolution), "shadow_maps_enabled: true,",
       first_bound
           ? fmt::format("CascadeShadowConfigBuilder {{ num_cascades: {}, minimum_distance: {}, "
-                        "first_cascade_far_bound: {}, maximum_distance: {}, overlap_proportion: 0.0 }}.build()",
+                        "first_cascade_far_bound: {}, maximum_distance: {}, overlap_proportion: {} }}.build()",
                         cascades.count(), number(cascades.near_m), number(cascades.ends_m.front()),
-                        number(cascades.reach_m()))
-          : fmt::format("CascadeShadowConfig {{ bounds: vec![{}, {}], overlap_proportion: 0.0, minimum_distance: {} }}",
+                        number(cascades.reach_m()), overlap)
+          : fmt::format("CascadeShadowConfig {{ bounds: vec![{}, {}], overlap_proportion: {}, minimum_distance: {} }}",
                         fmt::join(cascades.inner([](double end) { return end; }), ", "), number(cascades.reach_m()),
-                        number(cascades.near_m))};
+                        overlap, number(cascades.near_m))};
 }
 
 std::vector<std::string> cascade_limits(const AdvisedCascades&) {
@@ -132,11 +133,13 @@ Engine bevy() {
                          [](Settings& s) {
                            s.map.fit = MapFit::corner_square;
                            s.cascades.radius_round_m = 0.5;
+                           s.cascades.cover_band = true;
                            s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
                          },
                          cascade_lines,
                          cascade_limits,
-                         "crates/bevy_light/src/cascade.rs (f43b4a84)"}};
+                         "crates/bevy_light/src/cascade.rs (f43b4a84)",
+                         CascadeBlendOf::end}};
 }
 
 }  // namespace noonmark

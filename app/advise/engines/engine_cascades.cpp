@@ -25,6 +25,10 @@ std::vector<std::string> numbers_of(std::span<const double> values) {
 
 }  // namespace
 
+double blend_in(const EngineCascades& engine, const CascadeSettings& asked) {
+  return engine.blend_of == asked.blend_of ? asked.blend : 0;
+}
+
 std::vector<std::string> AdvisedCascades::inner(const std::function<double(double end_m)>& of) const {
   std::vector<std::string> texts;
   for (size_t k = 0; k + 1 < ends_m.size(); ++k) texts.push_back(number(of(ends_m[k])));
@@ -70,8 +74,27 @@ Settings laid_by(const EngineCascades& engine, Settings settings, double near_m,
   settings.cascades.splits = "manual";
   settings.cascades.bounds_m.assign(ends_m.begin(), ends_m.end() - 1);
   settings.cascades.radius_round_m = 0;
+  settings.cascades.resolutions.clear();
+  settings.cascades.select = "depth";
+  settings.cascades.blend = blend_in(engine, settings.cascades);
   engine.lay(settings);
   return settings;
+}
+
+std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const AdvisedCascades& cascades) {
+  const CascadeSettings& asked = cascades.settings().cascades;
+  std::vector<std::string> said;
+  if (asked.blend != cascades.blend)
+    said.push_back(fmt::format(
+        "cascades.blend = {} with cascades.blend_of = {}: the engine has no such blending{}. The lines switch it off.",
+        number(asked.blend), find_setting("cascades.blend_of").get(cascades.settings()),
+        engine.other_blending.empty() ? "" : ", " + engine.other_blending));
+  if (asked.select != engine.select)
+    said.push_back(fmt::format("cascades.select = {}: the engine chooses a receiver's cascade by its {}.", asked.select,
+                               engine.select));
+  if (!asked.resolutions.empty())
+    said.push_back("cascades.resolutions: all maps of the engine have one resolution, map.resolution.");
+  return said;
 }
 
 std::string fitted_cascades(const EngineCascades& engine, const AdvisedCascades& cascades) {

@@ -15,6 +15,7 @@ struct AdvisedCascades {
   std::vector<AdvicePlace> places;
   double near_m = 0;           // the camera's near plane, where the first begins
   std::vector<double> ends_m;  // where each ends along the view, as recommended; the last is the reach
+  double blend = 0;            // cascades.blend, if the engine can have it; otherwise 0
 
   size_t count() const { return places.size(); }
   double reach_m() const { return ends_m.back(); }
@@ -31,6 +32,12 @@ std::string missed_ends(const AdvisedCascades& cascades, double lambda);
 
 // The settings with the maps that the engine lays for these ends.
 Settings laid_by(const EngineCascades& engine, Settings settings, double near_m, std::span<const double> ends_m);
+
+// cascades.blend, if the engine can blend so; otherwise 0.
+double blend_in(const EngineCascades& engine, const CascadeSettings& asked);
+
+// Of what the engine does otherwise when it chooses and blends cascades; empty sentences if nothing.
+std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const AdvisedCascades& cascades);
 
 // How the engine fits its maps, and how wide their texels are.
 std::string fitted_cascades(const EngineCascades& engine, const AdvisedCascades& cascades);

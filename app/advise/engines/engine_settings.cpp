@@ -255,6 +255,7 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
   say(unexpressed_map(place, maps));
   say(unexpressed_distance(place));
   say(once);
+  if (cascades) say(unexpressed_choice(*engine.cascades, *cascades));
   if (cascades) say({fitted_cascades(*engine.cascades, *cascades)});
   say(cascades ? engine.cascades->limits(*cascades) : engine.limits(place));
   return advice;
@@ -286,6 +287,7 @@ EngineAdvice advice_of_cascades(const Engine& engine, const Settings& settings, 
   const std::vector<Technique> recommended = cascades_of(scene, settings);
   AdvisedCascades cascades;
   for (const ViewSlice& slice : recommended.front().cascade->slices) cascades.ends_m.push_back(slice.end_m);
+  cascades.blend = blend_in(*engine.cascades, settings.cascades);
   cascades.near_m = recommended.front().cascade->slices.front().begin_m;
   const Settings as_laid = laid_by(*engine.cascades, settings, cascades.near_m, cascades.ends_m);
   const std::vector<Technique> laid = cascades_of(scene, as_laid);

@@ -192,6 +192,9 @@ Engine three_js() {
                          cascade_lines,
                          cascade_limits,
                          "three/addons/csm CSM.js, CSMFrustum.js and CSMShader.js",
+                         {},
+                         "but csm.fade, whose width is a quarter of the square of the end",
+                         "depth",
                          "light.",
                          "csm.lights.forEach((light, i) => {{ {} }});",
                          [](const AdvisedCascades& cascades) { return light_far_m(cascades) - light_near_m; }}};

@@ -186,7 +186,10 @@ Engine unity_urp() {
               cascade_lines,
               cascade_limits,
               "Runtime/ShadowUtils.cs (b850b71a; GetMaxTileResolutionInAtlas), Runtime/UniversalRenderPipeline.cs "
-              "(mainLightShadowCascadesSplit) and ShaderLibrary/Shadows.hlsl (ComputeCascadeIndex)"}};
+              "(mainLightShadowCascadesSplit) and ShaderLibrary/Shadows.hlsl (ComputeCascadeIndex)",
+              {},
+              {},
+              "sphere"}};
 }
 
 }  // namespace noonmark

@@ -1,18 +1,10 @@
-// Cascades that are chosen by the receiver's depth along the view. Each cascade is looked up in a pass of its own, which
-// leaves out the receivers of the others.
-#include "technique/cascade_depth.glsl"
+// Cascades that are chosen by the receiver's depth along the view.
+#include "technique/cascade_place.glsl"
 
-uniform int this_cascade;
-uniform int cascade_bounds;       // how many bounds there are: one less than cascades
-uniform float cascade_bound_m[7];  // the depths at which all cascades but the last end
 uniform vec3 view_forward;
+uniform vec2 cascade_depths[7];  // where the place in each cascade but the last is 0 and 1
 
-int cascade_of(vec3 position) {
-  precise float depth = cascade_depth(position, eye_m, view_forward);
-  int cascade = 0;
-  for (int i = 0; i < cascade_bounds; ++i)
-    if (depth > cascade_bound_m[i]) ++cascade;
-  return cascade;
+float cascade_place(int cascade, vec3 position) {
+  return place_by_depth(position, eye_m, view_forward, cascade_depths[cascade].x, cascade_depths[cascade].y);
 }
-
-bool in_this_map(vec3 position) { return cascade_of(position) == this_cascade; }
+#include "shaders/cascade/choice.glsl"
