@@ -32,7 +32,7 @@ std::string cascades_with(const Settings& s, std::optional<LightKind> light) {
                        kind_of_light(*light).name());
   if (!fits_view(s.map.fit))
     return fmt::format(
-        "each cascade is fitted to a slice of the view, but map.fit = {}; set map.fit = sphere or view, or "
+        "each cascade is fitted to a slice of the view, but map.fit = {}; set map.fit = sphere, view or corner_*, or "
         "cascades.count = 1",
         find_setting("map.fit").get(s));
   if (s.map.extent_m)
@@ -84,7 +84,7 @@ std::vector<Setting> cascade_rows() {
           "cascades.count", "", 1, most_cascades,
           "directional: how many maps share the view, each for a slice of its depth, from the camera's near plane to "
           "map.reach_m or the camera's far plane. Each has map.resolution, and is fitted to its slice by map.fit = "
-          "sphere or view. What lies beyond the last slice is looked up in the last map.",
+          "sphere, view or corner_*. What lies beyond the last slice is looked up in the last map.",
           MEMBER(count))
           .refused(cascades_with),
       named("cascades.splits", "At which depths the slices end.", cascade_splits(), MEMBER(splits))
@@ -128,11 +128,12 @@ std::vector<Setting> cascade_rows() {
           .idle(without_cascades)
           .refused(resolutions_of_another_count),
       real("cascades.radius_round_m", "m", 0, 1e6,
-           "map.fit = sphere, also with one map: the radius of the sphere is rounded up to a multiple of this, as "
-           "engines do "
-           "whose radius changes by rounding from frame to frame; 0: not rounded.",
+           "map.fit = sphere and corner_*, also with one map: the radius of the sphere, or half of the square's side, "
+           "is "
+           "rounded up to a multiple of this, as engines do whose radius changes by rounding from frame to frame; 0: "
+           "not rounded.",
            MEMBER(radius_round_m))
-          .idle(setting_rules::without_sphere),
+          .idle(setting_rules::without_slice_fit),
   };
 }
 

@@ -225,6 +225,7 @@ std::optional<FittedMap> moved_fit(const Scene& scene, const Settings& settings,
                                    const ViewSlice* slice) {
   if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, settings.map, axes, slice);
   if (settings.map.fit == MapFit::sphere) return fit_to_sphere(scene, settings, axes, slice);
+  if (fits_corners(settings.map.fit)) return fit_to_corners(scene, settings, axes, slice);
   if (settings.map.fit == MapFit::casters) return fit_to_casters(scene, settings.map, axes);
   return std::nullopt;
 }

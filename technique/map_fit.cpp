@@ -8,6 +8,7 @@
 
 #include "scenes/camera_fit.h"
 #include "scenes/view_clip.h"
+#include "technique/corner_fits.h"
 #include "technique/lights/shared.h"
 
 namespace noonmark {
@@ -145,6 +146,43 @@ FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const Ligh
   const double near_m =
       std::min(depths_inside(scene, axes, middle, area * (1 + lights::map_margin)).least, middle.z - sphere.radius_m);
   return {lights::with_margin(area, near_m, middle.z + sphere.radius_m), middle};
+}
+
+namespace {
+
+// Of the corners of the scene's box along the world's axes, by which engines know what there is.
+Depths depths_of_box(const Scene& scene, const LightFrame& axes) {
+  Box box;
+  for (const glm::vec3& p : scene.positions) box.add(p);
+  Depths depths;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+    const double depth = axes.to_light(glm::mix(box.low, box.high, high)).z;
+    depths.least = std::min(depths.least, depth);
+    depths.most = std::max(depths.most, depth);
+  }
+  return depths;
+}
+
+}  // namespace
+
+FittedMap fit_to_corners(const Scene& scene, const Settings& settings, const LightFrame& axes, const ViewSlice* slice) {
+  const ViewSettings& view = settings.view;
+  const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
+  const ViewSlice whole{*camera.camera.near_m, settings.map.reach_m.value_or(*camera.camera.far_m)};
+  const CornerSquare square =
+      find_corner_fit(settings.map.fit)
+          ->around(corners_of_slice(camera, slice ? *slice : whole, axes), settings.cascades.radius_round_m);
+  const glm::dvec2 half = lights::area_around(glm::dvec2(square.half_m), 0, settings.map);
+  const Depths all = depths_of_box(scene, axes);
+  const double before = settings.map.keeps_clipped()
+                            ? std::max(square.low_m, all.least)
+                            : std::min(square.low_m, depths_inside(scene, axes, square.middle_m, half).least);
+  double near_m = before, far_m = std::min(square.high_m, all.most);
+  if (!(near_m < far_m)) near_m = square.low_m, far_m = square.high_m;  // the scene lies before or beyond the slice
+  const MapVolume depths = lights::with_margin(half, near_m, far_m);
+  return {{.extent_m = 2 * half.x, .near_m = depths.near_m, .far_m = depths.far_m, .height_m = 2 * half.y},
+          square.middle_m};
 }
 
 namespace {

@@ -52,6 +52,14 @@ struct FittedSphere {
 };
 FittedSphere sphere_of_slice(const Scene& scene, const Settings& settings, const ViewSlice& slice);
 
+// map.fit = corner_sphere, corner_square, corner_box: the square that an engine fits to the eight corners of the slice, and
+// nothing wider: neither the margin of a tight fit nor a texel, so that snapping (map.snap) may uncover up to half a texel of
+// its edge, as it does there. Near and far hold the slice (of corner_sphere its sphere), but nothing beyond the scene's box along
+// the world's axes; near also all of the scene that can cast a shadow into it, unless map.depth_clamp or map.pancake keeps what lies before it.
+// slice null: from the camera's near plane to map.reach_m, or its far plane. Throws Error(usage) as effective_camera() does.
+FittedMap fit_to_corners(const Scene& scene, const Settings& settings, const LightFrame& axes,
+                         const ViewSlice* slice = nullptr);
+
 // map.fit = casters: the smallest square, with the margin of a tight fit and one texel on each side, that holds every triangle
 // that can cast a shadow, also where the map is moved by up to a texel (map.snap, placements); near and far hold the scene
 // inside the square. A triangle can cast none if its plane has the whole scene on the light's

@@ -149,11 +149,12 @@ std::string casters_without_lit_border(const Settings& s, std::optional<LightKin
       "map.wrap = clamp_to_border, or map.fit = tight",
       find_setting("map.wrap").get(s));
 }
-std::string without_sphere(const Settings& s, LightKind) {
-  return s.map.fit == MapFit::sphere ? "" : "with map.fit = " + find_setting("map.fit").get(s);
+std::string without_slice_fit(const Settings& s, LightKind) {
+  return s.map.fit == MapFit::sphere || fits_corners(s.map.fit) ? ""
+                                                                : "with map.fit = " + find_setting("map.fit").get(s);
 }
 std::string without_reach(const Settings& s, LightKind light) {
-  return s.cascades.count > 1 ? "" : without_sphere(s, light);
+  return s.cascades.count > 1 ? "" : without_slice_fit(s, light);
 }
 std::string without_motion(const Settings& s, LightKind) { return s.view.motion.any() ? "" : "without a motion"; }
 std::string without_turning_light(const Settings& s, LightKind) {

@@ -68,8 +68,8 @@ std::string where_map_is_given(const Settings&, LightKind);
 std::string without_size_of_light(const Settings&, LightKind);
 std::string without_part_in_unit(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
-std::string without_sphere(const Settings&, LightKind);
-std::string without_reach(const Settings&, LightKind);  // of the map: neither a sphere nor cascades
+std::string without_slice_fit(const Settings&, LightKind);
+std::string without_reach(const Settings&, LightKind);  // of the map: not fitted to a slice of the view, nor cascades
 std::string without_motion(const Settings&, LightKind);
 std::string without_turning_light(const Settings&, LightKind);
 std::string without_moving_light(const Settings& s, LightKind light);

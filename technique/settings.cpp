@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/suggestion.h"
+#include "technique/corner_fits.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
 #include "technique/placements.h"
@@ -20,6 +21,14 @@ namespace {
 
 using namespace setting_rows;
 using namespace setting_rules;
+
+// "corner_sphere (directional): ...; corner_square (directional): ..."
+std::string help_of_corner_fits() {
+  std::string help;
+  for (const CornerFit& fit : corner_fits())
+    help += fmt::format("{}{} (directional): {}", help.empty() ? "" : "; ", fit.name, fit.help);
+  return help + ".";
+}
 
 #define MEMBER(path) [](Settings& s) -> decltype((s.path)) { return s.path; }
 
@@ -285,22 +294,24 @@ std::vector<Setting> make_table() {
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format))
           .only_read_by({Stage::map}),
       choice(
-          "map.fit", {"scene", "tight", "view", "sphere", "casters"},
+          "map.fit", {"scene", "tight", "view", "sphere", "casters", "corner_sphere", "corner_square", "corner_box"},
           "Where extent, near and far come from if they are auto. scene: from the scene, or fitted tightly if the "
           "scene has none or the light is not the scene's; tight: always fitted tightly around the scene; view "
           "(directional): fitted to the part of the scene in the picture's frustum, and near also to what can cast "
           "a shadow on it; sphere (directional): around the least sphere that holds the picture's frustum up to "
           "map.reach_m, so that the extent is the same wherever the camera stands and looks; casters (directional): "
           "around everything that can cast a shadow, wherever the camera is, but not a ground below everything: what "
-          "lies outside of such a map is lit.",
+          "lies outside of such a map is lit; " +
+              help_of_corner_fits(),
           MEMBER(map.fit))
           .idle(where_map_is_given)
           .refused(moved_fit_without_parallel_rays),
-      real(
-          "map.reach_m", "m", 1e-6, 1e9,
-          "map.fit = sphere: how far from the camera the map covers what is in view; auto: the diagonal of the scene's "
-          "box. With cascades, also of map.fit = view: where the last one ends; auto: the camera's far plane.",
-          MEMBER(map.reach_m))
+      real("map.reach_m", "m", 1e-6, 1e9,
+           "map.fit = sphere, corner_*: how far from the camera the map covers what is in view; auto: the diagonal of "
+           "the "
+           "scene's box, of corner_* the camera's far plane. With cascades, also of map.fit = view: where the last one "
+           "ends; auto: the camera's far plane.",
+           MEMBER(map.reach_m))
           .idle(without_reach),
       choice("map.depth_range", {"fit", "scene"},
              "directional: what near and far are if they are auto. fit: by map.fit; scene: those of the whole scene, "

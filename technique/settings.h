@@ -31,7 +31,7 @@ namespace noonmark {
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
-enum class MapFit { scene, tight, view, sphere, casters };
+enum class MapFit { scene, tight, view, sphere, casters, corner_sphere, corner_square, corner_box };
 enum class DepthRange { fit, scene };
 enum class CubePass { layered, six_passes };
 enum class BiasUnit { depth, m, texel };
@@ -53,8 +53,13 @@ struct LightSettings {  // automatic and empty: as the scene's light
   std::optional<double> cone_deg;
 };
 
+// To the corners of the part of the view's frustum that it covers, as engines do (technique/corner_fits.h).
+inline bool fits_corners(MapFit fit) {
+  return fit == MapFit::corner_sphere || fit == MapFit::corner_square || fit == MapFit::corner_box;
+}
+
 // Whether the map covers what the camera sees, and so depends on it.
-inline bool fits_view(MapFit fit) { return fit == MapFit::view || fit == MapFit::sphere; }
+inline bool fits_view(MapFit fit) { return fit == MapFit::view || fit == MapFit::sphere || fits_corners(fit); }
 
 // Whether the fit also moves the map off the light's axis, as only a directional light's can be.
 inline bool moves_map(MapFit fit) { return fits_view(fit) || fit == MapFit::casters; }
@@ -63,8 +68,9 @@ struct MapSettings {
   int resolution = 1024;             // texels along its width
   std::optional<double> aspect = 1;  // directional: width over height, in texels; empty: of what the fit holds
   DepthFormat format = DepthFormat::d24;
-  MapFit fit = MapFit::scene;     // the source of empty extent, near and far: the scene's own values, or a fit
-  std::optional<double> reach_m;  // sphere: how far from the camera there are shadows; empty: the scene's diagonal
+  MapFit fit = MapFit::scene;  // the source of empty extent, near and far: the scene's own values, or a fit
+  std::optional<double>
+      reach_m;  // sphere, corner_*: how far from the camera there are shadows; empty: the scene's diagonal
   DepthRange depth_range =
       DepthRange::fit;                 // directional: empty near and far are those of `fit`, or of the whole scene
   std::optional<double> extent_m;      // directional: whole width; empty: from `fit`
@@ -108,7 +114,8 @@ struct CascadeSettings {
   CascadeBlendOf blend_of = CascadeBlendOf::slice;
   bool cover_band = true;           // the next cascade's map holds that part too
   std::vector<double> resolutions;  // whole texels, one number for each cascade; empty: map.resolution
-  double radius_round_m = 0;        // map.fit = sphere: the radius is rounded up to a multiple of it; 0: not rounded
+  double radius_round_m =
+      0;  // map.fit = sphere, corner_*: the radius is rounded up to a multiple of it; 0: not rounded
 };
 inline constexpr int most_cascades = 8;
 

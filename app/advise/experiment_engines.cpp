@@ -26,10 +26,7 @@ double farthest_in_views_m(Workbench& bench, std::span<const Settings> condition
 std::string experiment_engines(Workbench& bench, const Experiment& experiment, std::span<const Settings> points) {
   const bool one_choice = experiment.parts.empty() && std::all_of(experiment.swept.begin(), experiment.swept.end(),
                                                                   [](const Swept& swept) { return swept.condition; });
-  // No line of an engine lays cascades yet, and those of one map would be of a map that the point does not have.
-  const bool cascades =
-      std::any_of(points.begin(), points.end(), [](const Settings& point) { return point.cascades.count > 1; });
-  if (!one_choice || cascades) return "";
+  if (!one_choice) return "";
   const double farthest_m = farthest_in_views_m(bench, points);
   const Settings& first = points.front();
   const Scene& scene = bench.scene(first.scene);

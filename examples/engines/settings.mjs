@@ -1,6 +1,7 @@
 // The settings of a page: those of settings.json here and in the page's folder. Each has a default or how many numbers it
-// takes (then null stands for "not given"), or its choices, of which the first is the default, or is the path of a file. A setting
-// of the map ("of_map") is not given beside `lines`, which set the map themselves.
+// takes (then null stands for "not given"; 0: any number of them, as a list), or its choices, of which the first is the default, or
+// is the path of a file. A setting of the map ("of_map") is not given beside `lines`, which set the map themselves. One that has
+// "with" is given only beside a value of another setting that stands there.
 import { existsSync, readFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
@@ -18,7 +19,7 @@ function takes(row) {
   if (row.file) return "the path of a file that is there";
   const many = count_of(row);
   const kind = `${row.whole ? "whole " : ""}number`;
-  return (many === 1 ? `a ${kind}` : `${many} ${kind}s with commas`) + (row.above === undefined ? "" : ` above ${row.above}`);
+  return (many === 1 ? `a ${kind}` : `${many ? many + " " : ""}${kind}s with commas`) + (row.above === undefined ? "" : ` above ${row.above}`);
 }
 // What the text says, or undefined if it is none of what the setting takes.
 function value_of(row, text) {
@@ -26,7 +27,7 @@ function value_of(row, text) {
   if (row.file) return existsSync(text) ? text : undefined;
   const many = count_of(row), numbers = text.split(",").map((part) => (part.trim() ? Number(part) : NaN));
   const good = (x) => Number.isFinite(x) && (!row.whole || Number.isInteger(x)) && !(x <= row.above);
-  if (numbers.length !== many || !numbers.every(good)) return undefined;
+  if ((many && numbers.length !== many) || !numbers.every(good)) return undefined;
   return many === 1 ? numbers[0] : numbers;
 }
 
@@ -48,6 +49,10 @@ export function settings_of(page, given) {
   if (values.lines)
     for (const name of Object.keys(values))
       if (rows[name].of_map) fail(`"${name}" and "lines" are given, and the lines set the map. Leave "${name}" out.`);
+  const names = Object.keys(values);
   for (const [name, row] of Object.entries(rows)) values[name] ??= default_of(row);
+  for (const name of names)
+    for (const [other, wanted] of Object.entries(rows[name].with ?? {}))
+      if (!wanted.includes(values[other])) fail(`"${name}" has no effect with ${other}=${values[other]}; it needs ${other}=${wanted.join(" or ")}.`);
   return values;
 }

@@ -64,6 +64,11 @@ WRONG = [(None, ["biass=0.1"], 'there is no setting "biass"'),
          ("babylon", ["filter=foo"], '"filter" takes none | usePercentageCloserFiltering'),
          ("three", ["lines=none.txt"], '"lines" takes the path of a file'),
          ("babylon", [f"lines={__file__}", "resolution=512"], '"resolution" and "lines" are given, and the lines set the map'),
+         ("three", ["cascades=4"], '"cascades" has no effect with class=DirectionalLight; it needs class=CSM'),
+         ("three", ["class=CSM", "extent=5"], '"extent" has no effect with class=CSM'),
+         ("three", ["class=SunLight", "splits=5,20"], '"splits" has no effect with class=SunLight'),
+         ("three", ["class=CSM", "splits=5,"], '"splits" takes numbers with commas above 0'),
+         ("babylon", ["lambda=0.5"], '"lambda" has no effect with class=ShadowGenerator'),
          ("eevee", ["high_bitdepth=yes"], '"high_bitdepth" takes true | false')]
 for page in PAGES:
     if page.endswith("html") and not shutil.which("node"):

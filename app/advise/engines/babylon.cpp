@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/advise/engines/engine.h"
+#include "app/advise/engines/engine_cascades.h"
 
 namespace noonmark {
 namespace babylon_engine {
@@ -91,17 +92,80 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
   return lines;
 }
 
+std::vector<std::string> shared_limits(LightKind kind) {
+  std::vector<std::string> said = {
+      "map.format: the map is a float colour without PCF, and a depth texture with it. A device that cannot draw into "
+      "float textures gets half floats: then the bias must exceed 1/2048 of near to far."};
+  if (kind != LightKind::point)
+    said.push_back(
+        "The light's position and direction are those of a right-handed scene (scene.useRightHandedSystem).");
+  return said;
+}
+
+// Cascades: CascadedShadowGenerator. stabilizeCascades fits a sphere about the mean of the slice's corners, with a radius of
+// whole sixteenths; depthClamp keeps what lies before it, so that near and far are the sphere's, within the scene's own.
+double lambda_of(const AdvisedCascades& cascades) { return nearest_lambda(cascades.near_m, cascades.ends_m); }
+
+void lay_cascades(Settings& s) {
+  s.map.fit = MapFit::corner_sphere;
+  s.cascades.radius_round_m = 0.0625;
+  s.map.depth_clamp = true;
+  std::vector<double> ends = s.cascades.bounds_m;
+  ends.push_back(*s.map.reach_m);
+  s.cascades.splits = "practical";
+  s.cascades.lambda = nearest_lambda(*s.view.near_m, ends);
+}
+
+std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
+  const AdvicePlace& place = cascades.places.front();
+  return {
+      "// scene: the BABYLON.Scene, whose active camera the cascades follow; light: a BABYLON.DirectionalLight",
+      placed_comment("direction"),
+      "light.parent = light.transformedPosition = light.transformedDirection = null;  // also out of a glTF file's "
+      "node",
+      fmt::format("light.direction = new BABYLON.Vector3({});", numbers(place.frame.forward)),
+      fmt::format("scene.activeCamera.minZ = {0}; scene.activeCamera.maxZ = Math.max(scene.activeCamera.maxZ, {1});",
+                  number(cascades.near_m), number(cascades.reach_m())),
+      "light.getShadowGenerator()?.dispose();",
+      fmt::format("const shadowGenerator = new BABYLON.CascadedShadowGenerator({}, light, true);  // true: "
+                  "floats, not half floats",
+                  place.map.resolution),
+      fmt::format("shadowGenerator.numCascades = {};", cascades.count()),
+      fmt::format("shadowGenerator.lambda = {};", number(lambda_of(cascades))),
+      fmt::format("shadowGenerator.shadowMaxZ = {};", number(cascades.reach_m())),
+      "shadowGenerator.stabilizeCascades = true;",
+      fmt::format("shadowGenerator.cascadeBlendPercentage = {};", number(cascades.blend)),
+      "shadowGenerator.depthClamp = true;",
+      fmt::format("shadowGenerator.forceBackFacesOnly = {};", place.settings.map.cull == CulledFaces::back),
+      "for (const mesh of scene.meshes) {",
+      "  if (mesh.getTotalVertices() === 0) continue;  // a node of a glTF file",
+      "  shadowGenerator.addShadowCaster(mesh, false);  // leave out meshes that are to cast none",
+      "  mesh.receiveShadows = true;",
+      "}"};
+}
+
+std::vector<std::string> cascade_limits(const AdvisedCascades& cascades) {
+  std::vector<std::string> said = {
+      missed_ends(cascades, lambda_of(cascades)),
+      "shadowGenerator.bias is a share of each cascade's own depth range, which depthClamp keeps to the slice and the "
+      "scene: "
+      "where the slices are deeper than the scene, all cascades have the same bias in metres.",
+      "Without stabilizeCascades the maps are smaller, but their texels are oblong and change as the camera turns."};
+  if (cascades.blend > 0)
+    said.push_back("A map begins where the cascade before it ends: what it does not hold of the band before is lit.");
+  const std::vector<std::string> shared = shared_limits(LightKind::directional);
+  said.insert(said.end(), shared.begin(), shared.end());
+  said.push_back(
+      "The map draws the faces that each material shows; forceBackFacesOnly of 9.35 draws the front faces alone.");
+  return said;
+}
+
 CulledFaces drawn_cull(const AdvicePlace& place) {
   return place.settings.map.cull == CulledFaces::back ? CulledFaces::back : place.unseen;
 }
 
 std::vector<std::string> limits(const AdvicePlace& place) {
-  std::vector<std::string> said = {
-      "map.format: the map is a float colour without PCF, and a depth texture with it. A device that cannot draw into "
-      "float textures gets half floats: then the bias must exceed 1/2048 of near to far."};
-  if (place.kind() != LightKind::point)
-    said.push_back(
-        "The light's position and direction are those of a right-handed scene (scene.useRightHandedSystem).");
+  std::vector<std::string> said = shared_limits(place.kind());
   said.push_back(
       fmt::format("map.cull = {}: forceBackFacesOnly of 9.35 draws the front faces alone in a right-handed scene; "
                   "otherwise the map "
@@ -132,7 +196,15 @@ Engine babylon_js() {
       {"map.cull", "map.fov_deg"},
       nullptr,
       {},
-      [](Settings& settings, const AdvicePlace& place) { settings.map.cull = drawn_cull(place); }};
+      [](Settings& settings, const AdvicePlace& place) { settings.map.cull = drawn_cull(place); },
+      {},
+      EngineCascades{{2, 3, 4},
+                     "the sphere about the mean of its slice's corners, with a radius of whole sixteenths of a metre",
+                     lay_cascades,
+                     cascade_lines,
+                     cascade_limits,
+                     "@babylonjs/core Lights/Shadows/cascadedShadowGenerator and Shaders/ShadersInclude/lightFragment",
+                     CascadeBlendOf::slice}};
 }
 
 }  // namespace noonmark

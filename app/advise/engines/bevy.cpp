@@ -2,13 +2,16 @@
 // normal bias is in texels along the normal, which the engine multiplies by sqrt(2) for the diagonal of a texel. A
 // directional light's map is a square of whole metres around the camera's frustum up to maximum_distance.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "app/advise/engines/engine.h"
+#include "app/advise/engines/engine_cascades.h"
 
 namespace noonmark {
 namespace bevy_engine {
@@ -83,6 +86,30 @@ std::vector<std::string> limits(const AdvicePlace& place) {
   return said;
 }
 
+// Cascades: bevy_light cascade.rs. Each map is the square of the slice's longest diagonal, of whole metres. The bounds of
+// CascadeShadowConfigBuilder are geometric from the first; CascadeShadowConfig takes any.
+std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
+  const AdvicePlace& place = cascades.places.front();
+  const std::string overlap = cascades.blend == 0 ? "0.0" : number(cascades.blend);  // Rust reads 0 as an integer
+  const bool first_bound = cascades.settings().cascades.splits == "first_bound";
+  return {
+      fmt::format("DirectionalLightShadowMap {{ size: {} }}", place.map.resolution), "shadow_maps_enabled: true,",
+      first_bound
+          ? fmt::format("CascadeShadowConfigBuilder {{ num_cascades: {}, minimum_distance: {}, "
+                        "first_cascade_far_bound: {}, maximum_distance: {}, overlap_proportion: {} }}.build()",
+                        cascades.count(), number(cascades.near_m), number(cascades.ends_m.front()),
+                        number(cascades.reach_m()), overlap)
+          : fmt::format("CascadeShadowConfig {{ bounds: vec![{}, {}], overlap_proportion: {}, minimum_distance: {} }}",
+                        fmt::join(cascades.inner([](double end) { return end; }), ", "), number(cascades.reach_m()),
+                        overlap, number(cascades.near_m))};
+}
+
+std::vector<std::string> cascade_limits(const AdvisedCascades&) {
+  return {"map.format: the map is always a 32 bit float with reversed depth.",
+          "shadow_normal_bias is in texels of each cascade; shadow_depth_bias is in metres.",
+          "Receivers beyond maximum_distance are lit; Noonmark looks them up in the last map."};
+}
+
 }  // namespace
 }  // namespace bevy_engine
 
@@ -99,7 +126,20 @@ Engine bevy() {
           {},
           fit,
           {},
-          [](Settings& settings, const AdvicePlace&) { settings.map.format = DepthFormat::d32f; }};
+          [](Settings& settings, const AdvicePlace&) { settings.map.format = DepthFormat::d32f; },
+          {},
+          EngineCascades{{2, 3, 4},
+                         "the square of whole metres that is as wide as its slice's longest diagonal",
+                         [](Settings& s) {
+                           s.map.fit = MapFit::corner_square;
+                           s.cascades.radius_round_m = 0.5;
+                           s.cascades.cover_band = true;
+                           s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
+                         },
+                         cascade_lines,
+                         cascade_limits,
+                         "crates/bevy_light/src/cascade.rs (f43b4a84)",
+                         CascadeBlendOf::end}};
 }
 
 }  // namespace noonmark

@@ -104,6 +104,27 @@ struct EngineKnob {
   std::function<double(double metres, const AdvicePlace&)> typed;
 };
 
+struct AdvisedCascades;
+
+// How an engine lays cascades (app/advise/engines/engine_cascades.h).
+struct EngineCascades {
+  std::vector<int> counts;  // how many it can have
+  std::string fit;          // what it fits each map to, for a sentence: "the sphere about ..."
+  // The engine's maps as settings of Noonmark: map.fit and what it reads. The settings have manual ends.
+  void (*lay)(Settings&);
+  std::vector<std::string> (*lines)(const AdvisedCascades&);   // in place of map_lines()
+  std::vector<std::string> (*limits)(const AdvisedCascades&);  // in place of limits()
+  std::string source;                                          // of all this
+  std::optional<CascadeBlendOf> blend_of = {};                 // how it blends, if evenly and by the depth
+  std::string other_blending = {};                             // how it blends otherwise, for a sentence
+  std::string select = "depth";                                // as in cascades.select
+  // Fields that begin so are there once for each cascade: one line sets them all, with {} for the line of one. Empty: every
+  // field is there once.
+  std::string each_begins = {}, each = {};
+  // The metres from near to far of every map, if the lines set them; null: those of `lay`.
+  double (*depth_m)(const AdvisedCascades&) = nullptr;
+};
+
 struct Engine {
   std::string name, version, source;
   std::string comment;                          // what begins a comment in the engine's language
@@ -119,6 +140,8 @@ struct Engine {
   // Further settings that describe what the engine always does; null: none.
   void (*emulate)(Settings&, const AdvicePlace&) = nullptr;
   std::vector<std::string> last = {};  // lines that stand after all others
+  std::optional<EngineCascades> cascades = {};
+  std::string no_cascades = {};  // without lines for cascades: why, a sentence
 };
 
 // The map of an engine that fits a square of diameter_m(seen, reach_m, resolution) to the picture's frustum from the camera
@@ -143,6 +166,7 @@ std::string_view placed_of_light(const AdvicePlace& place);
 std::string fitted_text(const AdvicePlace& place, const std::string& field);
 
 // OpenGL has no fields: the application's shader computes each part. So it has no knobs.
+EngineAdvice opengl_cascades();
 EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPart>& parts);
 std::vector<EngineField> opengl_fields();
 

@@ -1,6 +1,7 @@
 #include "app/advise/engines/engine_settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,10 @@
 
 #include "app/advise/engines/cover.h"
 #include "app/advise/engines/engine.h"
+#include "app/advise/engines/engine_cascades.h"
 #include "app/advise/engines/engine_emulated.h"
 #include "app/advise/engines/unexpressed.h"
+#include "technique/cascades.h"
 #include "technique/filters.h"
 #include "technique/tap_pattern.h"
 
@@ -178,47 +181,135 @@ Typed typed_amounts(const Engine& engine, const AdvicePlace& place, const std::v
   return typed;
 }
 
+// The line with the numbers of each cascade; of one map there is one. A field that is there once takes the greatest.
+std::string knob_line(const Engine& engine, const EngineKnob& knob, const std::vector<double>& typed) {
+  const bool each =
+      typed.size() > 1 && !engine.cascades->each.empty() && knob.line.starts_with(engine.cascades->each_begins);
+  if (!each) {
+    const double most =
+        *std::max_element(typed.begin(), typed.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    return fmt::format(fmt::runtime(knob.line), number(most));
+  }
+  std::vector<std::string> texts;
+  for (const double value : typed) texts.push_back(number(value));
+  const bool one = std::all_of(texts.begin(), texts.end(), [&](const std::string& text) { return text == texts[0]; });
+  return fmt::format(
+      fmt::runtime(engine.cascades->each),
+      fmt::format(fmt::runtime(knob.line), one ? texts.front() : fmt::format("[{}][i]", fmt::join(texts, ", "))));
+}
+
 std::string no_lines_for(LightKind kind) {
   return fmt::format(
       "There are no lines: Noonmark does not describe what this engine does with the bias of a {} light.",
       kind_of_light(kind).name());
 }
 
-EngineAdvice advice_of(const Engine& engine, AdvicePlace place, const std::vector<AdvisedPart>& parts) {
-  place.filter = engine.filter(place);
-  place.map = engine.fit && place.kind() == LightKind::directional
-                  ? engine.fit(place)
-                  : EngineMap{place.frame.resolution, place.frame.extent_m, place.texel_m};
+// places: of the one map, or of each cascade. parts: of each place.
+EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& places,
+                       const std::vector<std::vector<AdvisedPart>>& parts, const AdvisedCascades* cascades) {
+  const AdvicePlace& place = places.front();
   EngineAdvice advice{engine.name, engine.version, {}, {}, engine.source, engine.comment};
+  if (cascades) advice.source += "; " + engine.cascades->source;
   const std::vector<EngineKnob> knobs = engine.knobs(place.kind());
-  const Typed typed = typed_amounts(engine, place, knobs, parts);
-  if (typed.suffices && !knobs.empty()) {
-    advice.lines = engine.map_lines(place);
-    for (const std::string& line : place.filter.lines)
-      advice.lines.push_back(fmt::format("{}  {} {}filter.kind = {}", line, engine.comment,
-                                         place.filter.same ? "" : "in place of ", place.settings.filter.kind));
-    for (size_t i = 0; i < knobs.size(); ++i)
-      advice.lines.push_back(fmt::format(fmt::runtime(knobs[i].line), number(knobs[i].typed(typed.metres[i], place))) +
-                             typed.from[i]);
+  std::vector<Typed> typed;
+  for (size_t k = 0; k < places.size(); ++k) typed.push_back(typed_amounts(engine, places[k], knobs, parts[k]));
+  const bool suffices = std::all_of(typed.begin(), typed.end(), [](const Typed& one) { return one.suffices; });
+  std::vector<std::string> once;  // what is said of fields that all cascades share
+  if (suffices && !knobs.empty()) {
+    advice.lines = cascades ? engine.cascades->lines(*cascades) : engine.map_lines(place);
+    for (const std::string& line : place.filter.lines) {
+      const bool each = cascades && !engine.cascades->each.empty() && line.starts_with(engine.cascades->each_begins);
+      advice.lines.push_back(
+          fmt::format("{}  {} {}filter.kind = {}", each ? fmt::format(fmt::runtime(engine.cascades->each), line) : line,
+                      engine.comment, place.filter.same ? "" : "in place of ", place.settings.filter.kind));
+    }
+    for (size_t i = 0; i < knobs.size(); ++i) {
+      std::vector<double> numbers;
+      for (size_t k = 0; k < places.size(); ++k) numbers.push_back(knobs[i].typed(typed[k].metres[i], places[k]));
+      advice.lines.push_back(knob_line(engine, knobs[i], numbers) + typed.front().from[i]);
+      if (cascades && engine.cascades->each.empty()) once.push_back(one_for_all(knobs[i].field, numbers));
+    }
     advice.lines.insert(advice.lines.end(), engine.last.begin(), engine.last.end());
-    emulate(engine, place, knobs, typed.metres, advice);
+    if (cascades)
+      advice.why_not_emulated = "with cascades the lines are not measured";
+    else
+      emulate(engine, place, knobs, typed.front().metres, advice);
   } else {
-    advice.cannot.push_back(knobs.empty() ? no_lines_for(place.kind()) : unexpressed_bias(typed.replaced, place));
+    advice.cannot.push_back(knobs.empty() ? no_lines_for(place.kind())
+                                          : unexpressed_bias(typed.front().replaced, place));
     advice.why_not_emulated = "there are no lines";
   }
   const auto say = [&](const std::vector<std::string>& said) {
-    advice.cannot.insert(advice.cannot.end(), said.begin(), said.end());
+    for (const std::string& one : said)
+      if (!one.empty()) advice.cannot.push_back(one);
   };
-  for (const AdvisedPart& part : parts) say(unexpressed_part(part, knob_for(knobs, part), !advice.lines.empty()));
+  for (const AdvisedPart& part : parts.front())
+    say(unexpressed_part(part, knob_for(knobs, part), !advice.lines.empty()));
   say(unexpressed_reference(place, !advice.lines.empty()));
   if (knobs.empty())
     advice.cannot.push_back(fmt::format("filter.kind = {} is not written, either.", place.settings.filter.kind));
   else
     say(unexpressed_filter(place));
-  say(unexpressed_map(place, engine.maps));
+  std::vector<std::string_view> maps = engine.maps;
+  if (cascades) maps.insert(maps.end(), {"map.snap", "map.depth_clamp", "map.pancake"});  // part of the engine's fit
+  say(unexpressed_map(place, maps));
   say(unexpressed_distance(place));
-  say(engine.limits(place));
+  say(once);
+  if (cascades) say(unexpressed_choice(*engine.cascades, *cascades));
+  if (cascades) say({fitted_cascades(*engine.cascades, *cascades)});
+  say(cascades ? engine.cascades->limits(*cascades) : engine.limits(place));
   return advice;
+}
+
+EngineAdvice advice_of_map(const Engine& engine, AdvicePlace place, const std::vector<AdvisedPart>& parts) {
+  place.filter = engine.filter(place);
+  place.map = engine.fit && place.kind() == LightKind::directional
+                  ? engine.fit(place)
+                  : EngineMap{place.frame.resolution, place.frame.extent_m, place.texel_m};
+  return advice_of(engine, {place}, {parts}, nullptr);
+}
+
+std::string no_cascades(const Engine& engine, int count) {
+  if (!engine.cascades) return "There are no lines for cascades. " + engine.no_cascades;
+  const std::vector<int>& counts = engine.cascades->counts;
+  if (std::find(counts.begin(), counts.end(), count) != counts.end()) return "";
+  return fmt::format("There are no lines: the engine lays {} cascades, and cascades.count = {}.",
+                     fmt::join(counts, ", "), count);
+}
+
+EngineAdvice advice_of_cascades(const Engine& engine, const Settings& settings, const Scene& scene) {
+  EngineAdvice advice{engine.name, engine.version, {}, {}, engine.source, engine.comment};
+  if (const std::string none = no_cascades(engine, settings.cascades.count); !none.empty()) {
+    advice.cannot.push_back(none);
+    advice.why_not_emulated = "there are no lines";
+    return advice;
+  }
+  const std::vector<Technique> recommended = cascades_of(scene, settings);
+  AdvisedCascades cascades;
+  for (const ViewSlice& slice : recommended.front().cascade->slices) cascades.ends_m.push_back(slice.end_m);
+  cascades.blend = blend_in(*engine.cascades, settings.cascades);
+  cascades.near_m = recommended.front().cascade->slices.front().begin_m;
+  const Settings as_laid = laid_by(*engine.cascades, settings, cascades.near_m, cascades.ends_m);
+  const std::vector<Technique> laid = cascades_of(scene, as_laid);
+  std::vector<std::vector<AdvisedPart>> parts;
+  for (size_t k = 0; k < laid.size(); ++k) {
+    const AdvicePlace asked = advice_place(settings, recommended[k].frame, scene);
+    parts.push_back(advised_parts(asked));
+    AdvicePlace place{settings, laid[k].frame};
+    place.texel_m = asked.texel_m;
+    place.depth_slope = 1 / place.range_m();
+    place.reach_texels = asked.reach_texels;
+    place.unseen = asked.unseen;
+    place.seen = asked.seen;
+    place.filter = engine.filter(place);
+    place.map = {laid[k].frame.resolution, laid[k].frame.extent_m, laid[k].frame.extent_m / laid[k].frame.resolution};
+    cascades.places.push_back(place);
+  }
+  if (engine.cascades->depth_m) {
+    const double depth_m = engine.cascades->depth_m(cascades);
+    for (AdvicePlace& place : cascades.places) place.depth_slope = 1 / depth_m;
+  }
+  return advice_of(engine, cascades.places, parts, &cascades);
 }
 
 }  // namespace
@@ -306,11 +397,16 @@ bool filter_is(const AdvicePlace& place, std::string_view kind, int size) {
 
 std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene,
                                         double farthest_m) {
+  std::vector<EngineAdvice> all;
+  if (settings.cascades.count > 1) {
+    for (const Engine& engine : engines()) all.push_back(advice_of_cascades(engine, settings, scene));
+    all.push_back(opengl_cascades());
+    return all;
+  }
   AdvicePlace place = advice_place(settings, frame, scene);
   place.seen.farthest_m = std::max(place.seen.farthest_m, farthest_m);
   const std::vector<AdvisedPart> parts = advised_parts(place);
-  std::vector<EngineAdvice> all;
-  for (const Engine& engine : engines()) all.push_back(advice_of(engine, place, parts));
+  for (const Engine& engine : engines()) all.push_back(advice_of_map(engine, place, parts));
   all.push_back(opengl_advice(place, parts));
   return all;
 }

@@ -106,7 +106,9 @@ Engine filament() {
           fit,
           {},
           nullptr,
-          {"lights.setShadowOptions(instance, options);"}};
+          {"lights.setShadowOptions(instance, options);"},
+          {},
+          "options.shadowCascades and cascadeSplitPositions are not written, nor what its bias is in each cascade."};
 }
 
 }  // namespace noonmark

@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "app/advise/engines/engine.h"
+#include "app/advise/engines/engine_cascades.h"
 
 namespace noonmark {
 namespace godot_engine {
@@ -143,6 +145,49 @@ std::vector<std::string> limits(const AdvicePlace& place) {
       "taps of its disk lie in that paraboloid. shadow_normal_bias moves the unit direction."};
 }
 
+// Cascades: renderer_scene_cull.cpp. Ends are shares of the way from the camera's near plane to the maximum distance; each map
+// is a sphere about the mean of the slice's corners, and a texel on each side. Four share the atlas' quarters.
+std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
+  const AdvicePlace& place = cascades.places.front();
+  const double range = cascades.reach_m() - cascades.near_m;
+  const std::vector<std::string> offsets = cascades.inner([&](double end) { return (end - cascades.near_m) / range; });
+  std::vector<std::string> lines = {
+      "# light: the DirectionalLight3D; camera: the picture's Camera3D",
+      fmt::format("camera.near = {}", number(cascades.near_m)),
+      fmt::format("camera.far = maxf(camera.far, {})", number(cascades.reach_m())),
+      "light.shadow_enabled = true",
+      fmt::format("light.shadow_reverse_cull_face = {}",
+                  place.settings.map.cull == CulledFaces::front ? "true" : "false"),
+      fmt::format(
+          "RenderingServer.directional_shadow_atlas_set_size({}, {})  # texels, 16 bits or not; a cascade has half",
+          2 * place.map.resolution, place.settings.map.format == DepthFormat::d16 ? "true" : "false"),
+      fmt::format("light.directional_shadow_mode = DirectionalLight3D.SHADOW_PARALLEL_{}_SPLITS", cascades.count())};
+  for (size_t k = 0; k < offsets.size(); ++k)
+    lines.push_back(fmt::format("light.directional_shadow_split_{} = {}", k + 1, offsets[k]));
+  lines.push_back("light.directional_shadow_blend_splits = false");
+  lines.push_back(fmt::format("light.directional_shadow_max_distance = {}", number(cascades.reach_m())));
+  lines.push_back("light.directional_shadow_fade_start = 1");
+  lines.push_back(fmt::format("light.directional_shadow_pancake_size = {}", number(pancake_m)));
+  lines.push_back("light.light_angular_distance = 0");
+  return lines;
+}
+
+std::vector<std::string> cascade_limits(const AdvisedCascades& cascades) {
+  std::vector<std::string> said = {
+      "shadow_bias is a hundredth of each cascade's depth range, its map's width and the pancake size: it grows more "
+      "slowly "
+      "than the texels, which a smaller pancake size mends. shadow_normal_bias is in texels of each cascade.",
+      "The lines are a script. The inspector rounds shadow_bias and shadow_normal_bias to 0.001.",
+      "Faces that a material culls are missing in the map too; with Cast Shadow: Double-Sided none are.",
+      "Receivers beyond the maximum distance are lit; Noonmark looks them up in the last map."};
+  if (cascades.count() == 2)
+    said.insert(
+        said.begin(),
+        "The two maps share the atlas as halves, and their texels are half as wide as they are tall; the bias is that "
+        "of the taller side.");
+  return said;
+}
+
 }  // namespace
 }  // namespace godot_engine
 
@@ -160,7 +205,22 @@ Engine godot() {
           {"map.cull"},
           fit,
           {},
-          [](Settings& settings, const AdvicePlace&) { settings.map.pancake = true; }};
+          [](Settings& settings, const AdvicePlace&) { settings.map.pancake = true; },
+          {},
+          EngineCascades{{2, 4},
+                         "the sphere about the mean of its slice's corners, and a texel on each side",
+                         [](Settings& s) {
+                           s.map.fit = MapFit::corner_sphere;
+                           s.map.pancake = true;
+                           s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
+                           s.map.extent_scale = s.map.resolution / std::max(1.0, s.map.resolution - 2.0);
+                         },
+                         cascade_lines,
+                         cascade_limits,
+                         "RendererSceneCull::_light_instance_setup_directional_shadow and "
+                         "LightStorage::get_directional_light_shadow_size",
+                         {},
+                         "but blend_splits, whose width is its own"}};
 }
 
 }  // namespace noonmark

@@ -155,6 +155,19 @@ std::vector<std::string> filter_limits(const AdvicePlace& place) {
 }  // namespace
 }  // namespace opengl_engine
 
+EngineAdvice opengl_cascades() {
+  return {
+      .engine = "OpenGL",
+      .version = "3.3 and later",
+      .lines = {},
+      .cannot =
+          {"There are no lines for cascades. The application lays them itself: point.json of noonmark render has the "
+           "slice, the matrix and the texel of each, and the bias that it needs."},
+      .source = "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)",
+      .comment = "//",
+      .why_not_emulated = "there are no lines"};
+}
+
 EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPart>& parts) {
   using namespace opengl_engine;
   EngineAdvice advice{"OpenGL",

@@ -74,23 +74,27 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 
 Engine playcanvas() {
   using namespace playcanvas_engine;
-  return {"PlayCanvas",
-          "2.23",
-          "playcanvas src/scene/light.js, src/scene/renderer/shadow-renderer-directional.js and "
-          "src/scene/shader-lib/glsl/chunks/lit/frag/lighting/lightFunctionShadow.js",
-          "//",
-          knobs,
-          filter,
-          map_lines,
-          limits,
-          {"map.cull"},
-          fit,
-          {},
-          [](Settings& settings, const AdvicePlace& place) {
-            settings.map.cull = place.unseen;
-            settings.bias["constant"] += always_subtracted * place.range_m();
-            settings.bias["polygon_units"] = settings.bias["polygon_factor"];
-          }};
+  return {
+      "PlayCanvas",
+      "2.23",
+      "playcanvas src/scene/light.js, src/scene/renderer/shadow-renderer-directional.js and "
+      "src/scene/shader-lib/glsl/chunks/lit/frag/lighting/lightFunctionShadow.js",
+      "//",
+      knobs,
+      filter,
+      map_lines,
+      limits,
+      {"map.cull"},
+      fit,
+      {},
+      [](Settings& settings, const AdvicePlace& place) {
+        settings.map.cull = place.unseen;
+        settings.bias["constant"] += always_subtracted * place.range_m();
+        settings.bias["polygon_units"] = settings.bias["polygon_factor"];
+      },
+      {},
+      {},
+      "light.numCascades, cascadeDistribution and cascadeBlend are not written, nor what its bias is in each cascade."};
 }
 
 }  // namespace noonmark

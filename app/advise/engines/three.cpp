@@ -1,11 +1,13 @@
 // three.js. The bias is added to the receiver's window depth in the fragment shader (getShadow), so it is negative
 // towards the light. The normal bias moves the receiver's vertex along its normal, in metres at every distance.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "app/advise/engines/engine.h"
+#include "app/advise/engines/engine_cascades.h"
 
 namespace noonmark {
 namespace three_engine {
@@ -42,11 +44,14 @@ EngineFilter filter(const AdvicePlace& place) {
           as};
 }
 
+std::string_view side_of(CulledFaces cull) {
+  return cull == CulledFaces::none ? "DoubleSide" : cull == CulledFaces::back ? "FrontSide" : "BackSide";
+}
+
 // The lines work in a page that runs already. In a glTF file the light and its target are children of a node, so their
 // positions are local. Object3D.add() moves both to the scene, and then the positions are in the world. A map that was drawn
 // before keeps its size and its projection until it is made anew.
 std::vector<std::string> map_lines(const AdvicePlace& place) {
-  const CulledFaces cull = place.settings.map.cull;
   const bool point = place.kind() == LightKind::point;
   std::vector<std::string> lines = {
       fmt::format("// scene: the THREE.Scene, not moved; light: a THREE.{}Light; renderer: a THREE.WebGLRenderer",
@@ -80,9 +85,7 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
   lines.push_back("  if (!mesh.isMesh) return;");
   lines.push_back("  mesh.castShadow = mesh.receiveShadow = true;  // leave out meshes that are to cast none");
   lines.push_back(fmt::format("  for (const material of [mesh.material].flat()) material.shadowSide = THREE.{};",
-                              cull == CulledFaces::none   ? "DoubleSide"
-                              : cull == CulledFaces::back ? "FrontSide"
-                                                          : "BackSide"));
+                              side_of(place.settings.map.cull)));
   lines.push_back("});");
   return lines;
 }
@@ -100,6 +103,71 @@ std::vector<std::string> limits(const AdvicePlace& place) {
   return said;
 }
 
+// Cascades: the addon CSM, which has a directional light for each. Each map is the square of the
+// slice's longest diagonal, and reaches from lightNear to lightFar, measured from lightMargin before the slice. The shader
+// (CSMShader.js) compares depth / (far - near) of the view with the ends, where the slices of the maps end at ends times far,
+// and looks nothing up beyond an end of 1. So maxFar is near beyond the reach: then far - near is the reach.
+constexpr double light_near_m = 1;
+
+void lay_cascades(Settings& s) {
+  s.map.fit = MapFit::corner_square;
+  const double longer = (*s.map.reach_m + *s.view.near_m) / *s.map.reach_m;
+  for (double& end : s.cascades.bounds_m) end *= longer;
+  s.map.reach_m = *s.map.reach_m * longer;
+}
+
+double deepest_m(const AdvisedCascades& cascades) {
+  double most = 0;
+  for (const AdvicePlace& place : cascades.places) most = std::max(most, place.range_m());
+  return std::ceil(most);
+}
+double margin_m(const AdvisedCascades& cascades) { return light_near_m + deepest_m(cascades); }
+double light_far_m(const AdvisedCascades& cascades) { return margin_m(cascades) + deepest_m(cascades); }
+
+std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
+  const AdvicePlace& place = cascades.places.front();
+  const std::string far = number(cascades.reach_m() + cascades.near_m);
+  return {
+      "// scene: the THREE.Scene; camera: the picture's camera; light: a THREE.DirectionalLight that is replaced; "
+      "renderer: a THREE.WebGLRenderer; CSM: of three/addons/csm/CSM.js",
+      placed_comment("direction"),
+      "renderer.shadowMap.enabled = true;",
+      fmt::format("camera.near = {}; camera.far = Math.max(camera.far, {}); camera.updateProjectionMatrix();",
+                  number(cascades.near_m), far),
+      fmt::format(
+          "const csm = new CSM({{ camera, parent: scene, cascades: {}, maxFar: {}, mode: \"custom\", shadowMapSize: "
+          "{}, lightIntensity: light.intensity,",
+          cascades.count(), far, place.map.resolution),
+      fmt::format("  lightDirection: new THREE.Vector3({}), lightNear: {}, lightFar: {}, lightMargin: {},",
+                  numbers(place.frame.forward), number(light_near_m), number(light_far_m(cascades)),
+                  number(margin_m(cascades))),
+      fmt::format("  customSplitsCallback: (count, near, far, breaks) => breaks.push({}, 1) }});",
+                  fmt::join(cascades.inner([&](double end) { return end / cascades.reach_m(); }), ", ")),
+      "csm.fade = false;",
+      "light.removeFromParent();  // CSM has a light for each cascade",
+      "scene.traverse((mesh) => {",
+      "  if (!mesh.isMesh) return;",
+      "  mesh.castShadow = mesh.receiveShadow = true;  // leave out meshes that are to cast none",
+      fmt::format("  for (const material of [mesh.material].flat()) {{ material.shadowSide = THREE.{}; "
+                  "csm.setupMaterial(material); "
+                  "material.needsUpdate = true; }}",
+                  side_of(place.settings.map.cull)),
+      "});",
+      "csm.update();  // and before each frame"};
+}
+
+std::vector<std::string> cascade_limits(const AdvisedCascades&) {
+  return {
+      "CSM compares depths divided by maxFar - near with the ends, and looks nothing up beyond the last; the lines "
+      "give "
+      "ends and a maxFar for that. With a mode of its own its cascades end nearer than its maps by the camera's near "
+      "plane times their share of maxFar. Noonmark looks what lies beyond up in the last map.",
+      "The maps reach from lightMargin before a slice to lightFar: a caster further away is clipped.",
+      "THREE.SunLight has two cascades with splits of its own (half even, half logarithmic) and always blends a tenth "
+      "of "
+      "them: it cannot be set to these."};
+}
+
 }  // namespace
 }  // namespace three_engine
 
@@ -113,7 +181,23 @@ Engine three_js() {
           filter,
           map_lines,
           limits,
-          {"map.cull", "map.fov_deg"}};
+          {"map.cull", "map.fov_deg"},
+          nullptr,
+          {},
+          nullptr,
+          {},
+          EngineCascades{{2, 3, 4, 5, 6, 7, 8},
+                         "the square as wide as its slice's longest diagonal",
+                         lay_cascades,
+                         cascade_lines,
+                         cascade_limits,
+                         "three/addons/csm CSM.js, CSMFrustum.js and CSMShader.js",
+                         {},
+                         "but csm.fade, whose width is a quarter of the square of the end",
+                         "depth",
+                         "light.",
+                         "csm.lights.forEach((light, i) => {{ {} }});",
+                         [](const AdvisedCascades& cascades) { return light_far_m(cascades) - light_near_m; }}};
 }
 
 }  // namespace noonmark

@@ -3,12 +3,15 @@
 // polygon offset with factor 2.5 and units 1 is always on. A directional light's map without cascades is the square of the
 // least sphere around the camera's frustum up to Max Distance (Conservative Enclosing Sphere, on in new assets).
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "app/advise/engines/engine.h"
+#include "app/advise/engines/engine_cascades.h"
 
 namespace noonmark {
 namespace urp_engine {
@@ -108,6 +111,48 @@ std::vector<std::string> limits(const AdvicePlace& place) {
   return said;
 }
 
+// Cascades: the asset's splits are shares of the Max Distance. Each map is the square of a sphere around its slice, and the
+// cascade of a receiver is the first whose sphere holds it (Shadows.hlsl, ComputeCascadeIndex), not that of its depth. The
+// maps share the asset's resolution as quarters (GetMaxTileResolutionInAtlas).
+std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
+  const AdvicePlace& place = cascades.places.front();
+  const std::vector<std::string> splits = cascades.inner([&](double end) { return end / cascades.reach_m(); });
+  const bool one = splits.size() == 1;
+  std::vector<std::string> lines = {
+      fmt::format("URP Asset > Lighting > Main Light > Shadow Resolution: {}  // a cascade has half",
+                  2 * place.map.resolution),
+      fmt::format("URP Asset > Shadows > Max Distance: {}", number(cascades.reach_m())),
+      fmt::format("URP Asset > Shadows > Cascade Count: {}", cascades.count())};
+  std::string fields =
+      one ? fmt::format("m_Cascade2Split: {}", splits[0]) : fmt::format("m_Cascade{}Split: {{", cascades.count());
+  for (size_t k = 0; !one && k < splits.size(); ++k)
+    fields += fmt::format("{}{}: {}", k ? ", " : "", "xyz"[k], splits[k]);
+  lines.push_back(fmt::format("URP Asset > Shadows > Split 1 to {}: {} m  // {}", splits.size(),
+                              fmt::join(cascades.inner([](double end) { return end; }), ", "),
+                              one ? fields : fields + "} in the asset's file"));
+  lines.push_back("URP Asset > Shadows > Last Border: 0");
+  lines.push_back("URP Asset > Shadows > Conservative Enclosing Sphere: on");
+  lines.push_back(fmt::format("Camera > Projection > Clipping Planes > Near: {}", number(cascades.near_m)));
+  return lines;
+}
+
+std::vector<std::string> cascade_limits(const AdvisedCascades&) {
+  return {
+      fmt::format(
+          "The engine always draws the maps with a polygon offset of factor {} and units {}. No field switches it "
+          "off; of what replaces other parts it is subtracted.",
+          number(fixed_factor), number(fixed_units)),
+      fmt::format("Depth and Normal are at most {}, in texels of each cascade.", number(greatest)),
+      "map.format: the map has 16 bits of depth.",
+      "A receiver is looked up in the first cascade whose sphere holds it, where Noonmark goes by the depth: beside "
+      "the "
+      "middle of the picture a cascade ends nearer than its split says. The sphere itself is computed in Unity's "
+      "closed "
+      "part; the texels are those of the least sphere.",
+      "The engine always moves vertices before the near plane onto it (map.pancake). A large triangle across the near "
+      "plane gets other depths by that, also behind the plane."};
+}
+
 }  // namespace
 }  // namespace urp_engine
 
@@ -128,7 +173,23 @@ Engine unity_urp() {
           [](Settings& settings, const AdvicePlace&) {
             settings.map.format = DepthFormat::d16;
             settings.map.pancake = true;
-          }};
+          },
+          {},
+          EngineCascades{
+              {2, 3, 4},
+              "the least sphere around its slice",
+              [](Settings& s) {
+                s.map.fit = MapFit::sphere;
+                s.map.pancake = true;
+                s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
+              },
+              cascade_lines,
+              cascade_limits,
+              "Runtime/ShadowUtils.cs (b850b71a; GetMaxTileResolutionInAtlas), Runtime/UniversalRenderPipeline.cs "
+              "(mainLightShadowCascadesSplit) and ShaderLibrary/Shadows.hlsl (ComputeCascadeIndex)",
+              {},
+              {},
+              "sphere"}};
 }
 
 }  // namespace noonmark

@@ -1,0 +1,235 @@
+// What is typed into engines for cascades: ends, maps and biases come back from the printed numbers by the engines' own formulas.
+#include "app/advise/engines/engine_cascades.h"
+
+#include <algorithm>
+#include <regex>
+
+#include "technique/cascades.h"
+#include "tests/app/engine_case.h"
+
+namespace noonmark {
+namespace {
+
+using test::expect_written;
+using test::joined;
+using test::typed;
+
+constexpr int resolution = 1024;
+constexpr double texels = 2;  // of the bias
+
+Settings street(int count = 4) {
+  Settings s;
+  s.scene.name = "street";
+  s.view.near_m = 0.2;
+  s.map.reach_m = 80;
+  s.map.fit = MapFit::sphere;
+  s.map.resolution = resolution;
+  s.cascades.count = count;
+  s.bias.unit = BiasUnit::texel;
+  s.bias["constant"] = texels;
+  return s;
+}
+
+Settings manual(std::vector<double> bounds) {
+  Settings s = street(static_cast<int>(bounds.size()) + 1);
+  s.cascades.splits = "manual";
+  s.cascades.bounds_m = std::move(bounds);
+  return s;
+}
+
+EngineAdvice advice(const Settings& settings, const std::string& engine) {
+  const Scene scene = make_scene(settings.scene);
+  for (EngineAdvice& one : engine_advice(settings, make_light_frame(scene, settings), scene))
+    if (one.engine == engine) return one;
+  ADD_FAILURE() << "no engine " << engine;
+  return {};
+}
+
+std::vector<double> list_after(const EngineAdvice& advice, const std::string& before) {
+  const std::string all = joined(advice.lines);
+  const size_t at = all.find(before);
+  EXPECT_NE(at, all.npos) << before << " is not in\n" << all;
+  if (at == all.npos) return {};
+  std::vector<double> values;
+  const std::string rest = all.substr(at + before.size(), all.find('\n', at) - at - before.size());
+  const std::regex number(R"(^[ ,]*(-?[0-9.]+(e-?[0-9]+)?))");
+  std::smatch found;
+  for (std::string left = rest; std::regex_search(left, found, number); left = found.suffix())
+    values.push_back(std::stod(found[1]));
+  return values;
+}
+
+// Of the street's camera: half of the picture's diagonal at one metre.
+double tangent() { return std::tan(std::numbers::pi / 6) * std::hypot(1, 1280.0 / 720); }
+
+double longest_diagonal(const ViewSlice& s) {
+  return std::max(2 * tangent() * s.end_m, std::hypot(s.end_m - s.begin_m, tangent() * (s.begin_m + s.end_m)));
+}
+double corner_radius(const ViewSlice& s) { return std::hypot((s.end_m - s.begin_m) / 2, tangent() * s.end_m); }
+
+struct Slices {
+  explicit Slices(const Settings& settings) : scene(make_scene(settings.scene)) {
+    for (const Technique& one : cascades_of(scene, settings)) texel_m.push_back(one.frame.extent_m / resolution);
+    slices = view_slices(scene, settings);
+  }
+  // The bias that is needed where the engine's texels are this wide: never less than the recommended one.
+  double needed_m(size_t k, double engine_texel_m) const { return texels * std::max(texel_m[k], engine_texel_m); }
+  Scene scene;
+  std::vector<double> texel_m;
+  std::vector<ViewSlice> slices;
+};
+
+TEST(EngineCascades, ThreeHasEndsAndBiasesOfItsOwn) {
+  const Settings settings = manual({4, 13, 31});
+  const Slices known(settings);
+  const EngineAdvice found = advice(settings, "three.js");
+  const double far = typed(found, "maxFar: "), near = typed(found, "camera.near = ");
+  expect_written(far - near, 80);  // by which the shader divides the depth
+  const std::vector<double> breaks = list_after(found, "breaks.push(");
+  ASSERT_EQ(breaks.size(), 4u);
+  for (size_t k = 0; k < 4; ++k) expect_written(breaks[k] * (far - near), known.slices[k].end_m);
+  // The bias of each light, in depth from lightNear to lightFar.
+  const double depth = typed(found, "lightFar: ") - typed(found, "lightNear: ");
+  const std::vector<double> biases = list_after(found, "light.shadow.bias = [");
+  ASSERT_EQ(biases.size(), 4u);
+  for (size_t k = 0; k < 4; ++k) {
+    // The maps' own slices end at breaks times far.
+    const ViewSlice slice{k == 0 ? near : breaks[k - 1] * far, breaks[k] * far};
+    expect_written(-biases[k] * depth, known.needed_m(k, longest_diagonal(slice) / resolution));
+  }
+  EXPECT_NE(joined(found.lines).find("csm.lights.forEach((light, i) => { light.shadow.bias = ["), std::string::npos)
+      << joined(found.lines);
+  // All of the street that can cast a shadow into a slice lies within the margin before it.
+  EXPECT_GT(typed(found, "lightMargin: "), 40);
+}
+
+TEST(EngineCascades, BabylonTakesTheNearestLambda) {
+  Settings settings = street();
+  settings.cascades.lambda = 0.7;
+  EngineAdvice found = advice(settings, "Babylon.js");
+  expect_written(typed(found, ".lambda = "), 0.7);
+  EXPECT_EQ(typed(found, ".numCascades = "), 4);
+  EXPECT_EQ(typed(found, ".shadowMaxZ = "), 80);
+  EXPECT_EQ(joined(found.cannot).find("the engine knows no ends"), std::string::npos) << joined(found.cannot);
+  settings.cascades.splits = "logarithmic";
+  expect_written(typed(advice(settings, "Babylon.js"), ".lambda = "), 1);
+  // Ends that no lambda has: no other lambda is nearer.
+  settings = manual({4, 13, 31});
+  found = advice(settings, "Babylon.js");
+  EXPECT_NE(joined(found.cannot).find("the nearest to the recommended 4, 13, 31 m"), std::string::npos)
+      << joined(found.cannot);
+  const auto missed = [&](double lambda) {
+    double sum = 0;
+    for (int i = 1; i < 4; ++i) {
+      const double end = lambda * 0.2 * std::pow(400, i / 4.0) + (1 - lambda) * (0.2 + 79.8 * i / 4);
+      sum += std::pow(end - settings.cascades.bounds_m[static_cast<size_t>(i) - 1], 2);
+    }
+    return sum;
+  };
+  const double lambda = typed(found, ".lambda = ");
+  for (int i = 0; i <= 1000; ++i) EXPECT_GE(missed(i / 1000.0) * (1 + 1e-9), missed(lambda) * (1 - 1e-4)) << i;
+}
+
+// One share of each cascade's own depth range: no cascade has less than it needs, and one has no more.
+TEST(EngineCascades, BabylonsBiasIsEnoughInEach) {
+  const Settings settings = street();
+  const Slices known(settings);
+  const EngineAdvice found = advice(settings, "Babylon.js");
+  Settings laid = settings;
+  laid.map.fit = MapFit::corner_sphere;
+  laid.map.depth_clamp = true;
+  laid.cascades.radius_round_m = 0.0625;
+  double least = 1e9;
+  for (size_t k = 0; k < 4; ++k) {
+    const LightFrame frame = cascades_of(known.scene, laid)[k].frame;
+    const double radius = std::ceil(corner_radius(known.slices[k]) * 16) / 16;
+    expect_written(frame.extent_m, 2 * radius);
+    const double given = typed(found, "shadowGenerator.bias = ") * (frame.far_m - frame.near_m);
+    least = std::min(least, given / known.needed_m(k, 2 * radius / resolution));
+  }
+  expect_written(least, 1);
+  EXPECT_NE(
+      joined(found.cannot).find("shadowGenerator.bias is one number for all cascades. It is what cascade 4 needs"),
+      std::string::npos)
+      << joined(found.cannot);
+}
+
+TEST(EngineCascades, GodotsSplitsAreSharesOfTheWay) {
+  const Settings settings = manual({4, 13, 31});
+  const Slices known(settings);
+  const EngineAdvice found = advice(settings, "Godot");
+  EXPECT_NE(joined(found.lines).find("SHADOW_PARALLEL_4_SPLITS"), std::string::npos);
+  EXPECT_EQ(typed(found, "directional_shadow_atlas_set_size("), 2 * resolution);
+  const double near = typed(found, "camera.near = "), reach = typed(found, "directional_shadow_max_distance = ");
+  double least = 1e9;
+  for (size_t k = 0; k < 4; ++k) {
+    if (k < 3)
+      expect_written(near + (reach - near) * typed(found, "directional_shadow_split_" + std::to_string(k + 1) + " = "),
+                     known.slices[k].end_m);
+    const double width = 2 * corner_radius(known.slices[k]) * resolution / (resolution - 2);
+    // A hundredth of the map's width and the pancake size, for each 1.
+    const double given = 0.01 * typed(found, "shadow_bias = ") * (width + typed(found, "pancake_size = "));
+    // Hard reads one linear fetch, which reaches twice as far as the recommended one tap (law 1).
+    least = std::min(least, given / (2 * known.needed_m(k, width / resolution)));
+  }
+  expect_written(least, 1);
+}
+
+TEST(EngineCascades, BevyTakesAnyBounds) {
+  const Settings settings = manual({4, 13, 31});
+  const Slices known(settings);
+  EngineAdvice found = advice(settings, "Bevy");
+  EXPECT_EQ(list_after(found, "bounds: vec!["), (std::vector<double>{4, 13, 31, 80}));
+  EXPECT_EQ(typed(found, "minimum_distance: "), 0.2);
+  double most = 0;  // one bias in metres, of the widest texels
+  for (size_t k = 0; k < 4; ++k)
+    most = std::max(most, 2 * known.needed_m(k, std::ceil(longest_diagonal(known.slices[k])) / resolution));
+  expect_written(typed(found, "shadow_depth_bias: "), most);
+  // A bias along the normal is in texels of each cascade, so one number is right in all.
+  Settings along = settings;
+  along.bias = {};
+  along.bias["normal_offset"] = 1;
+  found = advice(along, "Bevy");
+  EXPECT_EQ(joined(found.cannot).find("one number for all cascades"), std::string::npos) << joined(found.cannot);
+  // The builder's own bounds.
+  Settings first = street();
+  first.cascades.splits = "first_bound";
+  first.cascades.first_m = 5;
+  found = advice(first, "Bevy");
+  EXPECT_EQ(typed(found, "num_cascades: "), 4);
+  EXPECT_EQ(typed(found, "first_cascade_far_bound: "), 5);
+  EXPECT_EQ(typed(found, "maximum_distance: "), 80);
+}
+
+TEST(EngineCascades, UrpsSplitsAreSharesOfTheDistance) {
+  const Settings settings = manual({4, 13, 32});
+  const EngineAdvice found = advice(settings, "Unity URP");
+  EXPECT_EQ(typed(found, "Cascade Count: "), 4);
+  EXPECT_EQ(typed(found, "Shadow Resolution: "), 2 * resolution);
+  const std::string lines = joined(found.lines);
+  EXPECT_NE(lines.find("Split 1 to 3: 4, 13, 32 m  // m_Cascade4Split: {x: 0.05, y: 0.1625, z: 0.4}"),
+            std::string::npos)
+      << lines;
+  // In texels of each cascade, so one number is right in all; Hard Shadows reach twice as far as one tap.
+  expect_written(typed(found, "Depth: "), 2 * texels);
+  EXPECT_NE(joined(advice(manual({20}), "Unity URP").lines).find("m_Cascade2Split: 0.25"), std::string::npos);
+}
+
+TEST(EngineCascades, WhatAnEngineDoesNotLayHasNoLines) {
+  const auto none = [](int count, const char* engine, const char* why) {
+    const EngineAdvice found = advice(street(count), engine);
+    EXPECT_TRUE(found.lines.empty()) << engine;
+    ASSERT_EQ(found.cannot.size(), 1u) << engine;
+    EXPECT_NE(found.cannot.front().find(why), std::string::npos) << found.cannot.front();
+    EXPECT_FALSE(found.why_not_emulated.empty());
+  };
+  none(3, "Godot", "the engine lays 2, 4 cascades, and cascades.count = 3");
+  none(5, "Bevy", "the engine lays 2, 3, 4 cascades");
+  none(5, "Babylon.js", "the engine lays 2, 3, 4 cascades");
+  none(4, "PlayCanvas", "There are no lines for cascades. light.numCascades");
+  none(4, "Filament", "There are no lines for cascades. options.shadowCascades");
+  none(4, "OpenGL", "There are no lines for cascades. The application lays them itself");
+}
+
+}  // namespace
+}  // namespace noonmark

@@ -1,0 +1,141 @@
+"""The cascades of engines against Noonmark's prediction: each frame of the street that an engine draws with its cascades has the
+error that Noonmark measures with the engine's splits, fit, bias and filter, to 0.05 points.
+   engine_cascades_test.py NOONMARK SOURCE FOLDER
+And the lines that a report prints for the engine lay these cascades, typed in as they are. It prints the rows of the table in
+examples/engines/README.md. Skips (77) where no engine can run: node, Chromium or the
+packages of examples/engines/package.json (npm install in that folder, or NODE_MODULES names another one) are not installed."""
+import html
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+program, source, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+engines = source / "examples/engines"
+modules = pathlib.Path(os.environ.get("NODE_MODULES", engines / "node_modules"))
+SKIP = 77
+POINTS = 0.05  # of a hundred: how far the prediction may be from the frame
+
+# The street as its scene is seen, with near and far planes that both sides are given.
+NEAR, FAR, RESOLUTION = 0.2, 79, 1024
+SHOT = ["eye=0,1.6,0", "target=0.15,1.25,-12", "fov_y_deg=60", f"near={NEAR}", f"far={FAR}"]
+PREDICTED = ["scene.name=street", f"view.near_m={NEAR}", f"view.far_m={FAR}", f"map.reach_m={FAR}", f"map.resolution={RESOLUTION}", "map.snap=true"]
+
+FLOATS = 2 ** -24 * FAR / NEAR  # Babylon.js finds the corners by an inverse matrix of floats, which loses far / near
+
+CSM_DEPTH_M = 1999  # from lightNear to lightFar of CSM, by default
+# How far SwiftShader moves a vertex at most, in texels (1/16 of one is its grid), and so how far depths of the ground may be off:
+# |g|, of law 1, is at most sqrt(2) tan(theta) of the ground under this sun. In metres for the nearest cascade's texels.
+RASTER_M = 0.0239 / 32 * 2 ** 0.5 * 0.88
+
+
+def csm(bias, off_m=0):
+    """The square of the longest diagonal; one bias in depth is one in metres, because all maps are as deep."""
+    return (["three/page.html", "class=CSM", "cascades=4", "type=BasicShadowMap", "shadow_side=both", f"bias={-bias}"],
+            [["cascades.count=4", "map.fit=corner_square", "bias.unit=m", f"bias.constant={bias * CSM_DEPTH_M + off}"]
+             for off in ([-off_m, off_m] if off_m else [0])])
+
+
+def babylon(stabilize, bias):
+    """The sphere about the corners' mean; what lies before near is clamped to it, so near and far are the slice's. Without
+    stabilizeCascades it is the corners' box, whose texels are narrower by up to a half along one side: between texels of the longer
+    side and texels of half of that."""
+    fits = [["map.fit=corner_sphere", "cascades.radius_round_m=0.0625"]] if stabilize else [["map.fit=corner_box"], ["map.fit=corner_box", f"map.resolution={2 * RESOLUTION}"]]
+    return (["babylon/page.html", "class=CascadedShadowGenerator", "blend=0", f"stabilize={str(stabilize).lower()}", f"bias={bias}"],
+            [["cascades.count=4", "map.depth_clamp=true", f"bias.constant={bias}", *fit] for fit in fits])
+
+
+# The name, what is shot, and what is predicted: one point, or two between which the frame lies.
+CASES = [("three.js CSM, `bias=-0.00002`", *csm(0.00002, RASTER_M)), ("three.js CSM, `bias=-0.0003`", *csm(0.0003)),
+         ("Babylon.js, `stabilize=true bias=0.001`", *babylon(True, 0.001)), ("Babylon.js, `stabilize=true bias=0.01`", *babylon(True, 0.01)),
+         ("Babylon.js, `bias=0.001`", *babylon(False, 0.001)), ("Babylon.js, `bias=0.01`", *babylon(False, 0.01))]
+
+
+def missing(page):
+    package = {"three": "three", "babylon": "babylonjs"}[page.split("/")[0]]
+    lacking = [tool for tool in ("node", "chromium") if not shutil.which(tool)]
+    return " ".join(lacking + ([] if (modules / package).is_dir() else [f"{modules}/{package}"]))
+
+
+def run(*command):
+    return subprocess.run([str(part) for part in command], env={**os.environ, "NODE_MODULES": str(modules)}, capture_output=True, text=True)
+
+
+def found(ran, what):
+    if ran.returncode != 0:
+        print(f"{what}: exit code {ran.returncode}\n{ran.stdout[-2000:]}{ran.stderr[-2000:]}")
+        sys.exit(1)
+
+
+able = [case for case in CASES if not missing(case[1][0])]
+for page in sorted({case[1][0] for case in CASES}):
+    if missing(page):
+        print(f"not run: {page}, which needs {missing(page)}")
+if not able:
+    print("no engine is installed")
+    sys.exit(SKIP)
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+found(run(program, "export", "street", "--out", folder / "street.glb"), "export")
+bad = []
+
+def compared(name, out, page, shot, predictions):
+    """Draws a frame and measures the points; the texels are the same, and the errors as near as they must be."""
+    found(run("node", engines / "shoot.mjs", page, folder / "street.glb", out, *SHOT, *shot), name)
+    found(run(program, "judge", out / "frame.json", "--out", out / "judged"), name)
+    of_frame = 100 * json.loads((out / "judged/judge.json").read_text())["metrics"]["frame_error"]
+    laid = json.loads((out / "cascades.json").read_text())["cascades"]
+    errors = []
+    for k, predicted in enumerate(predictions):
+        settings = [word for one in PREDICTED + predicted for word in ("--set", one)]
+        found(run(program, "render", *settings, "--out", out / f"predicted-{k}"), name)
+        point = json.loads((out / f"predicted-{k}/point.json").read_text())
+        errors.append(100 * point["metrics"]["error"])
+        for one, other in zip(laid, point["cascades"], strict=True):
+            widest = max(one["width_m"], one["height_m"]) / one["resolution"] * RESOLUTION / other["light"]["resolution"]
+            if abs(other["light"]["texel_m"] / widest - 1) > FLOATS:
+                bad.append(f"{name}: a texel is {other['light']['texel_m']} m, the engine's {widest} m")
+    print(f"| {name} | {of_frame:.3f}% | {' to '.join(f'{error:.3f}%' for error in sorted(errors))} |", flush=True)
+    near = abs(errors[0] - of_frame) <= POINTS if len(errors) == 1 else min(errors) <= of_frame <= max(errors)
+    if not near:
+        bad.append(f"{name}: the frame has {of_frame:.3f}%, the prediction {errors}")
+    return laid
+
+
+for i, (name, (page, *shot), predictions) in enumerate(able):
+    compared(name, folder / str(i), page, [f"resolution={RESOLUTION}", *shot], predictions)
+
+# The lines of the report of one point: 2.3 texels of bias in each cascade, as the engine can have it.
+ENDS, TEXELS = [9, 20, 37], 2.3
+TYPED = ["cascades.count=4", "cascades.splits=manual", f"cascades.bounds_m={','.join(map(str, ENDS))}", "bias.unit=texel", f"bias.constant={TEXELS}"]
+(folder / "typed.toml").write_text('scene = "street"\n')
+found(run(program, "run", folder / "typed.toml", "--out", folder / "typed", *[word for one in PREDICTED + TYPED + ["map.fit=sphere"] for word in ("--set", one)]), "run")
+report = html.unescape(re.sub("<[^>]+>", "", (folder / "typed/report.html").read_text()))
+
+
+def typed(engine, page, fit):
+    """fit: the settings that predict the frame, from the text of the lines."""
+    lines = re.search(rf"^{re.escape(engine)} \(.*\n((?:    .*\n)+)", report, re.M).group(1)
+    (folder / "lines.txt").write_text(lines)
+    # The lines' own ends and biases, by which the frame is predicted.
+    laid = compared(f"{engine}, the lines of a report", folder / f"typed-{page.split('/')[0]}", page, [f"lines={folder / 'lines.txt'}"], [TYPED + fit(lines)])
+    return [one["end_m"] for one in laid]
+
+
+if not missing("three/page.html"):
+    longer = (FAR + NEAR) / FAR  # the maps' slices end at the ends' shares of maxFar, which is near beyond the reach
+    ends = typed("three.js", "three/page.html", lambda lines: ["map.fit=corner_square", f"map.reach_m={FAR * longer}",
+                                                               f"cascades.bounds_m={','.join(repr(end * longer) for end in ENDS)}"])
+    if max(abs(a / b - 1) for a, b in zip(ends, ENDS + [FAR], strict=True)) > 1e-5:  # of six digits
+        bad.append(f"three.js: the lines end cascades at {ends}")
+if not missing("babylon/page.html"):
+    def of_babylon(lines):
+        number = lambda field: re.search(rf"{field} = ([-0-9.e]+);", lines).group(1)
+        return ["map.fit=corner_sphere", "cascades.radius_round_m=0.0625", "map.depth_clamp=true", "cascades.splits=practical",
+                f"cascades.lambda={number('lambda')}", "bias.unit=depth", f"bias.constant={number('shadowGenerator.bias')}"]
+    typed("Babylon.js", "babylon/page.html", of_babylon)
+print("\n".join(bad))
+sys.exit(bool(bad))
