@@ -298,6 +298,16 @@ std::string why_no_engine_lines(std::span<const Settings> conditions) {
   return "";
 }
 
+// The lines of all engines; those of one map with what they promise.
+std::vector<EngineAdvice> engines_of(const Answer& answer, const AdviceRequest& request, Workbench& bench,
+                                     const std::function<void(const std::string&)>& say) {
+  const Settings& settings = answer.tried.settings;
+  if (settings.cascades.count == 1) return measured_engines(bench, answer.tried, request, say);
+  const double farthest_m = farthest_in_views_m(bench, request.conditions);
+  const Scene& scene = bench.scene(settings.scene);
+  return engine_advice(settings, make_light_frame(scene, settings), scene, farthest_m);
+}
+
 // The engines whose lines are printed.
 std::vector<std::string> shown_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan) {
   std::vector<std::string> words;
@@ -328,9 +338,9 @@ int recommend(const RecommendOptions& options) {
   const auto say = [&](const std::string& step) { progress.say(printable(step)); };
   AdviceRequest request = request_of(experiment, options, bench, say);
   if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
-  std::string no_lines = why_no_engine_lines(request.conditions);
-  if (no_lines.empty() && options.cascades && !options.engines.empty())
-    no_lines = "--engine tries the lines of one map";
+  const std::string no_lines = why_no_engine_lines(request.conditions);
+  if (!options.engines.empty() && (options.cascades || request.conditions.front().cascades.count > 1))
+    throw Error(ErrorKind::usage, "--engine tries the lines of one map; leave it out, or search no cascades");
   if (!no_lines.empty() && (options.lines || !options.engines.empty()))
     throw Error(ErrorKind::usage, fmt::format("{}; leave it out, or leave out --lines and --engine", no_lines));
   std::optional<TrialPlan> plan;
@@ -350,10 +360,8 @@ int recommend(const RecommendOptions& options) {
   if (advice.answer() && options.around)
     advice.around = settings_around(bench, under_conditions(advice.answer()->tried, request),
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
-  if (no_lines.empty() && advice.answer() && advice.answer()->tried.settings.cascades.count > 1)
-    no_lines = "no engine's lines can be given for cascades yet";
   std::vector<EngineAdvice> engines;
-  if (advice.answer() && no_lines.empty()) engines = measured_engines(bench, advice.answer()->tried, request, say);
+  if (advice.answer() && no_lines.empty()) engines = engines_of(*advice.answer(), request, bench, say);
   if (advice.answer() && plan) {
     for (Settings& view : plan->views) request.places[advice.answer()->tried.place].apply(view);
     try_engines(bench, *plan, engines, {request.curve, request.error, request.accuracy}, out, say);

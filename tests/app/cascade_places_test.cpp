@@ -12,7 +12,7 @@
 namespace noonmark {
 namespace {
 
-Settings street() {
+Settings small_street() {
   Settings settings;
   settings.scene.name = "street";
   settings.view.width_px = 320, settings.view.height_px = 180;
@@ -23,7 +23,7 @@ const auto unheard = [](const std::string&) {};
 
 TEST(CascadePlaces, ReachAsFarAsTheViewsShow) {
   Workbench bench(gl::DebugMode::fatal);
-  const Settings first = street();
+  const Settings first = small_street();
   const CascadePlaces found = cascade_places(bench, {&first, 1}, cascade_counts, 320, unheard);
   ASSERT_EQ(found.places.size(), std::size(cascade_counts)) << found.why_not;
   const double farthest_m = farthest_in_views_m(bench, {&first, 1});
@@ -52,7 +52,7 @@ TEST(CascadePlaces, ReachAsFarAsTheViewsShow) {
 // The splits are those of the least error among the ones that are compared.
 TEST(CascadePlaces, HaveTheSplitsOfLeastError) {
   Workbench bench(gl::DebugMode::fatal);
-  const Settings first = street();
+  const Settings first = small_street();
   constexpr int three[] = {3};
   std::vector<std::string> said;
   const CascadePlaces found =
@@ -87,7 +87,7 @@ TEST(CascadePlaces, AreOfADirectionalLight) {
 TEST(CascadePlaces, AreTheAnswerWhereOneMapOfTheirWorkErrsMore) {
   Workbench bench(gl::DebugMode::fatal);
   AdviceRequest request;
-  request.conditions = {street()};
+  request.conditions = {small_street()};
   request.places = {place_as_given()};
   request.levels = {bias_levels().front()};
   request.filters = {{"none", {}}};
