@@ -34,7 +34,7 @@ Markup table_of(const PointRecord& point) {
     if (varies) heads += th(with_small(name, "m"));
     return heads;
   };
-  const Markup head = th("Cascade") + th(with_small("From", "m")) + th(with_small("to", "m")) +
+  const Markup head = th("Cascade") + th(with_small("From", "m")) + th(with_small("To", "m")) +
                       th(with_small("Texel", "m")) + th("Receivers") + th(with_small("Error", "%")) +
                       th(with_small("Of all error", "%")) + th(css("text"), "Largest cause") + bias("Bias needed") +
                       bias("Bias set");

@@ -16,7 +16,6 @@
 #include "app/pictures/view_colors.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
-#include "gl/renderer.h"
 #include "tests/app/read_image.h"
 #include "tests/support/sample_results.h"
 
@@ -158,7 +157,7 @@ class PicturesOfCascades : public Pictures {
     }
     far_map = MapDepths(far_exact);
     cascades = Image<uint8_t>(3, 2);
-    cascades.pixels = {0, 0, 1, 1, 0, gl::no_cascade};
+    cascades.pixels = {0, 0, 1, 1, 0, no_cascade};
   }
   Measurement measurement() const {
     Measurement m = Pictures::measurement();
@@ -170,7 +169,7 @@ class PicturesOfCascades : public Pictures {
       return band;
     };
     m.maps.push_back({{settings, far_frame}, probe, MapDepths(far_stored), far_map, rows});
-    m.cascades = cascades;
+    m.cascades.of = cascades;
     m.record.cascades = {{0.25, 4, {{"error", 0.125}}, 0.5}, {4, 32, {{"error", nan_value}}, std::nullopt}};
     return m;
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "compare/ladder/numbers.h"
@@ -113,20 +114,25 @@ TEST(JoinCascades, SoundnessIsThatOfTheWorst) {
   EXPECT_TRUE(std::isnan(join_soundness(all).at("map_bits")));
 }
 
-// Shares are weighted by the receivers; a root mean square by its squares.
+// Shares are weighted by the receivers; a root mean square by its squares. In a blend band a receiver counts with a share in each
+// cascade, so the weights need not be whole.
 TEST(JoinCascades, PlacementsAddOverTheReceivers) {
   ASSERT_TRUE(find_metric("error_worst").of_placements && find_metric("aliasing_rms_mean").of_placements);
   const Cascades all = three({{"error_worst", {0.1, 0.5, not_a_number}},
                               {"acne_mean", {0, 0.25, not_a_number}},
+                              {"wrong_worst", {0.1, 0.5, not_a_number}},
                               {"aliasing_rms_mean", {0.2, 0.4, not_a_number}}});
-  const std::map<std::string, double> joined = join_placements(all);
-  EXPECT_EQ(joined.size(), 3u) << "only what the cascades have";
+  const std::array<double, 3> whole = {300, 100, 0}, parts = {249.5, 249.5, 0}, none = {0, 0, 0};
+  const std::map<std::string, double> joined = join_placements(all, whole, false);
+  EXPECT_EQ(joined.size(), 4u) << "only what the cascades have";
   EXPECT_DOUBLE_EQ(joined.at("error_worst"), 0.75 * 0.1 + 0.25 * 0.5);
   EXPECT_DOUBLE_EQ(joined.at("acne_mean"), 0.25 * 0.25);
+  EXPECT_DOUBLE_EQ(joined.at("wrong_worst"), 0.75 * 0.1 + 0.25 * 0.5);
   EXPECT_DOUBLE_EQ(joined.at("aliasing_rms_mean"), std::sqrt(0.75 * 0.04 + 0.25 * 0.16));
-  Cascades none = all;
-  for (PointRecord::Cascade& cascade : none) cascade.metrics["counted"] = 0;
-  EXPECT_TRUE(std::isnan(join_placements(none).at("error_worst")));
+  const std::map<std::string, double> blended = join_placements(all, parts, true);
+  EXPECT_EQ(blended.size(), 2u) << "a pixel of two maps has no sum of squares and no count";
+  EXPECT_DOUBLE_EQ(blended.at("error_worst"), 0.5 * 0.1 + 0.5 * 0.5);
+  EXPECT_TRUE(std::isnan(join_placements(all, none, false).at("error_worst")));
 }
 
 TEST(JoinCascades, ARecordKeepsItsOwnMetricsOnly) {
