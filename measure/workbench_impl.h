@@ -45,6 +45,9 @@ struct MapStages {
   Remembered<LookupStage> lookup;
 };
 
+// The truth of the receivers that a cascade has a part in, and of the seam before it; the others do not face the light.
+TruthStage truth_of_cascade(const TruthStage& all, const ChosenCascades& choice, int cascade);
+
 // One map of a point: what it shows to its receivers, and why. truth: of these receivers.
 struct OneMap {
   MapStages& kept;
@@ -169,6 +172,7 @@ struct Workbench::Impl {
                       std::span<const std::unique_ptr<PlacementStage>> placements,
                       std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked);
 
+  struct SmallPicture;
   LivePicture draw_live(const SceneStage& loaded, const Settings& settings);
   PictureStack draw_stack(const SceneStage& loaded, const Settings& settings, const std::vector<double>& marks);
   // Draws the settings' view with few pixels, for a page: draw(settings) with the number of pixels that the report's live

@@ -157,19 +157,6 @@ void add_maps(PointRecord& record, std::span<const OneMap> maps, const TruthStag
   if (metrics == MetricSet::all) record.metrics["map_used"] = used / record.metrics.at("map_texels");
 }
 
-// The truth of the receivers that a cascade has a part in, and of the seam before it; the others do not face the light.
-TruthStage truth_of_cascade(const TruthStage& all, const ChosenCascades& choice, int cascade) {
-  TruthStage one = all;
-  one.receivers.answers = {};
-  one.receivers.share = Image<double>(choice.of.width, choice.of.height, 0);
-  for (size_t i = 0; i < choice.of.size(); ++i) {
-    one.receivers.share[i] = choice.share(i, cascade);
-    const bool at_seam = choice.seam[i] && choice.of[i] + 1 == cascade;
-    if (one.receivers.share[i] == 0 && !at_seam) one.receivers.facing[i] = 0;
-  }
-  return one;
-}
-
 // The weighted mean of |R5 - R1| over the receivers of a map, and over all of them the sum of the weights.
 double error_of_map(const Ladder& ladder, const ReceiverTruth& truth) {
   if (truth.share.size() == 0) return error_of(ladder);
@@ -194,6 +181,18 @@ std::vector<Seam> seams_of(std::span<const OneMap> maps, const ChosenCascades& c
 }
 
 }  // namespace
+
+TruthStage truth_of_cascade(const TruthStage& all, const ChosenCascades& choice, int cascade) {
+  TruthStage one = all;
+  one.receivers.answers = {};
+  one.receivers.share = Image<double>(choice.of.width, choice.of.height, 0);
+  for (size_t i = 0; i < choice.of.size(); ++i) {
+    one.receivers.share[i] = choice.share(i, cascade);
+    const bool at_seam = choice.seam[i] && choice.of[i] + 1 == cascade;
+    if (one.receivers.share[i] == 0 && !at_seam) one.receivers.facing[i] = 0;
+  }
+  return one;
+}
 
 const TruthStage& Workbench::Impl::truth_of(const Asked& asked, const Looked& looked, MapStages& kept,
                                             const Technique& technique) {

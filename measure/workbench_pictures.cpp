@@ -3,6 +3,7 @@
 
 #include "compare/ladder/bias_curves.h"
 #include "measure/workbench_impl.h"
+#include "technique/cascades.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -13,61 +14,92 @@ constexpr size_t most_live_bytes = 2'000'000;
 
 }  // namespace
 
+// What a small picture is drawn from: its maps, each with the truth of its receivers. As of the point itself, but nothing that
+// the bench remembers is replaced, because the next point has a picture of full size again.
+struct Workbench::Impl::SmallPicture {
+  SmallPicture(Impl& bench, const SceneStage& loaded, const Settings& settings)
+      : techniques(cascades_of(*loaded.scene, settings)),
+        seen(bench.stages->take_view(bench.renderer, *loaded.scene, settings.view)),
+        all(bench.stages->trace_truth(loaded, seen, techniques.front())) {
+    bench.renderer.load_receivers(seen.receivers, seen.camera.eye_m);
+    if (techniques.size() == 1) {
+      truths.push_back(all);
+    } else {
+      const ChosenCascades chosen = bench.renderer.choose_cascades(techniques.front());
+      for (size_t k = 0; k < techniques.size(); ++k)
+        truths.push_back(truth_of_cascade(all, chosen, static_cast<int>(k)));
+    }
+    std::vector<ScaledMap> scaled;
+    for (size_t k = 0; k < techniques.size(); ++k) scaled.push_back({techniques[k].frame, truths[k].receivers});
+    scale = bias_scale(scaled, seen.receivers, settings.bias.unit);
+  }
+  std::vector<Technique> techniques;
+  ViewStage seen;
+  TruthStage all;
+  std::deque<TruthStage> truths;  // of each map; lookups refer to them
+  BiasScale scale;
+};
+
 // One attempt at a live picture, of the picture's size in the settings.
 LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings& settings) {
-  const Technique technique(*loaded.scene, settings);
-  const ViewStage seen = stages->take_view(renderer, *loaded.scene, settings.view);
-  const TruthStage traced = stages->trace_truth(loaded, seen, technique);
-  renderer.load_receivers(seen.receivers, seen.camera.eye_m);
-  LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, technique);
-  const MapDepths stored =
-      renderer.read_map(*stages->draw_map(renderer, *loaded.scene, technique).map, asked.exact_depth.texels);
+  SmallPicture small(*this, loaded, settings);
   const BiasPart& varied = *curve_part(settings.bias);
-  LivePicture picture = empty_live_picture(seen.receivers.width(), seen.receivers.height());
-  picture.taps = asked.probe.taps();
+  LivePicture picture = empty_live_picture(small.seen.receivers.width(), small.seen.receivers.height());
+  picture.taps = small.techniques.front().taps.taps;
   picture.parameter = "bias." + std::string(varied.name);
   picture.unit = find_setting("bias.unit").get(settings);
-  picture.scale = bias_scale(technique.frame, seen.receivers, traced.receivers, settings.bias.unit);
+  picture.scale = small.scale;
   for (size_t i = 0; i < picture.flags.size(); ++i)
-    if (seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
-  each_strip_of(renderer, asked, traced, technique, [&](const LookupEvidence& evidence, PixelRange strip) {
-    add_live_strip(picture, evidence, stored, settings.bias, varied, strip);
-  });
+    if (small.seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
+  for (size_t k = 0; k < small.techniques.size(); ++k) {
+    const Technique& technique = small.techniques[k];
+    TruthStage& truth = small.truths[k];
+    for (size_t i = 0; i < truth.receivers.share.size(); ++i)  // without a blend band each receiver is of one map
+      if (truth.receivers.share[i] == 0) truth.receivers.facing[i] = 0;
+    LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, small.seen, truth, technique);
+    const MapDepths stored =
+        renderer.read_map(*stages->draw_map(renderer, *loaded.scene, technique).map, asked.exact_depth.texels);
+    each_strip_of(renderer, asked, truth, technique, [&](const LookupEvidence& evidence, PixelRange strip) {
+      add_live_strip(picture, evidence, stored, settings.bias, varied, strip);
+    });
+  }
   return picture;
 }
 
-// One attempt at a stack of pictures. As in draw_live, nothing that the bench remembers is replaced, because the next
-// point has a picture of full size again.
+// One attempt at a stack of pictures.
 PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Settings& settings,
                                          const std::vector<double>& marks) {
   const BiasPart& part = stacked_part(settings.bias);
-  const Technique as_set(*loaded.scene, settings);
-  const ViewStage seen = stages->take_view(renderer, *loaded.scene, settings.view);
-  const TruthStage traced = stages->trace_truth(loaded, seen, as_set);
-  renderer.load_receivers(seen.receivers, seen.camera.eye_m);
+  SmallPicture small(*this, loaded, settings);
   std::optional<BiasScale> scale;
   double otherwise = 1;
   if (part.acts_on == BiasTarget::compared_depth) {
-    scale = bias_scale(as_set.frame, seen.receivers, traced.receivers, settings.bias.unit);
+    scale = small.scale;
     otherwise = 1 / (scale->texels_per_depth * scale->depth_per_unit);
   }
-  Remembered<LookupStage> lookup_stage;
-  Remembered<MapStage> map_stage;
+  std::deque<MapStages> kept(small.techniques.size());
   std::optional<PictureStack> stack;
   Settings at = settings;
   for (const double value : stack_values(part, settings.bias[part.name], marks, otherwise)) {
     at.bias[part.name] = value;
     const StageKeys keys(at);
-    const Technique technique(*loaded.scene, at);
-    LookupStage& asked = lookup_stage.get(
-        keys.lookup, [&] { return stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, technique); });
-    const auto draw_map = [&] { return stages->draw_map(renderer, *loaded.scene, technique); };
-    MapStage& drawn = map_stage.get(keys.map, draw_map);
-    if (!drawn.map) drawn = draw_map();
-    const ShownStage shown = stages->show(renderer, drawn, asked, traced, technique);
-    const Climbed climbed = stages->climb_strips(renderer, asked, seen, traced, shown, technique, nullptr);
-    if (!stack) stack = empty_picture_stack(seen.receivers, traced.receivers, asked.probe);
-    add_picture(*stack, value, climbed.ladder);
+    const std::vector<Technique> techniques = cascades_of(*loaded.scene, at);
+    std::optional<Ladder> ladder;
+    for (size_t k = 0; k < techniques.size(); ++k) {
+      const Technique& technique = techniques[k];
+      const TruthStage& truth = small.truths[k];
+      LookupStage& asked = kept[k].lookup.get(
+          keys.lookup, [&] { return stages->prepare_lookup(renderer, *loaded.tracer, small.seen, truth, technique); });
+      MapStage& map = drawn(kept[k], *loaded.scene, technique, keys.map);
+      const ShownStage shown = stages->show(renderer, map, asked, truth, technique);
+      Climbed climbed = stages->climb_strips(renderer, asked, small.seen, truth, shown, technique, nullptr);
+      if (!stack) stack = empty_picture_stack(small.seen.receivers, small.all.receivers, asked.probe);
+      if (ladder)
+        join(*ladder, climbed.ladder, truth.receivers.share);
+      else
+        ladder = std::move(climbed.ladder);
+    }
+    add_picture(*stack, value, *ladder);
   }
   stack->parameter = "bias." + std::string(part.name);
   stack->unit = part.unit == "bias.unit" ? find_setting("bias.unit").get(settings) : std::string(part.unit);
@@ -95,7 +127,6 @@ auto Workbench::Impl::draw_small(const Settings& settings, const Draw& draw, con
 
 std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
   validate(settings);
-  require_one_map(settings, "a live picture");
   if (!why_no_live_picture(settings).empty()) return std::nullopt;
   return impl_->draw_small(
       settings, [&](const SceneStage& loaded, const Settings& small) { return impl_->draw_live(loaded, small); },
@@ -104,7 +135,6 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
 
 PictureStack Workbench::picture_stack(const Settings& settings, const std::vector<double>& marks) {
   validate(settings);
-  require_one_map(settings, "a stack of pictures");
   return impl_->draw_small(
       settings,
       [&](const SceneStage& loaded, const Settings& small) { return impl_->draw_stack(loaded, small, marks); },

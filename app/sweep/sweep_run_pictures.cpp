@@ -60,8 +60,7 @@ PointPictures SweepRun::pictures_of(const Measurement& m, const PointRecord& wit
                                                   wants_exr(id) ? PictureFormats::png_and_exr : PictureFormats::png);
   const Settings settings = m.technique.settings;
   const std::vector<double> marks = marks_of(with_curve);
-  if (m.maps.size() == 1)  // neither a live picture nor a stack is made of cascades
-    kept.images.push_back(keep_live_picture(bench_, settings, marks, id, folder_.path()));
+  kept.images.push_back(keep_live_picture(bench_, settings, marks, id, folder_.path()));
   return kept;
 }
 

@@ -211,7 +211,7 @@ std::vector<double> picture_times(Workbench& bench, const std::vector<Settings>&
   const double per_texel = std::max(0.0, (write(other) - quarter) / (texels(other) - texels(first)));
   double files = at_full_size([&](int divisor) { return divisor == 4 ? quarter : write(small_part(first, divisor)); });
   const Clock before = now();
-  if (first.cascades.count == 1) keep_live_picture(bench, first, {}, 0, folder.path());
+  keep_live_picture(bench, first, {}, 0, folder.path());
   files += now().cpu_s - before.cpu_s;
   std::vector<double> seconds;
   for (const Settings& point : planned)

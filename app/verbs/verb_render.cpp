@@ -89,15 +89,16 @@ void print_fitted_map(const Measurement& m) {
 // The table of the cascades, and which of them the error comes from.
 void print_cascades(const Measurement& m) {
   if (m.record.cascades.empty()) return;
-  fmt::print("\n  {:<10}{:>19}{:>11}{:>11}{:>12}{:>10}{:>28}{:>28}\n", "cascade", "depth", "texel", "receivers",
-             "error", "of all", "bias needed", "bias set");
+  fmt::print("\n  {:<10}{:>19}{:>11}{:>11}{:>12}{:>10}{:>10}{:>28}{:>28}\n", "cascade", "depth", "texel", "receivers",
+             "error", "of all", "seam", "bias needed", "bias set");
   const auto share = [](const std::optional<double>& value, int digits) {
     return value ? quantity_text(*value, "fraction", digits) : "-";
   };
   for (const CascadeRow& row : cascade_rows_of(m.record))
-    fmt::print("  {:<10}{:>19}{:>11}{:>11.0f}{:>12}{:>10}{:>28}{:>28}\n", row.number, cascade_depths_text(row),
+    fmt::print("  {:<10}{:>19}{:>11}{:>11.0f}{:>12}{:>10}{:>10}{:>28}{:>28}\n", row.number, cascade_depths_text(row),
                quantity_text(row.texel_m, "m", 3), row.receivers, share(row.error, people_digits), share(row.share, 2),
-               cascade_bias_text(m.record, row, row.needed), cascade_bias_text(m.record, row, row.set));
+               share(row.seam, 2), cascade_bias_text(m.record, row, row.needed),
+               cascade_bias_text(m.record, row, row.set));
   if (const std::string worst = worst_cascade(m.record); !worst.empty()) fmt::print("  {}\n", worst);
 }
 

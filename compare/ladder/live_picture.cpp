@@ -110,6 +110,8 @@ std::string why_no_live_picture(const Settings& settings) {
   const TapPattern pattern = tap_pattern(settings.filter);
   if (pattern.bilinear()) return "a sampler blends the filter's taps, and how it rounds their weights is not specified";
   if (pattern.taps > most_live_taps) return fmt::format("the filter has more than {} taps", most_live_taps);
+  if (settings.cascades.count > 1 && settings.cascades.blend > 0)
+    return "cascades.blend mixes the answers of two maps in a pixel";
   return "";
 }
 
@@ -125,9 +127,8 @@ void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const 
                     const BiasSettings& bias, const BiasPart& varied, PixelRange strip) {
   const ReceiverTruth& truth = evidence.truth;
   for (size_t i = strip.first; i < strip.end; ++i) {
-    picture.flags[i] =
-        static_cast<uint8_t>((truth.facing[i] ? live_facing : 0) | (truth.lit[i] != 0 ? live_lit : 0) |
-                             (truth.ambiguous[i] ? live_ambiguous : 0) | (picture.flags[i] & live_surface));
+    picture.flags[i] |= static_cast<uint8_t>((truth.facing[i] ? live_facing : 0) | (truth.lit[i] != 0 ? live_lit : 0) |
+                                             (truth.ambiguous[i] ? live_ambiguous : 0));
     picture.n_dot_l[i] = live_cosine(evidence.probe.n_dot_l[i]);
   }
   Answers answers(picture, evidence, stored_map, bias, varied);

@@ -92,6 +92,7 @@ std::vector<CascadeRow> cascade_rows_of(const PointRecord& point) {
     if (row.receivers > 0) row.error = cascade.metrics.at("error");
     if (all > 0) row.share = error_sum(cascade) / all;
     row.cause = largest_cause(cascade).label;
+    if (cascade.metrics.at("seam_points") > 0) row.seam = cascade.metrics.at("seam_jump");
     if (set) row.needed = cascade.bias_needed, row.set = set;
     if (cascade_bias_unit_varies(point))
       row.m_per_unit = cascade.metrics.at(setting_of(point, "bias.unit") == "texel" ? "texel_m" : "map_range_m");

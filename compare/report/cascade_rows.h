@@ -21,6 +21,7 @@ struct CascadeRow {
   std::optional<double> error;  // mean |R5 - R1| over its own receivers, a fraction; empty without any
   std::optional<double> share;  // of the whole picture's error, a fraction; empty if the picture has none
   std::string_view cause;       // the largest one's label; empty if nothing is wrong
+  std::optional<double> seam;   // seam_jump to the next cascade, a fraction; empty if nothing is seen there
   // Of the part of the bias that the curve varies, in the unit of the setting (cascade_bias_unit()): the least amount without
   // acne, empty if none is enough, and the one that is set. Both are empty without a curve.
   std::optional<double> needed, set;

@@ -27,8 +27,8 @@ Markup table_of(const PointRecord& point) {
   for (const CascadeRow& row : cascade_rows_of(point))
     rows += tr(row_head(std::to_string(row.number)), td(number(row.begin_m)), td(number(row.end_m)),
                td(number(row.texel_m)), td(cell(row.receivers, "count")), td(share(row.error)), td(share(row.share)),
-               td(css("text"), row.cause.empty() ? "-" : std::string(row.cause)), amounts(row.needed, row.m_per_unit),
-               amounts(row.set, row.m_per_unit));
+               td(css("text"), row.cause.empty() ? "-" : std::string(row.cause)), td(share(row.seam)),
+               amounts(row.needed, row.m_per_unit), amounts(row.set, row.m_per_unit));
   const auto bias = [&](const char* name) {
     Markup heads = th(with_small(name, unit));
     if (varies) heads += th(with_small(name, "m"));
@@ -36,8 +36,8 @@ Markup table_of(const PointRecord& point) {
   };
   const Markup head = th("Cascade") + th(with_small("From", "m")) + th(with_small("To", "m")) +
                       th(with_small("Texel", "m")) + th("Receivers") + th(with_small("Error", "%")) +
-                      th(with_small("Of all error", "%")) + th(css("text"), "Largest cause") + bias("Bias needed") +
-                      bias("Bias set");
+                      th(with_small("Of all error", "%")) + th(css("text"), "Largest cause") +
+                      th(with_small("Seam", "%")) + bias("Bias needed") + bias("Bias set");
   return div(css("scroll"), table("numbers", head, rows)) + "\n";
 }
 
@@ -68,7 +68,9 @@ Markup cascades_section(const Results& results) {
   Markup content = paragraph(
       "Each cascade is a map of its own for a slice of the view's depth. Its error is the mean over its own receivers, "
       "and "
-      "the share is of the whole picture's error. The bias that it needs is the least one without acne. Elsewhere on "
+      "the share is of the whole picture's error. Seam is how far the picture would jump if the receivers in its last "
+      "4% were looked up in the next cascade. The bias "
+      "that it needs is the least one without acne. Elsewhere on "
       "this "
       "page, a bias in another unit than bias.unit is that at the median receiver: depth and texels differ between "
       "cascades.");

@@ -8,9 +8,9 @@
 
 #include "compare/report/answer.h"
 #include "compare/report/blocks.h"
+#include "compare/report/cascades_section.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
-#include "compare/report/cascades_section.h"
 #include "compare/report/flicker_section.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/live_section.h"

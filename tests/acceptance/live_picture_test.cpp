@@ -81,7 +81,14 @@ INSTANTIATE_TEST_SUITE_P(
                     SceneCase{"box", "cube-room", {{"map.resolution", "256"}, {"filter.kind", "box"}}},
                     SceneCase{
                         "slope", "sphere", {{"map.resolution", "256"}, {"bias.slope", "0.01"}, {"bias.constant", "0"}}},
-                    SceneCase{"point", "point-room", {{"map.resolution", "128"}, {"bias.unit", "m"}}}),
+                    SceneCase{"point", "point-room", {{"map.resolution", "128"}, {"bias.unit", "m"}}},
+                    SceneCase{"cascades",
+                              "street",
+                              {{"cascades.count", "3"},
+                               {"map.fit", "sphere"},
+                               {"map.resolution", "128"},
+                               {"bias.unit", "texel"},
+                               {"filter.kind", "box"}}}),
     testing::PrintToStringParamName());
 
 TEST(LivePicture, IsLeftOutWhereItWouldNotBeExact) {

@@ -87,7 +87,17 @@ INSTANTIATE_TEST_SUITE_P(
                   "texels"},
         StackCase{{"polygon_offset", "cube-room", {{"map.resolution", "256"}, {"bias.polygon_factor", "2"}}},
                   "bias.polygon_factor",
-                  ""}),
+                  ""},
+        StackCase{{"blended_cascades",
+                   "street",
+                   {{"cascades.count", "3"},
+                    {"cascades.blend", "0.4"},
+                    {"map.fit", "sphere"},
+                    {"map.resolution", "128"},
+                    {"bias.unit", "texel"},
+                    {"bias.constant", "1"}}},
+                  "bias.constant",
+                  "texel"}),
     testing::PrintToStringParamName());
 
 TEST(PictureStack, HasTheSetValueAndTheMarks) {
