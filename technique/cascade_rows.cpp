@@ -68,10 +68,14 @@ std::string spheres_without_sphere(const Settings& s, std::optional<LightKind>) 
       find_setting("map.fit").get(s));
 }
 
-std::string resolutions_of_another_count(const Settings& s, std::optional<LightKind>) {
-  const size_t given = s.cascades.resolutions.size(), wanted = static_cast<size_t>(s.cascades.count);
-  if (s.cascades.count == 1 || given == 0 || given == wanted) return "";
-  return fmt::format("cascades.resolutions needs one number for each of the {} cascades, and has {}", wanted, given);
+// A list with a number for each cascade.
+std::function<std::string(const Settings&, std::optional<LightKind>)> numbers_of_another_count(
+    std::string_view setting, const std::vector<double>* (*list)(const Settings&)) {
+  return [setting, list](const Settings& s, std::optional<LightKind>) -> std::string {
+    const size_t given = list(s)->size(), wanted = static_cast<size_t>(s.cascades.count);
+    if (s.cascades.count == 1 || given == 0 || given == wanted) return "";
+    return fmt::format("{} needs one number for each of the {} cascades, and has {}", setting, wanted, given);
+  };
 }
 
 }  // namespace
@@ -126,7 +130,16 @@ std::vector<Setting> cascade_rows() {
       number_list(ValueType::whole_list, "cascades.resolutions", "texels", 1, 16384,
                   "A resolution for each cascade, near ones first; auto: all have map.resolution.", MEMBER(resolutions))
           .idle(without_cascades)
-          .refused(resolutions_of_another_count),
+          .refused(numbers_of_another_count("cascades.resolutions",
+                                            [](const Settings& s) { return &s.cascades.resolutions; })),
+      number_list(
+          ValueType::real_list, "cascades.bias_scales", "", 0, 1e6,
+          "A factor for each cascade, near ones first, of the bias of the compared depth (bias.constant, bias.slope "
+          "...), as engines have it; what moves the lookup is not scaled. auto: 1 in all.",
+          MEMBER(bias_scales))
+          .idle(without_cascades)
+          .refused(numbers_of_another_count("cascades.bias_scales",
+                                            [](const Settings& s) { return &s.cascades.bias_scales; })),
       real("cascades.radius_round_m", "m", 0, 1e6,
            "map.fit = sphere and corner_*, also with one map: the radius of the sphere, or half of the square's side, "
            "is "

@@ -113,6 +113,7 @@ std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings)
     own.map.resolution = resolution_of(settings, k);
     Technique one = whole.at(make_light_frame(scene, own, &fitted));
     one.settings = std::move(own);
+    if (!settings.cascades.bias_scales.empty()) one.frame.bias_scale = settings.cascades.bias_scales[k];
     cascades.push_back(std::move(one));
     if (k + 1 == place.slices.size()) break;
     const ViewSlice& slice = place.slices[k];

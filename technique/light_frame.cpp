@@ -118,11 +118,11 @@ std::vector<LightFrame::Cell> LightFrame::snapped_cells() const {
 double LightFrame::depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const {
   switch (unit) {
     case BiasUnit::depth:
-      return 1;
+      return bias_scale;
     case BiasUnit::m:
-      return window_depth_slope(point);
+      return bias_scale * window_depth_slope(point);
     case BiasUnit::texel:
-      return texel_m(point) * window_depth_slope(point);
+      return bias_scale * texel_m(point) * window_depth_slope(point);
   }
   throw std::logic_error("unknown bias unit");
 }

@@ -60,8 +60,9 @@ struct LightFrame {
   glm::dmat3 cube_axes{1};
   double near_m = 0;
   double far_m = 1;
-  int resolution = 1;  // texels along the width of a tile
-  int rows = 1;        // texels along its height
+  double bias_scale = 1;  // of the compared depth's bias in this map (cascades.bias_scales)
+  int resolution = 1;     // texels along the width of a tile
+  int rows = 1;           // texels along its height
   int tiles = 1;
 
   bool operator==(const LightFrame&) const = default;
@@ -141,7 +142,8 @@ struct LightFrame {
     glm::ivec2 cell{0}, first{0}, end{0}, to{0};
   };
   std::vector<Cell> snapped_cells() const;
-  // The window depth of one unit of bias (settings.bias.unit), at a point in the light's frame.
+  // The window depth of one unit of bias (settings.bias.unit) in this map, at a point in the light's frame: bias_scale times
+  // what the unit is.
   double depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const;
 };
 

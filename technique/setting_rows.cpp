@@ -53,8 +53,9 @@ glm::dvec3 parse_point(const Setting& row, std::string_view text) {
 std::vector<double> parse_list(const Setting& row, std::string_view text) {
   std::vector<double> numbers = parse_numbers(row, text);
   for (size_t i = 0; i < numbers.size(); ++i) {
-    const bool follows = row.type == ValueType::whole_list ? numbers[i] == std::floor(numbers[i])
-                                                           : i == 0 || numbers[i] > numbers[i - 1];
+    const bool follows = row.type == ValueType::whole_list  ? numbers[i] == std::floor(numbers[i])
+                         : row.type == ValueType::real_list ? true
+                                                            : i == 0 || numbers[i] > numbers[i - 1];
     if (numbers[i] < row.min || numbers[i] > row.max || !follows) refuse(row, text);
   }
   return numbers;

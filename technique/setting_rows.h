@@ -144,8 +144,8 @@ Setting text(std::string_view name, std::string_view help, Member member) {
   return row;
 }
 
-// A list of numbers between min and max: ascending ones (ValueType::list), or whole ones in any order (whole_list). An empty
-// list is "auto".
+// A list of numbers between min and max: ascending ones (ValueType::list), or in any order whole ones (whole_list) or all
+// (real_list). An empty list is "auto".
 template <class Member>
 Setting number_list(ValueType type, std::string_view name, std::string_view unit, double min, double max,
                     std::string_view help, Member member) {

@@ -494,6 +494,8 @@ std::string Setting::bare_range() const {
       return fmt::format("ascending numbers, {:g} ... {:g}", min, max);
     case ValueType::whole_list:
       return fmt::format("whole numbers, {:g} ... {:g}", min, max);
+    case ValueType::real_list:
+      return fmt::format("numbers, {:g} ... {:g}", min, max);
   }
   throw std::logic_error("unknown value type");
 }

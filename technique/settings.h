@@ -114,6 +114,7 @@ struct CascadeSettings {
   CascadeBlendOf blend_of = CascadeBlendOf::slice;
   bool cover_band = true;           // the next cascade's map holds that part too
   std::vector<double> resolutions;  // whole texels, one number for each cascade; empty: map.resolution
+  std::vector<double> bias_scales;  // of the compared depth\'s bias, one number for each cascade; empty: all 1
   double radius_round_m =
       0;  // map.fit = sphere, corner_*: the radius is rounded up to a multiple of it; 0: not rounded
 };
@@ -194,10 +195,10 @@ struct Stages {
   constexpr bool has(Stage stage) const { return (bits & static_cast<uint8_t>(stage)) != 0; }
 };
 
-enum class ValueType { integer, real, flag, choice, text, point, list, whole_list };
+enum class ValueType { integer, real, flag, choice, text, point, list, whole_list, real_list };
 
 // One row of the table. A value is stored as text in one canonical form: "auto" for an empty optional or list, "x,y,z" for a
-// point, "5,15,50" for a list of ascending numbers or of whole ones, the shortest decimal that reads back as the same double. So the same value always has the same key in the
+// point, "5,15,50" for a list, the shortest decimal that reads back as the same double. So the same value always has the same key in the
 // store.
 struct Setting {
   std::string_view name;  // "map.resolution"
@@ -226,7 +227,8 @@ struct Setting {
 
   // True if a value is several numbers: an experiment file may give them as an array.
   bool is_of_numbers() const {
-    return type == ValueType::point || type == ValueType::list || type == ValueType::whole_list;
+    return type == ValueType::point || type == ValueType::list || type == ValueType::whole_list ||
+           type == ValueType::real_list;
   }
 
   std::string range_text() const;       // "1 ... 170 or auto", "16 | 24 | 32f", "x,y,z" ...

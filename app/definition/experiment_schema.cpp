@@ -55,8 +55,9 @@ Json form_of(const Setting& row) {
                      {{"type", "string"}, {"pattern", "^[^,]+,[^,]+,[^,]+$"}}});
       break;
     case ValueType::list:
-    case ValueType::whole_list: {
-      const char* const type = row.type == ValueType::list ? "number" : "integer";
+    case ValueType::whole_list:
+    case ValueType::real_list: {
+      const char* const type = row.type == ValueType::whole_list ? "integer" : "number";
       const Json number = {{"type", type}, {"minimum", row.min}, {"maximum", row.max}};
       form = any_of({{{"type", "array"}, {"items", number}, {"minItems", 1}},
                      number,

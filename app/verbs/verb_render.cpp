@@ -135,7 +135,8 @@ void print_ladder(const Measurement& m, const char* clock) {
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
-        !metric.of_frames && !metric.of_motion && !metric.of_lights)  // printed otherwise
+        !metric.of_frames && !metric.of_motion && !metric.of_lights &&  // printed otherwise
+        m.record.metrics.contains(std::string(metric.name)))            // those of cascades are not there for one map
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   print_cascades(m);
   print_placements(m);

@@ -53,6 +53,18 @@ LargestCause largest_cause(const Cascade& cascade) {
   return largest;
 }
 
+// cascades.bias_scales of a cascade; 1 where none is given, or where a damaged store has no such number.
+double bias_scale_of(const PointRecord& point, size_t cascade) {
+  const std::string text = setting_of(point, "cascades.bias_scales");
+  size_t begin = 0;
+  for (size_t k = 0; k < cascade && begin != std::string::npos; ++k) {
+    begin = text.find(',', begin);
+    if (begin != std::string::npos) ++begin;
+  }
+  if (begin == std::string::npos) return 1;
+  return number_of(text.substr(begin, text.find(',', begin) - begin)).value_or(1);
+}
+
 // The part of the bias that the curve varies; null without a curve. A damaged store may name a part that there is not.
 const BiasPart* varied_part(const PointRecord& point) {
   if (!point.curve) return nullptr;
@@ -93,7 +105,11 @@ std::vector<CascadeRow> cascade_rows_of(const PointRecord& point) {
     if (all > 0) row.share = error_sum(cascade) / all;
     row.cause = largest_cause(cascade).label;
     if (cascade.metrics.at("seam_points") > 0) row.seam = cascade.metrics.at("seam_jump");
-    if (set) row.needed = cascade.bias_needed, row.set = set;
+    if (set) {
+      const double scale = bias_scale_of(point, rows.size());
+      row.set = *set * scale;
+      if (cascade.bias_needed) row.needed = *cascade.bias_needed * scale;
+    }
     if (cascade_bias_unit_varies(point))
       row.m_per_unit = cascade.metrics.at(setting_of(point, "bias.unit") == "texel" ? "texel_m" : "map_range_m");
     rows.push_back(row);

@@ -23,7 +23,8 @@ struct CascadeRow {
   std::string_view cause;       // the largest one's label; empty if nothing is wrong
   std::optional<double> seam;   // seam_jump to the next cascade, a fraction; empty if nothing is seen there
   // Of the part of the bias that the curve varies, in the unit of the setting (cascade_bias_unit()): the least amount without
-  // acne, empty if none is enough, and the one that is set. Both are empty without a curve.
+  // acne, empty if none is enough, and the one that is set; both with the cascade's factor of cascades.bias_scales. Both are
+  // empty without a curve.
   std::optional<double> needed, set;
   double m_per_unit = 1;  // metres along the light; 1 where the unit is no length
 };

@@ -161,7 +161,7 @@ constexpr Metric measured_with_causes[] = {
      "or how far its weight in a blend band is off, as a multiple of the largest error that float arithmetic can make "
      "of it; 0: the choice is exact. Above 1 it is a defect.",
      false, false, false, false, false, true},
-    {"seam_points", "receivers",
+    {"seam_points", "count",
      "Of cascades: the counted receivers in the last 4% of a cascade, over which seams are measured.", false, false,
      false, false, false, true},
     {"seam_jump", "fraction",

@@ -248,6 +248,41 @@ TEST(BlendedCascades, CountEachCascadeAtItsOwnWorstPlacement) {
   }
 }
 
+// A factor for each cascade is that cascade measured with a bias that many times as large; and the curve varies all of them.
+TEST(ScaledCascades, HaveTheBiasOfTheirFactor) {
+  const Settings s = street({{"cascades.bias_scales", "0.5,1,2,3"}, {"map.resolution", "128"}, {"bias.slope", "0.3"}});
+  Workbench bench(gl::DebugMode::fatal);
+  CurveOptions options;
+  for (const double bias : {0.0, 0.4, 1.5, 4.0}) options.bias_depth.push_back(bias);
+  const Measurement m = bench.measure(s, options);
+  EXPECT_EQ(metric(m, "contract"), 0);
+  EXPECT_LE(metric(m, "rounding_excess"), 1);
+  MapsApart apart(s);
+  for (size_t k = 0; k < 4; ++k) {
+    const double factor = s.cascades.bias_scales[k];
+    Settings own = with({{"cascades.bias_scales", "auto"}}, s);
+    own.bias["constant"] *= factor;
+    own.bias["slope"] *= factor;
+    Technique alone = cascades_of(apart.scene(), own)[k];
+    alone.cascade.reset();
+    const Ladder ladder = apart.climb(alone, apart.truth_of(alone));
+    size_t differ = 0, receivers = 0;
+    for (size_t i = 0; i < ladder.flags.size(); ++i) {
+      if (m.cascades.of[i] != k || !is_counted(ladder, i)) continue;
+      ++receivers;
+      differ += m.ladder.shown()[i] != ladder.shown()[i];
+    }
+    // Two floats that are rounded in another order.
+    EXPECT_LE(static_cast<double>(differ), 1e-3 * static_cast<double>(receivers)) << k;
+  }
+  for (size_t n = 0; n < m.record.curve->bias_depth.size(); ++n) {
+    Settings at = s;
+    at.bias["constant"] = m.record.curve->bias_depth[n] * m.record.curve->texels_per_depth;
+    const double expected = m.record.curve->error[n];
+    EXPECT_NEAR(expected, metric(Workbench(gl::DebugMode::fatal).measure(at, std::nullopt), "error"), 1e-9) << n;
+  }
+}
+
 // Maps that are fitted to their slices alone do not hold the band in which they are blended in: its receivers are outside.
 TEST(BlendedCascades, NeedMapsThatHoldTheBand) {
   const Settings covered = street({{"scene.name", "street"}, {"map.fit", "view"}, {"cascades.blend", "0.4"}});

@@ -146,6 +146,12 @@ std::string any_value(const Setting& row, Choices& choices) {
       }
       return list;
     }
+    case ValueType::real_list: {
+      std::string list;
+      for (int n = choices.below(most_cascades); n >= 0; --n)
+        list += fmt::format("{}{}", list.empty() ? "" : ",", std::pow(10.0, choices.between(-3, 3)));
+      return list;
+    }
     case ValueType::whole_list: {
       std::string list;
       for (int n = choices.below(most_cascades); n >= 0; --n)

@@ -51,9 +51,10 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers without a unit.
   const std::set<std::string_view> pure = {
-      "scene.animation",    "map.placements", "map.extent_scale", "truth.standard_error", "bias.polygon_factor",
-      "bias.polygon_units", "view.up",        "motion.frame",     "motion.zoom",          "light.index",
-      "map.aspect",         "cascades.count", "cascades.lambda",  "cascades.exponent",    "cascades.blend"};
+      "scene.animation",     "map.placements",     "map.extent_scale", "truth.standard_error",
+      "bias.polygon_factor", "bias.polygon_units", "view.up",          "motion.frame",
+      "motion.zoom",         "light.index",        "map.aspect",       "cascades.count",
+      "cascades.lambda",     "cascades.exponent",  "cascades.blend",   "cascades.bias_scales"};
   const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "frames", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
@@ -93,7 +94,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
                                 d20, d21, d22, d23] = s.map;
-  [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12] = s.cascades;
+  [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12, i13] = s.cascades;
   [[maybe_unused]] const auto& [g1, g2] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
   // Unit, reference and plane_cap, and every parameter of a part.
@@ -105,7 +106,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
                                               {"motion", 9},
                                               {"light", 11},
                                               {"map", 23},
-                                              {"cascades", 12},
+                                              {"cascades", 13},
                                               {"bias", bias},
                                               {"filter", filter},
                                               {"truth", 2},
@@ -176,7 +177,8 @@ TEST(SettingsTable, RefusesWhatIsNoValue) {
   for (const Setting& row : settings_table()) {
     refusal(row, "");
     if (row.type == ValueType::text) continue;
-    const bool lists = row.type == ValueType::list || row.type == ValueType::whole_list;
+    const bool lists =
+        row.type == ValueType::list || row.type == ValueType::whole_list || row.type == ValueType::real_list;
     for (std::string_view junk : {" ",
                                   "nonsense",
                                   "1x",
@@ -204,11 +206,14 @@ TEST(SettingsTable, RefusesWhatIsNoValue) {
                                   "1,,2",
                                   "1,2,3,4"})
       if (!(lists && is_list(junk))) refusal(row, junk);
-    if (row.type != ValueType::real && row.type != ValueType::list) refusal(row, "0.5");
+    if (row.type != ValueType::real && row.type != ValueType::list && row.type != ValueType::real_list)
+      refusal(row, "0.5");
     if (row.type != ValueType::flag) refusal(row, "true");
     if (!row.is_of_numbers()) refusal(row, "1,2,3");
     if (row.type == ValueType::list)
       for (const char* junk : {"3,2", "2,2", "-1,2", "1,1e30"}) refusal(row, junk);
+    if (row.type == ValueType::real_list)
+      for (const char* junk : {"-1,2", "1,1e30"}) refusal(row, junk);
     if (row.type == ValueType::whole_list)
       for (const char* junk : {"2,1.5", "2,0", "-1,2", "1,1e30"}) refusal(row, junk);
     const bool may_be_auto = row.may_be_auto || std::count(row.choices.begin(), row.choices.end(), "auto") > 0;
