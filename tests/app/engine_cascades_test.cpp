@@ -154,6 +154,40 @@ TEST(EngineCascades, BabylonsBiasIsEnoughInEach) {
       << joined(found.cannot);
 }
 
+// With PCF and depthClamp the stored depth has one and a half times the bias (measured: engine_cascades_test.py).
+TEST(EngineCascades, BabylonAddsTheBiasTwiceWithPcf) {
+  Settings settings = street();
+  settings.filter = FilterSettings("castano", {{"size", 5}});
+  const EngineAdvice found = advice(settings, "Babylon.js");
+  const double without = typed(advice(street(), "Babylon.js"), "shadowGenerator.bias = ");
+  expect_written(1.5 * typed(found, "shadowGenerator.bias = "), without);
+  EXPECT_NE(joined(found.cannot).find("adds the bias twice"), std::string::npos) << joined(found.cannot);
+}
+
+// A blend band stands where an engine has one of that shape, and is said to be missing where it has not.
+TEST(EngineCascades, BlendWhereTheEngineDoes) {
+  Settings settings = street();
+  settings.cascades.blend = 0.1;
+  settings.cascades.blend_of = CascadeBlendOf::slice;
+  const auto is_missing = [&](const char* engine) {
+    return joined(advice(settings, engine).cannot).find("the engine has no such blending") != std::string::npos;
+  };
+  EXPECT_EQ(typed(advice(settings, "Babylon.js"), "cascadeBlendPercentage = "), 0.1);
+  EXPECT_EQ(typed(advice(settings, "Bevy"), "overlap_proportion: "), 0);
+  for (const char* engine : {"three.js", "Godot", "Bevy", "Unity URP"}) EXPECT_TRUE(is_missing(engine)) << engine;
+  EXPECT_FALSE(is_missing("Babylon.js"));
+  settings.cascades.blend_of = CascadeBlendOf::end;
+  EXPECT_EQ(typed(advice(settings, "Babylon.js"), "cascadeBlendPercentage = "), 0);
+  EXPECT_EQ(typed(advice(settings, "Bevy"), "overlap_proportion: "), 0.1);
+  EXPECT_TRUE(is_missing("Babylon.js"));
+  EXPECT_FALSE(is_missing("Bevy"));
+  settings.cascades.select = "map";
+  EXPECT_NE(joined(advice(settings, "Bevy").cannot)
+                .find("cascades.select = map: the engine chooses a receiver's cascade by its depth"),
+            std::string::npos);
+  EXPECT_NE(joined(advice(settings, "Unity URP").cannot).find("by its sphere"), std::string::npos);
+}
+
 TEST(EngineCascades, GodotsSplitsAreSharesOfTheWay) {
   const Settings settings = manual({4, 13, 31});
   const Slices known(settings);
