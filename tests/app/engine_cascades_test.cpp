@@ -215,6 +215,10 @@ TEST(EngineCascades, BevyTakesAnyBounds) {
   EngineAdvice found = advice(settings, "Bevy");
   EXPECT_EQ(list_after(found, "bounds: vec!["), (std::vector<double>{4, 13, 31, 80}));
   EXPECT_EQ(typed(found, "minimum_distance: "), 0.2);
+  // Rust takes no integer for a float.
+  EXPECT_NE(joined(found.lines).find("bounds: vec![4.0, 13.0, 31.0, 80.0], overlap_proportion: 0.0"),
+            std::string::npos);
+  EXPECT_NE(joined(found.lines).find("shadow_normal_bias: 0.0,"), std::string::npos) << joined(found.lines);
   double most = 0;  // one bias in metres, of the widest texels
   for (size_t k = 0; k < 4; ++k)
     most = std::max(most, 2 * known.needed_m(k, std::ceil(longest_diagonal(known.slices[k])) / resolution));
@@ -246,7 +250,8 @@ TEST(EngineCascades, UrpsSplitsAreSharesOfTheDistance) {
       << lines;
   // In texels of each cascade, so one number is right in all; Hard Shadows reach twice as far as one tap.
   expect_written(typed(found, "Depth: "), 2 * texels);
-  EXPECT_NE(joined(advice(manual({20}), "Unity URP").lines).find("m_Cascade2Split: 0.25"), std::string::npos);
+  EXPECT_NE(joined(advice(manual({20}), "Unity URP").lines).find("Split 1: 20 m  // m_Cascade2Split: 0.25"),
+            std::string::npos);
 }
 
 TEST(EngineCascades, WhatAnEngineDoesNotLayHasNoLines) {
