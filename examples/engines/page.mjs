@@ -83,12 +83,12 @@ export function depths_of(gl, texture, side) {
   gl.readPixels(0, 0, side, side, gl.RGBA, gl.FLOAT, pixels);
   return pixels.filter((_, i) => i % 4 === 0);
 }
-// What the engine made of its cascades, the nearest first, as cascades.json beside the frame, which judge does not read. Of each:
+// What the engine made of its cascades, the nearest first, as laid.json beside the frame, which judge does not read. Of each:
 // begin_m and end_m, the depths along the view where it is looked up; width_m and height_m of its map, depth_m between its near and
 // far plane, resolution; what else the page knows.
 export function cascades_of_engine(cascades) {
   const known = cascades.map((one) => ({ ...one, texel_m: one.width_m / one.resolution }));
-  return send("cascades.json", JSON.stringify({ cascades: known }, null, 1));
+  return send("laid.json", JSON.stringify({ cascades: known }, null, 1));
 }
 export async function done(frame) {
   await send("frame.json", JSON.stringify({ noonmark_frame: 1, scene: query.get("scene"), visibility: { file: "visibility.npy" }, positions: { file: "positions.npy" }, ...frame }, null, 1));

@@ -154,6 +154,40 @@ TEST(EngineCascades, BabylonsBiasIsEnoughInEach) {
       << joined(found.cannot);
 }
 
+// With PCF and depthClamp the stored depth has one and a half times the bias (measured: engine_cascades_test.py).
+TEST(EngineCascades, BabylonAddsTheBiasTwiceWithPcf) {
+  Settings settings = street();
+  settings.filter = FilterSettings("castano", {{"size", 5}});
+  const EngineAdvice found = advice(settings, "Babylon.js");
+  const double without = typed(advice(street(), "Babylon.js"), "shadowGenerator.bias = ");
+  expect_written(1.5 * typed(found, "shadowGenerator.bias = "), without);
+  EXPECT_NE(joined(found.cannot).find("adds the bias twice"), std::string::npos) << joined(found.cannot);
+}
+
+// A blend band stands where an engine has one of that shape, and is said to be missing where it has not.
+TEST(EngineCascades, BlendWhereTheEngineDoes) {
+  Settings settings = street();
+  settings.cascades.blend = 0.1;
+  settings.cascades.blend_of = CascadeBlendOf::slice;
+  const auto is_missing = [&](const char* engine) {
+    return joined(advice(settings, engine).cannot).find("the engine has no such blending") != std::string::npos;
+  };
+  EXPECT_EQ(typed(advice(settings, "Babylon.js"), "cascadeBlendPercentage = "), 0.1);
+  EXPECT_EQ(typed(advice(settings, "Bevy"), "overlap_proportion: "), 0);
+  for (const char* engine : {"three.js", "Godot", "Bevy", "Unity URP"}) EXPECT_TRUE(is_missing(engine)) << engine;
+  EXPECT_FALSE(is_missing("Babylon.js"));
+  settings.cascades.blend_of = CascadeBlendOf::end;
+  EXPECT_EQ(typed(advice(settings, "Babylon.js"), "cascadeBlendPercentage = "), 0);
+  EXPECT_EQ(typed(advice(settings, "Bevy"), "overlap_proportion: "), 0.1);
+  EXPECT_TRUE(is_missing("Babylon.js"));
+  EXPECT_FALSE(is_missing("Bevy"));
+  settings.cascades.select = "map";
+  EXPECT_NE(joined(advice(settings, "Bevy").cannot)
+                .find("cascades.select = map: the engine chooses a receiver's cascade by its depth"),
+            std::string::npos);
+  EXPECT_NE(joined(advice(settings, "Unity URP").cannot).find("by its sphere"), std::string::npos);
+}
+
 TEST(EngineCascades, GodotsSplitsAreSharesOfTheWay) {
   const Settings settings = manual({4, 13, 31});
   const Slices known(settings);
@@ -181,6 +215,10 @@ TEST(EngineCascades, BevyTakesAnyBounds) {
   EngineAdvice found = advice(settings, "Bevy");
   EXPECT_EQ(list_after(found, "bounds: vec!["), (std::vector<double>{4, 13, 31, 80}));
   EXPECT_EQ(typed(found, "minimum_distance: "), 0.2);
+  // Rust takes no integer for a float.
+  EXPECT_NE(joined(found.lines).find("bounds: vec![4.0, 13.0, 31.0, 80.0], overlap_proportion: 0.0"),
+            std::string::npos);
+  EXPECT_NE(joined(found.lines).find("shadow_normal_bias: 0.0,"), std::string::npos) << joined(found.lines);
   double most = 0;  // one bias in metres, of the widest texels
   for (size_t k = 0; k < 4; ++k)
     most = std::max(most, 2 * known.needed_m(k, std::ceil(longest_diagonal(known.slices[k])) / resolution));
@@ -212,7 +250,8 @@ TEST(EngineCascades, UrpsSplitsAreSharesOfTheDistance) {
       << lines;
   // In texels of each cascade, so one number is right in all; Hard Shadows reach twice as far as one tap.
   expect_written(typed(found, "Depth: "), 2 * texels);
-  EXPECT_NE(joined(advice(manual({20}), "Unity URP").lines).find("m_Cascade2Split: 0.25"), std::string::npos);
+  EXPECT_NE(joined(advice(manual({20}), "Unity URP").lines).find("Split 1: 20 m  // m_Cascade2Split: 0.25"),
+            std::string::npos);
 }
 
 TEST(EngineCascades, WhatAnEngineDoesNotLayHasNoLines) {

@@ -39,18 +39,32 @@ def csm(bias, off_m=0):
              for off in ([-off_m, off_m] if off_m else [0])])
 
 
-def babylon(stabilize, bias):
+def babylon(stabilize, bias, blend=0, filtered=(), filter_settings=()):
     """The sphere about the corners' mean; what lies before near is clamped to it, so near and far are the slice's. Without
     stabilizeCascades it is the corners' box, whose texels are narrower by up to a half along one side: between texels of the longer
     side and texels of half of that."""
     fits = [["map.fit=corner_sphere", "cascades.radius_round_m=0.0625"]] if stabilize else [["map.fit=corner_box"], ["map.fit=corner_box", f"map.resolution={2 * RESOLUTION}"]]
-    return (["babylon/page.html", "class=CascadedShadowGenerator", "blend=0", f"stabilize={str(stabilize).lower()}", f"bias={bias}"],
-            [["cascades.count=4", "map.depth_clamp=true", f"bias.constant={bias}", *fit] for fit in fits])
+    return (["babylon/page.html", "class=CascadedShadowGenerator", f"blend={blend}", f"stabilize={str(stabilize).lower()}", f"bias={bias}", *filtered],
+            [["cascades.count=4", "map.depth_clamp=true", f"bias.constant={bias}", f"cascades.blend={blend}", "cascades.cover_band=false",
+              *filter_settings, *fit] for fit in fits])
+
+
+def sun(bias):
+    """Two cascades with the sphere about the corners' mean, of the 1020 texels that are left of a tile and half a texel wider on each
+    side. Its depths reach over 167 m in the first and 244 m in the second cascade (depth_m of laid.json), so one bias in depth lies
+    between the two in metres. It blends by a smoothstep, whose mean over the band is that of an even one."""
+    laid = ["cascades.count=2", "map.fit=corner_sphere", "map.resolution=1020", f"map.extent_scale={1020 / 1019!r}", "cascades.blend=0.1"]
+    return (["three/page.html", "class=SunLight", "type=BasicShadowMap", "shadow_side=both", f"bias={-bias}"],
+            [[*laid, "bias.unit=m", f"bias.constant={bias * depth_m}"] for depth_m in (167.22, 244.14)])
 
 
 # The name, what is shot, and what is predicted: one point, or two between which the frame lies.
 CASES = [("three.js CSM, `bias=-0.00002`", *csm(0.00002, RASTER_M)), ("three.js CSM, `bias=-0.0003`", *csm(0.0003)),
          ("Babylon.js, `stabilize=true bias=0.001`", *babylon(True, 0.001)), ("Babylon.js, `stabilize=true bias=0.01`", *babylon(True, 0.01)),
+         ("Babylon.js, `stabilize=true filter=usePercentageCloserFiltering bias=0.008`",
+          *babylon(True, 0.008, 0, ["filter=usePercentageCloserFiltering"], ["bias.constant=0.012", "filter.kind=castano", "filter.size=5"])),
+         ("Babylon.js, `stabilize=true blend=0.1 bias=0.01`", *babylon(True, 0.01, 0.1)),
+         ("three.js SunLight, `bias=-0.003`", *sun(0.003)),
          ("Babylon.js, `bias=0.001`", *babylon(False, 0.001)), ("Babylon.js, `bias=0.01`", *babylon(False, 0.01))]
 
 
@@ -87,7 +101,7 @@ def compared(name, out, page, shot, predictions):
     found(run("node", engines / "shoot.mjs", page, folder / "street.glb", out, *SHOT, *shot), name)
     found(run(program, "judge", out / "frame.json", "--out", out / "judged"), name)
     of_frame = 100 * json.loads((out / "judged/judge.json").read_text())["metrics"]["frame_error"]
-    laid = json.loads((out / "cascades.json").read_text())["cascades"]
+    laid = json.loads((out / "laid.json").read_text())["cascades"]
     errors = []
     for k, predicted in enumerate(predictions):
         settings = [word for one in PREDICTED + predicted for word in ("--set", one)]
@@ -95,9 +109,9 @@ def compared(name, out, page, shot, predictions):
         point = json.loads((out / f"predicted-{k}/point.json").read_text())
         errors.append(100 * point["metrics"]["error"])
         for one, other in zip(laid, point["cascades"], strict=True):
-            widest = max(one["width_m"], one["height_m"]) / one["resolution"] * RESOLUTION / other["light"]["resolution"]
-            if abs(other["light"]["texel_m"] / widest - 1) > FLOATS:
-                bad.append(f"{name}: a texel is {other['light']['texel_m']} m, the engine's {widest} m")
+            widest = max(one["width_m"], one["height_m"])
+            if abs(other["light"]["extent_m"] / widest - 1) > FLOATS:
+                bad.append(f"{name}: a map is {other['light']['extent_m']} m wide, the engine's {widest} m")
     print(f"| {name} | {of_frame:.3f}% | {' to '.join(f'{error:.3f}%' for error in sorted(errors))} |", flush=True)
     near = abs(errors[0] - of_frame) <= POINTS if len(errors) == 1 else min(errors) <= of_frame <= max(errors)
     if not near:

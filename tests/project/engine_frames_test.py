@@ -19,6 +19,9 @@ SKIP = 77
 # The folder of the frame, the page, the package that it needs, and settings with which its shadows are good.
 ADAPTERS = [("three", "three/page.html", "three", ["bias=-0.002"]),
             ("three-map", "three/page.html", "three", ["bias=-0.002", "type=BasicShadowMap"]),
+            ("three-csm", "three/page.html", "three", ["bias=-0.0001", "class=CSM", "cascades=2", "reach=20"]),
+            ("three-sun", "three/page.html", "three", ["bias=-0.001", "class=SunLight", "reach=20"]),
+            ("babylon-cascades", "babylon/page.html", "babylonjs", ["bias=0.005", "class=CascadedShadowGenerator", "reach=20"]),
             ("babylon-map", "babylon/page.html", "babylonjs", ["bias=0.02"]),
             ("babylon-pcf-map", "babylon/page.html", "babylonjs", ["bias=0.02", "filter=usePercentageCloserFiltering"]),
             ("babylon", "babylon/page.html", "babylonjs", ["bias=0.02", "filter=usePoissonSampling"]),

@@ -16,7 +16,9 @@ namespace {
 
 double typed_depth(double metres, const AdvicePlace& place) {
   if (place.kind() == LightKind::point) return metres / (place.frame.near_m + place.frame.far_m);
-  return place.filter.scale == 2 ? 2 * metres * place.depth_slope : metres / place.range_m();
+  if (place.filter.scale != 2) return metres / place.range_m();
+  // With depthClamp, as cascades have it, the fragment shader adds the whole bias to the depth that has half of it already.
+  return metres * place.depth_slope / (place.settings.cascades.count > 1 ? 1.5 : 0.5);
 }
 
 std::vector<EngineKnob> knobs(LightKind kind) {
@@ -151,6 +153,11 @@ std::vector<std::string> cascade_limits(const AdvisedCascades& cascades) {
       "scene: "
       "where the slices are deeper than the scene, all cascades have the same bias in metres.",
       "Without stabilizeCascades the maps are smaller, but their texels are oblong and change as the camera turns."};
+  if (cascades.places.front().filter.scale == 2)
+    said.push_back(
+        "With PCF and depthClamp the engine adds the bias twice, half of it to the vertex and all of it to the "
+        "fragment "
+        "(shadowMapVertexMetric and shadowMapFragment): the number counts on that.");
   if (cascades.blend > 0)
     said.push_back("A map begins where the cascade before it ends: what it does not hold of the band before is lit.");
   const std::vector<std::string> shared = shared_limits(LightKind::directional);

@@ -2,7 +2,6 @@
 // normal bias is in texels along the normal, which the engine multiplies by sqrt(2) for the diagonal of a texel. A
 // directional light's map is a square of whole metres around the camera's frustum up to maximum_distance.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -31,6 +30,12 @@ constexpr int most_size = 8192;
 double diameter_m(const SeenFrustum& seen, double far_m, int) {
   const double near_corner = seen.half_at(0), far_corner = seen.half_at(far_m);
   return std::ceil(std::max(std::hypot(near_corner + far_corner, far_m), 2 * far_corner));
+}
+
+// A whole number is an integer in Rust, and the fields are floats.
+std::string rust(double value) {
+  const std::string text = number(value);
+  return text.find_first_of(".e") == text.npos ? text + ".0" : text;
 }
 
 EngineMap fit(const AdvicePlace& place) { return fitted_to_view(place, diameter_m, most_size); }
@@ -63,12 +68,12 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
   if (place.kind() == LightKind::directional) {
     lines.push_back(fmt::format(
         "CascadeShadowConfigBuilder {{ num_cascades: 1, maximum_distance: {}, ..default() }}.build()  // {} m wide",
-        number(*place.map.reach_m), number(place.map.extent_m)));
+        rust(*place.map.reach_m), number(place.map.extent_m)));
     return lines;
   }
-  lines.push_back(fmt::format("range: {},", number(place.frame.far_m)));
-  lines.push_back(fmt::format("shadow_map_near_z: {},", number(place.frame.near_m)));
-  if (!point) lines.push_back(fmt::format("outer_angle: {},", number(std::atan(place.cone_tan))));
+  lines.push_back(fmt::format("range: {},", rust(place.frame.far_m)));
+  lines.push_back(fmt::format("shadow_map_near_z: {},", rust(place.frame.near_m)));
+  if (!point) lines.push_back(fmt::format("outer_angle: {},", rust(std::atan(place.cone_tan))));
   return lines;
 }
 
@@ -90,18 +95,18 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 // CascadeShadowConfigBuilder are geometric from the first; CascadeShadowConfig takes any.
 std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
   const AdvicePlace& place = cascades.places.front();
-  const std::string overlap = cascades.blend == 0 ? "0.0" : number(cascades.blend);  // Rust reads 0 as an integer
+  std::string ends;
+  for (const double end : cascades.ends_m) ends += (ends.empty() ? "" : ", ") + rust(end);
+  const std::string overlap = rust(cascades.blend);
   const bool first_bound = cascades.settings().cascades.splits == "first_bound";
-  return {
-      fmt::format("DirectionalLightShadowMap {{ size: {} }}", place.map.resolution), "shadow_maps_enabled: true,",
-      first_bound
-          ? fmt::format("CascadeShadowConfigBuilder {{ num_cascades: {}, minimum_distance: {}, "
-                        "first_cascade_far_bound: {}, maximum_distance: {}, overlap_proportion: {} }}.build()",
-                        cascades.count(), number(cascades.near_m), number(cascades.ends_m.front()),
-                        number(cascades.reach_m()), overlap)
-          : fmt::format("CascadeShadowConfig {{ bounds: vec![{}, {}], overlap_proportion: {}, minimum_distance: {} }}",
-                        fmt::join(cascades.inner([](double end) { return end; }), ", "), number(cascades.reach_m()),
-                        overlap, number(cascades.near_m))};
+  return {fmt::format("DirectionalLightShadowMap {{ size: {} }}", place.map.resolution), "shadow_maps_enabled: true,",
+          first_bound
+              ? fmt::format("CascadeShadowConfigBuilder {{ num_cascades: {}, minimum_distance: {}, "
+                            "first_cascade_far_bound: {}, maximum_distance: {}, overlap_proportion: {} }}.build()",
+                            cascades.count(), rust(cascades.near_m), rust(cascades.ends_m.front()),
+                            rust(cascades.reach_m()), overlap)
+              : fmt::format("CascadeShadowConfig {{ bounds: vec![{}], overlap_proportion: {}, minimum_distance: {} }}",
+                            ends, overlap, rust(cascades.near_m))};
 }
 
 std::vector<std::string> cascade_limits(const AdvisedCascades&) {
@@ -139,7 +144,9 @@ Engine bevy() {
                          cascade_lines,
                          cascade_limits,
                          "crates/bevy_light/src/cascade.rs (f43b4a84)",
-                         CascadeBlendOf::end}};
+                         CascadeBlendOf::end},
+          {},
+          rust};
 }
 
 }  // namespace noonmark

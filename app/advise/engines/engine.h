@@ -141,7 +141,8 @@ struct Engine {
   void (*emulate)(Settings&, const AdvicePlace&) = nullptr;
   std::vector<std::string> last = {};  // lines that stand after all others
   std::optional<EngineCascades> cascades = {};
-  std::string no_cascades = {};  // without lines for cascades: why, a sentence
+  std::string no_cascades = {};              // without lines for cascades: why, a sentence
+  std::string (*literal)(double) = nullptr;  // a number as the engine's language takes it; null: number()
 };
 
 // The map of an engine that fits a square of diameter_m(seen, reach_m, resolution) to the picture's frustum from the camera

@@ -183,15 +183,16 @@ Typed typed_amounts(const Engine& engine, const AdvicePlace& place, const std::v
 
 // The line with the numbers of each cascade; of one map there is one. A field that is there once takes the greatest.
 std::string knob_line(const Engine& engine, const EngineKnob& knob, const std::vector<double>& typed) {
+  const auto literal = engine.literal ? engine.literal : number;
   const bool each =
       typed.size() > 1 && !engine.cascades->each.empty() && knob.line.starts_with(engine.cascades->each_begins);
   if (!each) {
     const double most =
         *std::max_element(typed.begin(), typed.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-    return fmt::format(fmt::runtime(knob.line), number(most));
+    return fmt::format(fmt::runtime(knob.line), literal(most));
   }
   std::vector<std::string> texts;
-  for (const double value : typed) texts.push_back(number(value));
+  for (const double value : typed) texts.push_back(literal(value));
   const bool one = std::all_of(texts.begin(), texts.end(), [&](const std::string& text) { return text == texts[0]; });
   return fmt::format(
       fmt::runtime(engine.cascades->each),

@@ -134,10 +134,10 @@ std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
       "renderer.shadowMap.enabled = true;",
       fmt::format("camera.near = {}; camera.far = Math.max(camera.far, {}); camera.updateProjectionMatrix();",
                   number(cascades.near_m), far),
-      fmt::format(
-          "const csm = new CSM({{ camera, parent: scene, cascades: {}, maxFar: {}, mode: \"custom\", shadowMapSize: "
-          "{}, lightIntensity: light.intensity,",
-          cascades.count(), far, place.map.resolution),
+      fmt::format("const csm = new CSM({{ camera, parent: scene, cascades: {}, maxFar: {}, shadowMapSize: {}, mode: "
+                  "\"custom\",",
+                  cascades.count(), far, place.map.resolution),
+      "  lightIntensity: light.intensity,",
       fmt::format("  lightDirection: new THREE.Vector3({}), lightNear: {}, lightFar: {}, lightMargin: {},",
                   numbers(place.frame.forward), number(light_near_m), number(light_far_m(cascades)),
                   number(margin_m(cascades))),
@@ -148,10 +148,11 @@ std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
       "scene.traverse((mesh) => {",
       "  if (!mesh.isMesh) return;",
       "  mesh.castShadow = mesh.receiveShadow = true;  // leave out meshes that are to cast none",
-      fmt::format("  for (const material of [mesh.material].flat()) {{ material.shadowSide = THREE.{}; "
-                  "csm.setupMaterial(material); "
-                  "material.needsUpdate = true; }}",
-                  side_of(place.settings.map.cull)),
+      "  for (const material of [mesh.material].flat()) {",
+      fmt::format("    material.shadowSide = THREE.{};", side_of(place.settings.map.cull)),
+      "    material.needsUpdate = true;",
+      "    csm.setupMaterial(material);",
+      "  }",
       "});",
       "csm.update();  // and before each frame"};
 }

@@ -127,7 +127,8 @@ std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
       one ? fmt::format("m_Cascade2Split: {}", splits[0]) : fmt::format("m_Cascade{}Split: {{", cascades.count());
   for (size_t k = 0; !one && k < splits.size(); ++k)
     fields += fmt::format("{}{}: {}", k ? ", " : "", "xyz"[k], splits[k]);
-  lines.push_back(fmt::format("URP Asset > Shadows > Split 1 to {}: {} m  // {}", splits.size(),
+  lines.push_back(fmt::format("URP Asset > Shadows > Split {}: {} m  // {}",
+                              one ? "1" : fmt::format("1 to {}", splits.size()),
                               fmt::join(cascades.inner([](double end) { return end; }), ", "),
                               one ? fields : fields + "} in the asset's file"));
   lines.push_back("URP Asset > Shadows > Last Border: 0");
