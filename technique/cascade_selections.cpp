@@ -49,7 +49,8 @@ Bounded depth_in_bounds(const CascadePlace& p, int k, glm::dvec3 eye, glm::vec3 
 
 double map_in_double(const CascadePlace& p, int k, glm::dvec3, glm::dvec3 at) {
   const glm::dmat3 axes(p.light_axes);
-  return in_double::place_by_map(at, glm::dvec3(of(p.middles, k)), axes[0], axes[1], axes[2], glm::dvec3(of(p.halves, k)));
+  return in_double::place_by_map(at, glm::dvec3(of(p.middles, k)), axes[0], axes[1], axes[2],
+                                 glm::dvec3(of(p.halves, k)));
 }
 Bounded map_in_bounds(const CascadePlace& p, int k, glm::dvec3, glm::vec3 at) {
   const glm::mat3& axes = p.light_axes;
@@ -71,8 +72,8 @@ std::span<const CascadeSelection> cascade_selections() {
       {"depth", "shaders/cascade/by_depth.glsl", "by the depth along the view, as in Bevy and Godot", depth_in_double,
        depth_in_bounds},
       {"map", "shaders/cascade/by_map.glsl",
-       "the first whose map holds the receiver with all its taps: never a coarser one than by the depth",
-       map_in_double, map_in_bounds},
+       "the first whose map holds the receiver with all its taps: never a coarser one than by the depth", map_in_double,
+       map_in_bounds},
       {"sphere", "shaders/cascade/by_sphere.glsl",
        "map.fit = sphere: the first whose sphere holds the receiver, as in Unity", sphere_in_double, sphere_in_bounds},
   };

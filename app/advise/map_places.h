@@ -15,9 +15,9 @@
 namespace noonmark {
 
 struct MapPlace {
-  std::string covers;       // what the map covers, for a sentence: "the whole scene". Empty: as the settings give it
-  double extent_m = 0;      // of the map with these settings; of cascades, and of another light than a directional one, 0
-  int cascades = 1;         // how many maps share what it covers (app/advise/cascade_places.h)
+  std::string covers;   // what the map covers, for a sentence: "the whole scene". Empty: as the settings give it
+  double extent_m = 0;  // of the map with these settings; of cascades, and of another light than a directional one, 0
+  int cascades = 1;     // how many maps share what it covers (app/advise/cascade_places.h)
   bool moves_with = false;  // it covers what some views show, so another camera needs another place
   bool of_casters = false;  // it leaves out a ground on which there is light alone (map.fit = casters)
   std::function<void(Settings&)> apply;

@@ -22,8 +22,8 @@ inline constexpr std::array<std::string_view, 8> seam_parts{"filter",        "di
                                                             "peter_panning", "coverage",     "undecided", "precision"};
 
 struct Seam {
-  double points = 0;                               // counted receivers
-  double jump = 0;                                 // sum of |R5 of the next - R5 of this|
+  double points = 0;                              // counted receivers
+  double jump = 0;                                // sum of |R5 of the next - R5 of this|
   std::array<double, seam_parts.size()> parts{};  // sums of |difference of the steps|
   void add(const Seam& other);
 };

@@ -186,6 +186,12 @@ TEST(EngineCascades, BlendWhereTheEngineDoes) {
                 .find("cascades.select = map: the engine chooses a receiver's cascade by its depth"),
             std::string::npos);
   EXPECT_NE(joined(advice(settings, "Unity URP").cannot).find("by its sphere"), std::string::npos);
+  settings.cascades.bias_scales = {1, 1, 2, 2};
+  settings.cascades.resolutions = {512, 512, 256, 256};
+  const std::string cannot = joined(advice(settings, "Godot").cannot);
+  for (const char* part : {"cascades.bias_scales: the lines have the bias without these factors",
+                           "cascades.resolutions: all maps of the engine have one resolution"})
+    EXPECT_NE(cannot.find(part), std::string::npos) << cannot;
 }
 
 TEST(EngineCascades, GodotsSplitsAreSharesOfTheWay) {

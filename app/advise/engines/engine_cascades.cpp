@@ -75,6 +75,7 @@ Settings laid_by(const EngineCascades& engine, Settings settings, double near_m,
   settings.cascades.bounds_m.assign(ends_m.begin(), ends_m.end() - 1);
   settings.cascades.radius_round_m = 0;
   settings.cascades.resolutions.clear();
+  settings.cascades.bias_scales.clear();
   settings.cascades.select = "depth";
   settings.cascades.blend = blend_in(engine, settings.cascades);
   engine.lay(settings);
@@ -94,6 +95,8 @@ std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const 
                                engine.select));
   if (!asked.resolutions.empty())
     said.push_back("cascades.resolutions: all maps of the engine have one resolution, map.resolution.");
+  if (!asked.bias_scales.empty())
+    said.push_back("cascades.bias_scales: the lines have the bias without these factors.");
   return said;
 }
 
