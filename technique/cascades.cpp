@@ -122,7 +122,7 @@ std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings)
       const FittedSphere sphere = sphere_of_slice(scene, settings, fitted);
       place.middles.emplace_back(sphere.middle_m);
       place.halves.emplace_back(sphere.radius_m);
-    } else {
+    } else if (settings.cascades.select == "map") {
       add_volume(place, cascades.back());
     }
   }

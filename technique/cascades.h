@@ -2,7 +2,7 @@
 // A cascade is measured as a single map is, over the receivers of its slice.
 //
 //   const std::vector<Technique> cascades = cascades_of(scene, settings);   // with cascades.count = 1 only one
-//   cascades[2].frame; cascades[2].cascade->bounds_m;
+//   cascades[2].frame; cascades[2].cascade->slices[2].end_m;
 //   int k = cascade_at(*cascades[0].cascade, eye_m, P);
 #pragma once
 #include <glm/glm.hpp>

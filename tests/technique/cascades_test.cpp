@@ -404,6 +404,28 @@ TEST(Cascades, CoverTheBandInWhichTheyAreBlendedIn) {
     }
 }
 
+// Only the choice by the map asks a map for room for the taps.
+TEST(Cascades, NeedRoomForTheTapsWhereTheMapIsChosenByIt) {
+  Settings s;
+  s.scene.name = "street";
+  s.map.fit = MapFit::sphere;
+  s.map.resolution = 4;
+  s.filter.kind = "box";
+  s.filter["size"] = 7;
+  s.cascades.count = 3;
+  EXPECT_EQ(cascades_of(make_scene(s.scene), s).size(), 3u);
+  s.cascades.select = "map";
+  try {
+    cascades_of(make_scene(s.scene), s);
+    ADD_FAILURE() << "it is not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("the map of 4 texels holds no receiver with all of them"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Cascades, MayHaveAResolutionEach) {
   Settings s;
   s.scene.name = "street";
