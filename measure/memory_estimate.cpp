@@ -93,7 +93,11 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const Settings& s = input.settings;
   const double pixels = static_cast<double>(s.view.width_px) * s.view.height_px;
   const double faces = kind_of_light(input.light).tiles(s.map);
-  const double texels = static_cast<double>(s.map.resolution) * s.map.rows() * faces;
+  // Of cascades of different sizes all are taken for the largest.
+  const double widest = s.cascades.count > 1 && !s.cascades.resolutions.empty()
+                            ? *std::max_element(s.cascades.resolutions.begin(), s.cascades.resolutions.end())
+                            : s.map.resolution;
+  const double texels = widest * widest * s.map.rows() / s.map.resolution * faces;
   const TapPattern pattern = tap_pattern(s.filter);
   const double taps = pixels * pattern.taps;
   const double map =
@@ -160,7 +164,8 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
        curve > outside ? "lower filter.size, view.width_px or view.height_px, or set curve.enabled = false"
                        : "lower filter.size, view.width_px or view.height_px, or widen map.extent_m",
        maps * (strip + outside) + beside - outside},
-      {"the shadow map", maps > 1 ? "lower map.resolution or cascades.count" : "lower map.resolution",
+      {"the shadow map",
+       maps > 1 ? "lower map.resolution, cascades.resolutions or cascades.count" : "lower map.resolution",
        maps * map + more_maps},
   }};
 }

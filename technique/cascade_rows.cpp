@@ -133,7 +133,7 @@ std::vector<Setting> cascade_rows() {
           .refused(numbers_of_another_count("cascades.resolutions",
                                             [](const Settings& s) { return &s.cascades.resolutions; })),
       number_list(
-          ValueType::real_list, "cascades.bias_scales", "", 0, 1e6,
+          ValueType::real_list, "cascades.bias_scales", "", 1e-6, 1e6,
           "A factor for each cascade, near ones first, of the bias of the compared depth (bias.constant, bias.slope "
           "...), as engines have it; what moves the lookup is not scaled. auto: 1 in all.",
           MEMBER(bias_scales))

@@ -65,13 +65,13 @@ Image<float> depth_read(const Measurement& m, const auto& depths_of) {
 }
 
 // The stored and the exact map, with the highest v on top. Of cascades the maps one above the other, the nearest at the
-// bottom.
+// bottom; beside a map that is narrower than another one is the depth 1 of the border.
 LargeImage map_image(const Measurement& m) {
-  glm::ivec2 size(m.map().technique.frame.resolution, 0);
+  glm::ivec2 size(0);
   std::vector<int> bottom;  // the first row of each map
   for (const MeasuredMap& map : m.maps) {
     bottom.push_back(size.y);
-    size.y += map.technique.frame.map_size().y;
+    size = {std::max(size.x, map.technique.frame.map_size().x), size.y + map.technique.frame.map_size().y};
   }
   const auto copy = [&m, bottom, size](int first, int count, float* pixels) {
     std::vector<float> exact(static_cast<size_t>(size.x));
@@ -85,8 +85,9 @@ LargeImage map_image(const Measurement& m) {
       for (int down = 0; down < rows; ++down) {
         map.exact.copy_row(top - down, exact.data());
         for (int x = 0; x < size.x; ++x, pixels += 2) {
-          pixels[0] = stored.at(x, rows - 1 - down);
-          pixels[1] = exact[static_cast<size_t>(x)];
+          const bool inside = x < stored.width;
+          pixels[0] = inside ? stored.at(x, rows - 1 - down) : border_depth;
+          pixels[1] = inside ? exact[static_cast<size_t>(x)] : border_depth;
         }
       }
       y += rows;

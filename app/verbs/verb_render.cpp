@@ -96,9 +96,9 @@ void print_cascades(const Measurement& m) {
   };
   for (const CascadeRow& row : cascade_rows_of(m.record))
     fmt::print("  {:<10}{:>19}{:>11}{:>11.0f}{:>12}{:>10}{:>10}{:>28}{:>28}\n", row.number, cascade_depths_text(row),
-               quantity_text(row.texel_m, "m", 3), row.receivers, share(row.error, people_digits), share(row.share, 2),
-               share(row.seam, 2), cascade_bias_text(m.record, row, row.needed),
-               cascade_bias_text(m.record, row, row.set));
+               quantity_text(row.texel_m, "m", 3), row.receivers, share(row.error, people_digits),
+               row.share ? fmt::format("{:.0f}%", 100 * *row.share) : "-", share(row.seam, 2),
+               cascade_bias_text(m.record, row, row.needed), cascade_bias_text(m.record, row, row.set));
   if (const std::string worst = worst_cascade(m.record); !worst.empty()) fmt::print("  {}\n", worst);
 }
 
@@ -136,8 +136,10 @@ void print_ladder(const Measurement& m, const char* clock) {
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
         !metric.of_frames && !metric.of_motion && !metric.of_lights &&  // printed otherwise
-        m.record.metrics.contains(std::string(metric.name)))            // those of cascades are not there for one map
-      fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
+        m.record.metrics.contains(std::string(metric.name))) {          // those of cascades are not there for one map
+      const double share = m.record.metrics.at(std::string(metric.name));
+      if (!std::isnan(share)) fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * share);
+    }
   print_cascades(m);
   print_placements(m);
   print_flicker(m);

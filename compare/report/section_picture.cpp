@@ -483,7 +483,7 @@ std::string section_svg(const ReceiverSection& section, SectionTheme theme) {
                  Attribute("height", "12"), Attribute("fill", color_text(cause)), css("s-soft"));
   out += text_at(margin + 18, 19, title, "f-ink title");
   std::string cascade = section.cascade == 0 ? "" : fmt::format(", cascade {}", section.cascade);
-  if (section.share != 1) cascade += fmt::format(" ({:.3g}% of the pixel)", 100 * section.share);
+  if (section.share != 1) cascade += fmt::format(" ({:.2g}%)", 100 * section.share);
   out += text_at(right, 19, fmt::format("pixel {}, {}{}", section.pixel.x, section.pixel.y, cascade), "f-soft small",
                  "end");
   out += element("g", Attribute("clip-path", "url(#drawing)"), drawn_columns(section, scale), planes(section, scale),

@@ -16,6 +16,7 @@
 #include "app/pictures/view_colors.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
+#include "measure/workbench.h"
 #include "tests/app/read_image.h"
 #include "tests/support/sample_results.h"
 
@@ -197,6 +198,35 @@ TEST_F(PicturesOfCascades, MapsStandOneAboveTheOther) {
   EXPECT_EQ(map.channels.at("depth.exact"), stacked(far_exact, exact));
   for (const auto& [first, count] : asked) EXPECT_TRUE(first >= 0 && count > 0 && first + count <= 4);
   EXPECT_EQ(read_exr(folder.file("ladder.exr")).channels.at("cascade"), (std::vector<float>{0, 0, 1, 1, 0, -1}));
+}
+
+// Cascades may have a resolution each: the image is as wide as the widest map.
+TEST(PicturesOfWideCascades, FitMapsOfAnyWidth) {
+  Settings settings;
+  settings.scene.name = "street";
+  settings.view.width_px = 32, settings.view.height_px = 18;
+  settings.map.fit = MapFit::sphere;
+  settings.cascades.count = 3;
+  settings.cascades.resolutions = {16, 32, 8};
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement m = bench.measure(settings, std::nullopt);
+  const TemporaryFolder folder;
+  write_images(m, folder.path().string(), ".", "");
+  const ReadImage map = read_exr(folder.file("map.exr"));
+  ASSERT_EQ(map.spec.width, 32);
+  ASSERT_EQ(map.spec.height, 16 + 32 + 8);
+  const std::vector<float>& read = map.channels.at("depth.stored");
+  int bottom = 0;
+  for (const MeasuredMap& one : m.maps) {
+    const int side = one.technique.frame.resolution;
+    const Image<float> stored = one.stored_rows(0, side);
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < 32; ++x)
+        ASSERT_EQ(read[static_cast<size_t>((map.spec.height - 1 - bottom - y) * 32 + x)],
+                  x < side ? stored.at(x, y) : border_depth)
+            << side << " " << x << " " << y;
+    bottom += side;
+  }
 }
 
 TEST_F(PicturesOfCascades, PointJsonListsEach) {
