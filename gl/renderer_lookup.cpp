@@ -139,7 +139,16 @@ Image<float> Renderer::lookup(const ShadowMap& map, const Technique& technique, 
   const int width = r.position_image.width, height = r.position_image.height;
   r.require(r.lit, GL_R32F, width, height);
   r.draw_into({r.lit.texture.id()}, 0, width, height);
+  // Of a cascade only the rows in which it has a part: the pass of an engine reads each receiver once.
+  const bool few_rows = technique.cascade && technique.cascade->rows;
+  if (few_rows) {
+    const glm::ivec2 rows = *technique.cascade->rows;
+    glClearTexImage(r.lit.texture.id(), 0, GL_RED, GL_FLOAT, nullptr);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, rows.x, width, rows.y - rows.x);
+  }
   r.run(time_ms, [&] { r.draw_screen(program); });
+  if (few_rows) glDisable(GL_SCISSOR_TEST);
   r.detach(1);
   glBindTextureUnit(2, 0);
   glBindTextureUnit(3, 0);

@@ -118,7 +118,10 @@ PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup
   if (map) times.map_ms = 0;
   if (lookup) times.lookup_ms = 0;
   for (Technique& one : cascades_of(*loaded.scene, settings)) {
-    if (one.cascade) one.cascade->seam = 1;  // an engine compares nothing
+    if (one.cascade) {
+      one.cascade->rows = rows_of(b.choose(asked, *b.view.value(), one).chosen, one.cascade->index);
+      one.cascade->seam = 1;  // an engine compares nothing; after the choice, which is remembered
+    }
     std::vector<glm::vec3> casters;
     if (one.moves_casters()) casters = caster_positions(*loaded.scene, one.frame, settings.map, one.bias);
     double map_ms = 0, lookup_ms = 0;

@@ -308,11 +308,16 @@ std::vector<ReceiverSection> Workbench::sections(const Measurement& m, std::span
         // section_of() says what is wrong with a pixel outside the picture.
         const bool outside = !inside_map(pixel, size);
         const size_t i = outside ? 0 : m.receivers.primitive.index(pixel.x, pixel.y);
-        const bool here = outside || (strip.first <= i && i < strip.end && &m.map_of(i) == &map);
-        if (!found[k] && here)
-          found[k] = section_of({m.scene, m.receivers, map.technique, m.ladder, evidence, map.stored, map.stored_rows,
-                                 m.maps.size() > 1 ? m.cascades.share(i, static_cast<int>(n)) : 1},
-                                pixel);
+        const double share = m.maps.size() > 1 ? m.cascades.share(i, static_cast<int>(n)) : 1;
+        const bool here = strip.first <= i && i < strip.end && (share > 0 || &m.map_of(i) == &map);
+        if (outside ? found[k].has_value() : !here) continue;
+        ReceiverSection one = section_of(
+            {m.scene, m.receivers, map.technique, m.ladder, evidence, map.stored, map.stored_rows, share}, pixel);
+        // In a blend band the map that more of the error comes from.
+        const auto part = [](const ReceiverSection& of) {
+          return of.share * std::abs(static_cast<double>(of.shown) - static_cast<double>(of.truth));
+        };
+        if (!found[k] || part(one) > part(*found[k])) found[k] = std::move(one);
       }
     };
     each_strip_of(b.renderer, lookup, truth, map.technique, cut);
@@ -333,13 +338,14 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Impl::Looked looked = b.look(asked);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  const std::vector<Technique> techniques = cascades_of(scene, settings);
+  std::vector<Technique> techniques = cascades_of(scene, settings);
   const bool cascaded = techniques.size() > 1;
   std::deque<MapStages>& kept = b.of_maps(techniques.size());
   const ChoiceStage* const choice = cascaded ? &b.choose(asked, view, techniques.front()) : nullptr;
   std::vector<const TruthStage*> truths;
   std::vector<ScaledMap> scaled;
   for (size_t k = 0; k < techniques.size(); ++k) {
+    if (cascaded) techniques[k].cascade->rows = rows_of(choice->chosen, static_cast<int>(k));
     truths.push_back(&b.truth_of(asked, looked, kept[k], techniques[k]));
     scaled.push_back({techniques[k].frame, truths[k]->receivers});
   }

@@ -143,6 +143,18 @@ CascadeChoice choose_cascade(const CascadePlace& place, glm::dvec3 eye_m, glm::d
   return {place.last(), 0};
 }
 
+glm::ivec2 rows_of(const ChosenCascades& chosen, int cascade) {
+  glm::ivec2 rows(0);
+  for (size_t i = 0; i < chosen.of.size(); ++i) {
+    const bool compared = chosen.seam[i] && chosen.of[i] + 1 == cascade;
+    if (!compared && !(chosen.share(i, cascade) > 0)) continue;
+    const int row = static_cast<int>(i) / chosen.of.width;
+    if (rows.y == 0) rows.x = row;
+    rows.y = row + 1;
+  }
+  return rows;
+}
+
 double choice_excess(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 position, CascadeChoice made) {
   const CascadeChoice exact = choose_cascade(place, eye_m, position);
   if (made.cascade < 0 || made.cascade > place.last() || !(made.next >= 0 && made.next <= 1))

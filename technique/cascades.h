@@ -58,6 +58,9 @@ struct ChosenCascades {
   }
 };
 
+// The rows in which a cascade has a part or is looked up for comparison (CascadePlace::rows); (0, 0) if there are none.
+glm::ivec2 rows_of(const ChosenCascades& chosen, int cascade);
+
 // How far a choice that a shader made in float is off the one in double, as a multiple of the largest error that float
 // arithmetic makes there (technique/bounded.h): at most 1, if the shader is right. 0 if they are equal. position: as the shader has it.
 double choice_excess(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 position, CascadeChoice made);

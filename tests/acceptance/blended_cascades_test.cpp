@@ -248,6 +248,38 @@ TEST(BlendedCascades, CountEachCascadeAtItsOwnWorstPlacement) {
   }
 }
 
+// A section in a band is of the map that more of the error comes from, and says what part of the pixel it has.
+TEST(BlendedCascades, HaveSectionsOfTheMapThatErrs) {
+  const Settings s =
+      street({{"scene.name", "street"}, {"map.resolution", "64"}, {"bias.constant", "0.4"}, {"cascades.blend", "0.4"}});
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement m = bench.measure(s, std::nullopt);
+  MapsApart apart(s);
+  const std::vector<Ladder> ladders = ladders_apart(apart, s);
+  std::vector<glm::ivec2> pixels;
+  std::vector<int> cascades;
+  std::vector<double> shares;
+  for (const bool next_errs : {true, false})
+    for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
+      const int k = m.cascades.of[i];
+      if (!is_counted(m.ladder, i) || !(m.cascades.next[i] > 0)) continue;
+      const auto errs = [&](int of) { return ladders[static_cast<size_t>(of)].shown()[i] != m.ladder.truth()[i]; };
+      if (errs(k + 1) != next_errs || errs(k) == next_errs) continue;
+      const int width = m.cascades.of.width, at = static_cast<int>(i);
+      pixels.emplace_back(at % width, at / width);
+      cascades.push_back(next_errs ? k + 1 : k);
+      shares.push_back(m.cascades.share(i, cascades.back()));
+      break;
+    }
+  ASSERT_EQ(pixels.size(), 2u);
+  const std::vector<ReceiverSection> sections = bench.sections(m, pixels);
+  for (size_t n = 0; n < pixels.size(); ++n) {
+    EXPECT_EQ(sections[n].cascade, cascades[n] + 1);
+    EXPECT_EQ(sections[n].share, shares[n]);
+    EXPECT_NE(sections[n].shown, sections[n].truth) << "of this map alone";
+  }
+}
+
 // A factor for each cascade is that cascade measured with a bias that many times as large; and the curve varies all of them.
 TEST(ScaledCascades, HaveTheBiasOfTheirFactor) {
   const Settings s = street({{"cascades.bias_scales", "0.5,1,2,3"}, {"map.resolution", "128"}, {"bias.slope", "0.3"}});

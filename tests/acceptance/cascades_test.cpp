@@ -217,6 +217,18 @@ TEST(CascadedPoint, HasSectionsInTheCascadeOfEachPixel) {
   EXPECT_THROW(bench.sections(m, sky), Error);
 }
 
+// Timing the passes before or after changes no number.
+TEST(CascadedPoint, IsTheSameWhenItsPassesAreTimed) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings s = street({{"cascades.blend", "0.2"}});
+  const std::map<std::string, double> untimed = bench.measure(s, std::nullopt).record.metrics;
+  Workbench other(gl::DebugMode::fatal);
+  const PassTimes times = other.time_passes(s, true, true);
+  EXPECT_GT(*times.lookup_ms, 0);
+  EXPECT_EQ(other.measure(s, std::nullopt).record.metrics, untimed);
+  EXPECT_GT(untimed.at("seam_points"), 0);
+}
+
 // Nothing that is remembered of a point with cascades enters one without, and the other way round.
 TEST(CascadedPoint, IsForgottenByTheNext) {
   Workbench bench(gl::DebugMode::fatal);
