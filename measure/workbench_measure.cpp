@@ -157,7 +157,7 @@ void add_maps(PointRecord& record, std::span<const OneMap> maps, const TruthStag
   if (metrics == MetricSet::all) record.metrics["map_used"] = used / record.metrics.at("map_texels");
 }
 
-// The weighted mean of |R5 - R1| over the receivers of a map, and over all of them the sum of the weights.
+// The mean of |R5 - R1| over the receivers of a map, each weighted by the map's share in it. NaN without one.
 double error_of_map(const Ladder& ladder, const ReceiverTruth& truth) {
   if (truth.share.size() == 0) return error_of(ladder);
   double sum = 0, all = 0;

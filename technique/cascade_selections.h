@@ -16,7 +16,7 @@ struct CascadePlace;
 
 struct CascadeSelection {
   std::string_view name;    // a choice of cascades.select
-  std::string_view shader;  // the file that defines its cascade_place()
+  std::string_view shader;  // the file in gl/shaders that defines cascade_place() for it
   std::string_view help;
   // The place of a point in a cascade that is not the last (technique/cascade_place.glsl): in double, and with the bound of
   // the error that a shader's float arithmetic makes. `at` is a float vector, because a shader has it so.

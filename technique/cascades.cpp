@@ -159,7 +159,8 @@ double choice_excess(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 posi
   const CascadeChoice exact = choose_cascade(place, eye_m, position);
   if (made.cascade < 0 || made.cascade > place.last() || !(made.next >= 0 && made.next <= 1))
     return std::numeric_limits<double>::infinity();
-  const auto wrong_side = [&](int k) {  // of the end of cascade k
+  // How far the point lies from the end of cascade k, of which the shader put it on the wrong side.
+  const auto wrong_side = [&](int k) {
     const Bounded at = place.selection->place_in_bounds(place, k, eye_m, position);
     return std::abs(at.value - 1) / at.error;
   };

@@ -179,7 +179,8 @@ FittedMap fit_to_corners(const Scene& scene, const Settings& settings, const Lig
                             ? std::max(square.low_m, all.least)
                             : std::min(square.low_m, depths_inside(scene, axes, square.middle_m, half).least);
   double near_m = before, far_m = std::min(square.high_m, all.most);
-  if (!(near_m < far_m)) near_m = square.low_m, far_m = square.high_m;  // the scene lies before or beyond the slice
+  // The whole scene lies before the slice or beyond it, so there is nothing to hold: the slice itself gives near and far.
+  if (!(near_m < far_m)) near_m = square.low_m, far_m = square.high_m;
   const MapVolume depths = lights::with_margin(half, near_m, far_m);
   return {{.extent_m = 2 * half.x, .near_m = depths.near_m, .far_m = depths.far_m, .height_m = 2 * half.y},
           square.middle_m};

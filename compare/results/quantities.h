@@ -82,10 +82,11 @@ double worst_placed(const PointRecord& point, const std::string& metric);
 // the metric itself. Empty if no pixel is.
 std::optional<PointRecord::WorstOf> worst_pixel_of(const PointRecord& point, std::string_view metric);
 
-// A number of one cascade, as formulas name it: "cascades.2.texel_m". Cascades count from 1, near ones first. The numbers are
-// begin_m and end_m, the depths along the view at which the slice begins and ends; bias_needed, in the curve's own unit
-// (PointRecord::Cascade); and the metrics of cascade_metrics, over the receivers of that cascade alone. Empty if the point has no
-// such cascade, if its bias_needed is not known, and for every other name.
+// A number of one cascade, as formulas name it: "cascades.2.texel_m". Cascades count from 1, near ones first. The names are:
+// - begin_m and end_m: the depths along the view at which the slice begins and ends;
+// - bias_needed: in the curve's own unit (PointRecord::Cascade);
+// - each metric of cascade_metrics, over the receivers of that cascade alone.
+// Empty if the point has no such cascade, if its bias_needed is not known, and for every other name.
 std::optional<double> cascade_number(const PointRecord& point, std::string_view name);
 // All such names, of as many cascades as a point can have.
 std::span<const std::string> cascade_number_names();

@@ -254,7 +254,8 @@ TEST(EngineCascades, UrpsSplitsAreSharesOfTheDistance) {
   EXPECT_NE(lines.find("Split 1 to 3: 4, 13, 32 m  // m_Cascade4Split: {x: 0.05, y: 0.1625, z: 0.4}"),
             std::string::npos)
       << lines;
-  // In texels of each cascade, so one number is right in all; Hard Shadows reach twice as far as one tap.
+  // URP's bias is in texels of each cascade, so one number is right in all of them. Its Hard Shadows read texels that lie up to
+  // twice as far away as those of a single tap, so the number is twice as large.
   expect_written(typed(found, "Depth: "), 2 * texels);
   EXPECT_NE(joined(advice(manual({20}), "Unity URP").lines).find("Split 1: 20 m  // m_Cascade2Split: 0.25"),
             std::string::npos);

@@ -14,8 +14,8 @@ namespace {
 
 using Cascades = std::vector<PointRecord::Cascade>;
 
-// Three cascades with 300, 100 and 0 counted receivers. The last one has 10 that face the light; the numbers that need a counted
-// receiver are NaN there.
+// Three cascades with 300, 100 and 0 counted receivers. In the last one 10 receivers face the light, but none is counted. So
+// each number that needs a counted receiver is NaN there.
 Cascades three(const std::map<std::string, std::array<double, 3>>& rows) {
   Cascades all(3);
   for (size_t k = 0; k < 3; ++k) {
