@@ -28,8 +28,6 @@ double nearest_plane(const Scene& scene, const Settings& settings) {
 
 MapPlace place_of(const std::vector<double>& bounds_m, double reach_m) {
   MapPlace place;
-  place.cascades = static_cast<int>(bounds_m.size()) + 1;
-  place.covers = fmt::format("{:.4g} m of the view", reach_m);
   place.apply = [bounds_m, reach_m](Settings& there) {
     there.map.fit = MapFit::sphere;
     there.map.snap = true;

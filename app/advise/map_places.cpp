@@ -129,9 +129,8 @@ MapPlace place_as_given() {
   return place;
 }
 
-MapPlace cascades_as_given(const Settings& settings, bool chooses_bias) {
+MapPlace cascades_as_given(bool chooses_bias) {
   MapPlace place;
-  place.cascades = settings.cascades.count;
   place.apply = [chooses_bias](Settings& there) {
     if (chooses_bias) there.bias.unit = BiasUnit::texel;
   };

@@ -17,7 +17,6 @@ namespace noonmark {
 struct MapPlace {
   std::string covers;   // what the map covers, for a sentence: "the whole scene". Empty: as the settings give it
   double extent_m = 0;  // of the map with these settings; of cascades, and of another light than a directional one, 0
-  int cascades = 1;     // how many maps share what it covers (app/advise/cascade_places.h)
   bool moves_with = false;  // it covers what some views show, so another camera needs another place
   bool of_casters = false;  // it leaves out a ground on which there is light alone (map.fit = casters)
   std::function<void(Settings&)> apply;
@@ -29,7 +28,7 @@ void lay_as(const LightFrame& frame, Settings& settings);
 // The place that the settings give.
 MapPlace place_as_given();
 // The same of cascades. chooses_bias: the bias is in texels, which is right in all of them (law 31), in place of metres.
-MapPlace cascades_as_given(const Settings& settings, bool chooses_bias);
+MapPlace cascades_as_given(bool chooses_bias);
 
 // The first is the settings' own, or, if that is narrower, the map around the whole scene whose middle is the middle of the scene;
 // or the one around all that casts shadows (map.fit = casters), if it is narrower by places_differ and map.wrap lights what lies

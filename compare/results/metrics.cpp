@@ -167,48 +167,26 @@ constexpr Metric measured_with_causes[] = {
     {"seam_jump", "fraction",
      "Of cascades: mean |R5 in the next cascade - R5 in its own| over the receivers in the last 4% of a cascade that "
      "is "
-     "not the last: the step that the picture has there without a blend band.",
+     "not the last: the step that the picture has there without a blend band. Its parts by cause follow; they can add "
+     "up "
+     "to more than it, because their signs differ.",
      true, false, false, false, false, true},
-    {"seam_filter", "fraction",
-     "The part of seam_jump because the filter blurs wider or narrower: mean |difference of the steps|. Parts of "
-     "opposite sign can add up to more than "
-     "seam_jump.",
-     true, false, false, false, false, true},
-    {"seam_displacement", "fraction",
-     "The part of seam_jump because the moved lookup has another effect: mean |difference of the steps|. Parts of "
-     "opposite sign can add up to more than "
-     "seam_jump.",
-     true, false, false, false, false, true},
-    {"seam_aliasing", "fraction",
-     "The part of seam_jump because aliasing differs: mean |difference of the steps|. Parts of opposite sign can add "
-     "up to more than "
-     "seam_jump.",
-     true, false, false, false, false, true},
-    {"seam_acne", "fraction",
-     "The part of seam_jump because acne differs: mean |difference of the steps|. Parts of opposite sign can add up to "
-     "more than "
-     "seam_jump.",
-     true, false, false, false, false, true},
-    {"seam_peter_panning", "fraction",
-     "The part of seam_jump because Peter Panning differs: mean |difference of the steps|. Parts of opposite sign can "
-     "add up to more than "
-     "seam_jump.",
-     true, false, false, false, false, true},
+    {"seam_filter", "fraction", "Of seam_jump: mean |change| of the blur of the filter.", true, false, false, false,
+     false, true},
+    {"seam_displacement", "fraction", "Of seam_jump: mean |change| of displacement.", true, false, false, false, false,
+     true},
+    {"seam_aliasing", "fraction", "Of seam_jump: mean |change| of aliasing, dark and light together.", true, false,
+     false, false, false, true},
+    {"seam_acne", "fraction", "Of seam_jump: mean |change| of acne.", true, false, false, false, false, true},
+    {"seam_peter_panning", "fraction", "Of seam_jump: mean |change| of Peter Panning.", true, false, false, false,
+     false, true},
     {"seam_coverage", "fraction",
-     "The part of seam_jump because coverage differs: for example where the next map does not hold the receiver: mean "
-     "|difference of the steps|. Parts of opposite sign can add up to more than "
-     "seam_jump.",
+     "Of seam_jump: mean |change| of coverage, dark and light together: for example where the next map does not hold "
+     "the receiver.",
      true, false, false, false, false, true},
-    {"seam_undecided", "fraction",
-     "The part of seam_jump because the truth of a tap is undecided in one of them: mean |difference of the steps|. "
-     "Parts of opposite sign can add up to more than "
-     "seam_jump.",
-     true, false, false, false, false, true},
-    {"seam_precision", "fraction",
-     "The part of seam_jump because the stored maps differ from exact ones: mean |difference of the steps|. Parts of "
-     "opposite sign can add up to more than "
-     "seam_jump.",
-     true, false, false, false, false, true},
+    {"seam_undecided", "fraction", "Of seam_jump: mean |change| of the undecided taps.", true, false, false, false,
+     false, true},
+    {"seam_precision", "fraction", "Of seam_jump: mean |change| of precision.", true, false, false, false, false, true},
     {"address_error_texels", "texels",
      "Largest distance in the map from the exact place where a receiver is looked up to the texel that the lookup "
      "reads.",
