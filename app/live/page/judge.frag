@@ -2,6 +2,7 @@
 precision highp float;
 precision highp int;
 precision highp sampler2D;
+precision highp sampler2DArray;
 #include "light_view.glsl"
 #include "own_surface.glsl"
 
