@@ -171,6 +171,9 @@ ShadowMap Renderer::render_maps(std::span<const Technique> techniques, double* t
       r.draw_layer(one, made->arrays[place.array], place.layer, apart[place.array], time_ms ? &ms : nullptr);
     }
     if (time_ms) *time_ms += ms;
+    // llvmpipe begins a pass while the one before runs. What the second of two such passes drew into stays in memory until
+    // two run at once again.
+    if (k + 1 < techniques.size()) glFinish();
     if (casters_of) glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, r.positions.id(), 0, sizeof(glm::vec3));
   }
   glDisable(GL_POLYGON_OFFSET_FILL);

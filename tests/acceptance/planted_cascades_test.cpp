@@ -46,7 +46,7 @@ std::vector<Planted> defects() {
                  cascades(),
                  {.shaders = patched(choice, "ivec2(layer_of_cascade[choice.cascade],",
                                      "ivec2(layer_of_cascade[min(choice.cascade + 1, last_cascade)],")},
-                 {{"contract", 0, 0.5}},
+                 {{"contract", 0, 0.3}},
                  {"cascade_choice_excess", "rounding_excess", "map_error_quanta"}});
   // The own map, with the matrix of the cascade before.
   all.push_back({"CascadeLookedUpWithTheMatrixOfTheOneBefore",
@@ -57,7 +57,7 @@ std::vector<Planted> defects() {
                  {"cascade_choice_excess", "rounding_excess", "map_error_quanta"}});
   // The bias is that of the texels of another cascade.
   all.push_back({"CascadeWithTheBiasUnitOfTheOneBefore",
-                 cascades(),
+                 cascades({{"bias.unit", "m"}, {"bias.constant", "0.2"}}),
                  {.shaders = patched("shaders/light/directional.glsl", "light_bias_unit[map_layer]",
                                      "light_bias_unit[max(map_layer - 1, 0)]")},
                  {{"contract", 0, 0.001}},
