@@ -155,9 +155,9 @@ class Renderer {
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
   // Of a cascade: 0 for receivers that are not looked up in it.
   Image<float> lookup(const ShadowMap& map, const Technique& technique, double* time_ms = nullptr);
-  // The same in the maps of cascades, in one pass: the shader chooses each receiver's map, and looks up the next one too if
-  // it is blended in (or compared: CascadePlace::seam). Of maps of different sizes, in one pass for each size. techniques: those of
-  // the map, in its order.
+  // The same in the maps of cascades, in one pass: the shader chooses each receiver's map, and looks up the next one too
+  // if it is blended in (or compared: CascadePlace::seam). Of maps of different sizes, in one pass for each size.
+  // techniques: those of the map, in its order. Throws Error(defect) if their frames are not of these sizes.
   MapResults lookup_maps(const ShadowMap& map, std::span<const Technique> techniques, double* time_ms = nullptr);
 
   // What the lookup chooses for each receiver (shaders/cascade/choice.glsl). technique: of any of the cascades.

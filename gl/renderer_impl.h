@@ -109,15 +109,17 @@ struct Renderer::Impl {
   void run(double* time_ms, const std::function<void()>& pass);
 
   Texture draw_cube(const Technique& technique, double* time_ms);
-  // Draws a layer of a flat map. apart: the texture in which the cells of a snapped map are drawn, kept from layer to layer.
+  // Draws a layer of a flat map. apart: the texture in which the cells of a snapped map are drawn, kept from layer to
+  // layer.
   void draw_layer(const Technique& technique, const TiledMaps& map, int layer, Texture& apart, double* time_ms);
   void draw_cells(Program& program, const LightFrame& frame, const TiledMaps& map, int layer, Texture& apart);
 
-  // Throw Error(usage) if the device or its memory does not allow such maps. size: texels of a layer, and layers; of a cube
-  // 6 faces.
+  // Throw Error(usage) if the device or its memory does not allow such maps. size: texels of a layer, and layers; of a
+  // cube 6 faces.
   void check_map_size(glm::ivec2 size, bool cube) const;
   Texture make_map_texture(GLenum format, glm::ivec3 size, bool cube, Wrap wrap);
-  // Flat maps of these sizes, in spare textures or new ones. ends_in: null for maps that are no spares afterwards. keep_spares_of: deletes the spare maps of other sizes.
+  // Flat maps of these sizes, in spare textures or new ones. ends_in: null for maps that are no spares afterwards.
+  // keep_spares_of: deletes the spare maps of other sizes.
   std::unique_ptr<ShadowMap::Impl> make_flat(const std::shared_ptr<SpareMaps>& ends_in, GLenum format,
                                              std::span<const glm::ivec2> sizes, Wrap wrap);
   void keep_spares_of(glm::ivec2 size);

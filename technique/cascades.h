@@ -58,14 +58,14 @@ struct ChosenCascades {
   }
 };
 
-// What a lookup in the maps of cascades gives for each receiver: its result in the map that it is looked up in, and in the
-// next one where that one is looked up too; else 0.
+// What a lookup in the maps of cascades gives for each receiver: its result in the map that it is looked up in, and in
+// the next one where that one is looked up too; else 0.
 struct MapResults {
   Image<float> own, next;  // next: empty with one map
 };
 
-// The result in one of the maps: 0 for receivers that are not looked up in it. chosen: the lookup's choice; null if one map
-// alone was looked up, of a light without cascades or of one cascade.
+// The result in one of the maps: 0 for receivers that are not looked up in it. chosen: the lookup's choice; null if one
+// map alone was looked up, of a light without cascades or of one cascade.
 Image<float> result_in_map(const MapResults& results, const ChosenCascades* chosen, int cascade);
 
 // The results of all maps, each with its share.
