@@ -77,7 +77,7 @@ void Renderer::Impl::check_map_size(glm::ivec2 size, bool cube) const {
 
 Texture Renderer::Impl::make_map_texture(GLenum format, glm::ivec3 size, bool cube, Wrap wrap) {
   check_map_size(glm::ivec2(size), cube);
-  keep_spares_of(cube ? glm::ivec2(0) : glm::ivec2(size));
+  if (cube) keep_spares_of(glm::ivec2(0));
   Texture texture = cube ? make_texture(format, size.x, size.y, GL_TEXTURE_CUBE_MAP) : make_array(format, size);
   check_memory(size.z > 1 && !cube ? fmt::format("{} shadow maps", size.z).c_str() : "a shadow map", size.x, size.y);
   set_sampling(texture, cube, wrap);
