@@ -2,6 +2,7 @@
 #pragma once
 #include <epoxy/gl.h>
 
+#include <glm/glm.hpp>
 #include <utility>
 
 namespace noonmark::gl {
@@ -71,13 +72,23 @@ inline Texture make_texture(GLenum format, int width, int height, GLenum target 
   return Texture(id);
 }
 
-// One face of a cube map as a 2D texture with nearest filtering. Both have the same texels in memory.
-inline Texture make_face_view(const Texture& cube, int face) {
+// 2D textures of one size as the layers of an array, as make_texture().
+inline Texture make_array(GLenum format, glm::ivec3 size) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
+  glTextureStorage3D(id, 1, format, size.x, size.y, size.z);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return Texture(id);
+}
+
+// The faces of a cube map as the layers of an array with nearest filtering. Both have the same texels in memory.
+inline Texture make_view_of_faces(const Texture& cube) {
   GLint format = 0;
   glGetTextureLevelParameteriv(cube.id(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
   GLuint id = 0;
   glGenTextures(1, &id);  // glTextureView needs a name that has no target yet
-  glTextureView(id, GL_TEXTURE_2D, cube.id(), static_cast<GLenum>(format), 0, 1, static_cast<GLuint>(face), 1);
+  glTextureView(id, GL_TEXTURE_2D_ARRAY, cube.id(), static_cast<GLenum>(format), 0, 1, 0, 6);
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return Texture(id);

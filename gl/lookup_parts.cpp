@@ -47,7 +47,6 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
 }
 
 void set_cascade_uniforms(Program& program, const CascadePlace& cascade) {
-  program.set_if_used("this_cascade", cascade.index);
   program.set("last_cascade", cascade.last());
   program.set("cascade_blend", cascade.blend);
   program.set("cascade_seam", cascade.seam);

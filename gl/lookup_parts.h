@@ -17,7 +17,7 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
 // If a formula gives the weights of the filter's taps, the text has before that file
 //   float filter_weight(int texel, float s)   the weight of texel 0 ... filter_size along one axis
 // <cascade> defines
-//   bool in_this_map(vec3 position)           whether the map that is looked up has a part in a receiver's result
+//   Lookups lookups_of(vec3 position)         in which maps a receiver is looked up (shaders/cascade/lookups.glsl)
 ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
 
 std::string cascade_file(const Technique& technique);  // of <cascade>

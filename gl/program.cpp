@@ -60,6 +60,9 @@ void Program::set(const char* uniform, float value) { glProgramUniform1f(id(), l
 void Program::set(const char* uniform, glm::vec2 value) { glProgramUniform2fv(id(), location(uniform), 1, &value.x); }
 void Program::set(const char* uniform, glm::vec3 value) { glProgramUniform3fv(id(), location(uniform), 1, &value.x); }
 void Program::set(const char* uniform, const glm::mat4& value) { set(uniform, std::span(&value, 1)); }
+void Program::set(const char* uniform, std::span<const int> values) {
+  glProgramUniform1iv(id(), location(uniform), static_cast<GLsizei>(values.size()), values.data());
+}
 void Program::set(const char* uniform, std::span<const glm::mat4> values) {
   glProgramUniformMatrix4fv(id(), location(uniform), static_cast<GLsizei>(values.size()), GL_FALSE, &values[0][0][0]);
 }
@@ -79,8 +82,19 @@ void Program::set_if_used(const char* uniform, glm::vec3 value) {
 void Program::set_if_used(const char* uniform, const glm::mat3& value) {
   glProgramUniformMatrix3fv(object_.id(), glGetUniformLocation(object_.id(), uniform), 1, GL_FALSE, &value[0][0]);
 }
-void Program::set_if_used(const char* uniform, const glm::mat4& value) {
-  glProgramUniformMatrix4fv(id(), glGetUniformLocation(id(), uniform), 1, GL_FALSE, &value[0][0]);
+// OpenGL ignores what is beyond the elements that an array has in use.
+void Program::set_if_used(const char* uniform, std::span<const float> values) {
+  glProgramUniform1fv(id(), glGetUniformLocation(id(), uniform), static_cast<GLsizei>(values.size()), values.data());
+}
+void Program::set_if_used(const char* uniform, std::span<const glm::vec2> values) {
+  glProgramUniform2fv(id(), glGetUniformLocation(id(), uniform), static_cast<GLsizei>(values.size()), &values[0].x);
+}
+void Program::set_if_used(const char* uniform, std::span<const glm::vec3> values) {
+  glProgramUniform3fv(id(), glGetUniformLocation(id(), uniform), static_cast<GLsizei>(values.size()), &values[0].x);
+}
+void Program::set_if_used(const char* uniform, std::span<const glm::mat4> values) {
+  glProgramUniformMatrix4fv(id(), glGetUniformLocation(id(), uniform), static_cast<GLsizei>(values.size()), GL_FALSE,
+                            &values[0][0][0]);
 }
 
 namespace {

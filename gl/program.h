@@ -33,6 +33,7 @@ class Program {
   void set(const char* uniform, glm::vec2 value);
   void set(const char* uniform, glm::vec3 value);
   void set(const char* uniform, const glm::mat4& value);
+  void set(const char* uniform, std::span<const int> values);
   void set(const char* uniform, std::span<const glm::mat4> values);
   // The same, but without an error if the program does not use the uniform. Only some files of a slot use these.
   void set_if_used(const char* uniform, float value);
@@ -40,7 +41,10 @@ class Program {
   void set_if_used(const char* uniform, glm::vec2 value);
   void set_if_used(const char* uniform, glm::vec3 value);
   void set_if_used(const char* uniform, const glm::mat3& value);
-  void set_if_used(const char* uniform, const glm::mat4& value);
+  void set_if_used(const char* uniform, std::span<const float> values);
+  void set_if_used(const char* uniform, std::span<const glm::vec2> values);
+  void set_if_used(const char* uniform, std::span<const glm::vec3> values);
+  void set_if_used(const char* uniform, std::span<const glm::mat4> values);
 
  private:
   int location(const char* uniform) const;

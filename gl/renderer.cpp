@@ -91,6 +91,11 @@ void Renderer::Impl::require(Target& target, GLenum format, int width, int heigh
   target = Target{std::move(texture), format, width, height};
 }
 
+void Renderer::Impl::draw_into_layer(GLuint depth, int layer, glm::ivec2 size) {
+  draw_into({}, depth, size.x, size.y);
+  glNamedFramebufferTextureLayer(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth, 0, layer);
+}
+
 void Renderer::Impl::draw_into(std::initializer_list<GLuint> colours, GLuint depth, int width, int height) {
   std::array<GLenum, 4> buffers{};
   GLsizei count = 0;
@@ -196,18 +201,40 @@ void Renderer::load_scene(const Scene& scene) {
   r.index_count = static_cast<GLsizei>(3 * scene.triangles.size());
 }
 
+// The textures themselves are made by Renderer::Impl::make_flat().
+ShadowMap::Impl::Impl(std::shared_ptr<EglContext> owner, const std::shared_ptr<SpareMaps>& ends_in, Wrap mode,
+                      std::span<const glm::ivec2> sizes)
+    : context(std::move(owner)), wrap(mode), spares(ends_in) {
+  // Mesa's software renderers make no larger texture, and OpenGL names no limit.
+  constexpr size_t most_array_bytes = size_t{1} << 30;
+  for (const glm::ivec2 size : sizes) {
+    const size_t layer_bytes = static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * sizeof(float);
+    const auto has_room = [&](const TiledMaps& array) {
+      return glm::ivec2(array.size) == size && static_cast<size_t>(array.size.z + 1) * layer_bytes <= most_array_bytes;
+    };
+    auto array = std::find_if(arrays.begin(), arrays.end(), has_room);
+    if (array == arrays.end()) array = arrays.insert(arrays.end(), TiledMaps{{}, 0, glm::ivec3(size, 0)});
+    places.push_back({static_cast<size_t>(array - arrays.begin()), array->size.z++});
+  }
+}
+
 ShadowMap::Impl::~Impl() {
   context->make_current();
-  if (const auto kept = spares.lock()) kept->put({std::move(depth), format, size, elsewhere, std::move(written)});
+  if (const auto kept = spares.lock())
+    for (TiledMaps& array : arrays) kept->put(std::move(array));
 }
 
 ShadowMap::ShadowMap(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ShadowMap::ShadowMap(ShadowMap&&) noexcept = default;
 ShadowMap& ShadowMap::operator=(ShadowMap&&) noexcept = default;
 ShadowMap::~ShadowMap() = default;
-glm::ivec2 ShadowMap::size() const { return impl_->size; }
-size_t ShadowMap::texels() const {
-  return (impl_->cube ? 6 : 1) * static_cast<size_t>(impl_->size.x) * static_cast<size_t>(impl_->size.y);
+int ShadowMap::count() const { return impl_->cube ? 1 : static_cast<int>(impl_->places.size()); }
+glm::ivec2 ShadowMap::size(int map) const {
+  return impl_->cube ? glm::ivec2(impl_->cube_side) : glm::ivec2(impl_->array_of(map).size);
+}
+size_t ShadowMap::texels(int map) const {
+  const glm::ivec2 face = size(map);
+  return static_cast<size_t>(impl_->faces()) * static_cast<size_t>(face.x) * static_cast<size_t>(face.y);
 }
 
 }  // namespace noonmark::gl

@@ -19,6 +19,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/image.h"
 #include "scenes/receivers.h"
@@ -66,14 +67,16 @@ struct DeviceInfo {
 // The taps whose texels a probe holds. The texel of the middle tap is always known.
 enum class ProbeTaps { all, none };
 
-// A shadow map on the device. Move-only.
+// A shadow map on the device, or the shadow maps of cascades, counted from 0. Flat maps of one size are the layers of an
+// array. Move-only.
 class ShadowMap {
  public:
   ShadowMap(ShadowMap&&) noexcept;
   ShadowMap& operator=(ShadowMap&&) noexcept;
   ~ShadowMap();
-  glm::ivec2 size() const;  // texels of one of its faces
-  size_t texels() const;    // of all its faces
+  int count() const;
+  glm::ivec2 size(int map = 0) const;  // texels of one of its faces
+  size_t texels(int map = 0) const;    // of all its faces
 
  private:
   friend class Renderer;
@@ -110,11 +113,16 @@ class Renderer {
   void release_receivers();
 
   // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that
-  // move the casters' vertices act through `casters` alone. time_ms, if given, receives the time of the pass alone
+  // move the casters' vertices act through `casters_of` alone. time_ms, if given, receives the time of the pass alone
   // (DeviceInfo::times); the pass then runs twice, first without the clock, so that its shader is compiled, its memory is
-  // in use and the caches hold what it reads. casters: the scene's vertices as they are drawn (technique/casters.h);
-  // empty: the vertices of load_scene().
-  ShadowMap render_map(const Technique& technique, double* time_ms = nullptr, std::span<const glm::vec3> casters = {});
+  // in use and the caches hold what it reads. casters_of: the scene's vertices as they are drawn in a map
+  // (technique/casters.h); empty: the vertices of load_scene().
+  using CastersOf = std::function<std::vector<glm::vec3>(const Technique&)>;
+  ShadowMap render_map(const Technique& technique, double* time_ms = nullptr, const CastersOf& casters_of = {});
+  // The maps of cascades, each drawn by a pass of its own, bit for bit as render_map() draws it. time_ms: of all passes.
+  // techniques: any of the cascades of a point, or one technique without.
+  ShadowMap render_maps(std::span<const Technique> techniques, double* time_ms = nullptr,
+                        const CastersOf& casters_of = {});
 
   // Uploads a map that was made elsewhere, such as the exact map of R4. Its format is 32-bit float depth, whatever
   // settings.format is; its wrap mode is the one of the settings. depth has the size LightFrame::map_size(), and
@@ -122,14 +130,16 @@ class Renderer {
   // outside [0, 1], because OpenGL may clamp them.
   ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings, MapShape shape = MapShape::flat);
   ShadowMap upload_map(const MapDepths& depths, const MapSettings& settings, MapShape shape = MapShape::flat);
+  // The maps of these techniques, which are as of render_maps().
+  ShadowMap upload_maps(std::span<const MapDepths* const> depths, std::span<const Technique> techniques);
 
   // The depths that the lookup's sampler returns, bit for bit, in the layout of LightFrame::map_size(): of all texels,
-  // of those of a set, or of some rows.
-  Image<float> read_map(const ShadowMap& map);
-  MapDepths read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels);
-  Image<float> read_rows(const ShadowMap& map, int first_row, int count);
+  // of those of a set, or of some rows. which: the map of a cascade.
+  Image<float> read_map(const ShadowMap& map, int which = 0);
+  MapDepths read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels, int which = 0);
+  Image<float> read_rows(const ShadowMap& map, int first_row, int count, int which = 0);
 
-  // How many texels of the map hold anything, that is a depth below 1. Counted on the device.
+  // How many texels of all its maps hold anything, that is a depth below 1. Counted on the device.
   int64_t used_texels(const ShadowMap& map);
 
   // Gives the memory of deleted maps back. Drivers keep a texture that was bound until the next draw, and until what
@@ -143,7 +153,12 @@ class Renderer {
   // The technique's result: the visibility of every receiver, in [0, 1]. Background pixels and receivers at or behind
   // the light have 0. time_ms: as in render_map. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
+  // Of a cascade: 0 for receivers that are not looked up in it.
   Image<float> lookup(const ShadowMap& map, const Technique& technique, double* time_ms = nullptr);
+  // The same in the maps of cascades, in one pass: the shader chooses each receiver's map, and looks up the next one too
+  // if it is blended in (or compared: CascadePlace::seam). Of maps of different sizes, in one pass for each size.
+  // techniques: those of the map, in its order. Throws Error(defect) if their frames are not of these sizes.
+  MapResults lookup_maps(const ShadowMap& map, std::span<const Technique> techniques, double* time_ms = nullptr);
 
   // What the lookup chooses for each receiver (shaders/cascade/choice.glsl). technique: of any of the cascades.
   ChosenCascades choose_cascades(const Technique& technique);

@@ -26,30 +26,29 @@ inline constexpr GLfloat lit_border[4] = {1, 1, 1, 1};
 GLint gl_wrap(Wrap wrap);
 
 struct ShadowMap::Impl {
-  // Keeps the context alive, because the texture belongs to it. A map may exist longer than its Renderer.
+  // Keeps the context alive, because the textures belong to it. A map may exist longer than its Renderer.
   std::shared_ptr<EglContext> context;
-  Texture depth;
-  glm::ivec2 size{0};  // texels of a face
-  bool cube = false;
   Wrap wrap = Wrap::clamp_to_border;
-  // Of a flat map: where its texture goes in the end, and what is known of it (TiledMap).
-  std::weak_ptr<SpareMaps> spares{};
-  GLenum format = 0;
-  float elsewhere = std::numeric_limits<float>::quiet_NaN();
-  std::vector<uint8_t> written{};
+  Texture cube{};  // of a point light; it has no arrays then
+  int cube_side = 0;
+  std::vector<TiledMaps> arrays{};  // flat maps, by size
+  struct Place {
+    size_t array = 0;
+    int layer = 0;
+  };
+  std::vector<Place> places{};        // of each flat map
+  std::weak_ptr<SpareMaps> spares{};  // where the arrays go in the end
 
-  Impl(std::shared_ptr<EglContext> owner, const std::shared_ptr<SpareMaps>& ends_in, TiledMap map, Wrap mode)
-      : context(std::move(owner)),
-        depth(std::move(map.texture)),
-        size(map.size),
-        wrap(mode),
-        spares(ends_in),
-        format(map.format),
-        elsewhere(map.elsewhere),
-        written(std::move(map.written)) {}
-  Impl(std::shared_ptr<EglContext> owner, Texture texture, glm::ivec2 texels, bool is_cube, Wrap mode)
-      : context(std::move(owner)), depth(std::move(texture)), size(texels), cube(is_cube), wrap(mode) {}
+  // Flat maps of these sizes, which are empty yet.
+  Impl(std::shared_ptr<EglContext> owner, const std::shared_ptr<SpareMaps>& ends_in, Wrap mode,
+       std::span<const glm::ivec2> sizes);
+  Impl(std::shared_ptr<EglContext> owner, Texture texture, int side)
+      : context(std::move(owner)), cube(std::move(texture)), cube_side(side) {}
   ~Impl();
+
+  TiledMaps& array_of(int map) { return arrays[places[static_cast<size_t>(map)].array]; }
+  int layer_of(int map) const { return places[static_cast<size_t>(map)].layer; }
+  int faces() const { return cube ? 6 : 1; }
 };
 
 // A texture that is kept from call to call while its size stays the same.
@@ -95,8 +94,10 @@ struct Renderer::Impl {
   void require(Target& target, GLenum format, int width, int height);
   void check_memory(const char* what, int width, int height);
 
-  // Binds the framebuffer with only these textures (colour i at location i) and sets the viewport.
+  // Binds the framebuffer with only these textures (colour i at location i) and sets the viewport. A depth texture of
+  // several layers has all of them bound; draw_into_layer() binds one.
   void draw_into(std::initializer_list<GLuint> colours, GLuint depth, int width, int height);
+  void draw_into_layer(GLuint depth, int layer, glm::ivec2 size);
   // Ends draw_into. It detaches all textures, because an attached texture stays in memory after it is deleted.
   void detach(size_t colours);
 
@@ -107,27 +108,39 @@ struct Renderer::Impl {
   // Runs the pass. If time_ms is given, the pass runs twice, and time_ms receives the time of the second run.
   void run(double* time_ms, const std::function<void()>& pass);
 
-  Texture draw_cells(Program& program, const LightFrame& frame, Texture map, GLenum format, Wrap wrap,
-                     const std::function<void()>& draw);
+  Texture draw_cube(const Technique& technique, double* time_ms);
+  // Draws a layer of a flat map. apart: the texture in which the cells of a snapped map are drawn, kept from layer to
+  // layer.
+  void draw_layer(const Technique& technique, const TiledMaps& map, int layer, Texture& apart, double* time_ms);
+  void draw_cells(Program& program, const LightFrame& frame, const TiledMaps& map, int layer, Texture& apart);
 
-  // Throw Error(usage) if the device or its memory does not allow such a map.
+  // Throw Error(usage) if the device or its memory does not allow such maps. size: texels of a layer, and layers; of a
+  // cube 6 faces.
   void check_map_size(glm::ivec2 size, bool cube) const;
-  Texture make_map_texture(GLenum format, glm::ivec2 size, bool cube, Wrap wrap);
-  // Of a flat map: a spare one, or a new one. keep_spares_of: deletes the spare maps of other sizes.
-  TiledMap spare_or_new(SpareMaps& spares, GLenum format, glm::ivec2 size, Wrap wrap);
+  Texture make_map_texture(GLenum format, glm::ivec3 size, bool cube, Wrap wrap);
+  // Flat maps of these sizes, in spare textures or new ones. ends_in: null for maps that are no spares afterwards.
+  // keep_spares_of: deletes the spare maps of other sizes.
+  std::unique_ptr<ShadowMap::Impl> make_flat(const std::shared_ptr<SpareMaps>& ends_in, GLenum format,
+                                             std::span<const glm::ivec2> sizes, Wrap wrap);
   void keep_spares_of(glm::ivec2 size);
   // The wrap mode and what else the lookup's sampler needs to know of a map.
   static void set_sampling(const Texture& map, bool cube, Wrap wrap);
-  // A map of 32-bit floats, of faces of this size. copy_row(y, row) writes row y of the map's image.
-  Texture upload_rows(glm::ivec2 face, Wrap wrap, bool cube, const std::function<void(int, float*)>& copy_row);
-  // A flat map of these depths. elsewhere: of the texels that are not in the set, in [0, 1].
-  TiledMap upload_tiles(const MapDepths& map, float elsewhere, Wrap wrap);
-  // The depths of a flat map at the texels of the set, by TexelSet::index. Throws Error(device).
-  void read_listed(GLuint map, const TexelSet& texels, std::span<float> depth);
+  // Writes faces, or a layer of a flat map, of 32-bit floats. copy_row(y, row) writes row y of the map's image.
+  void upload_rows(GLuint texture, glm::ivec2 face, int first_layer, int faces,
+                   const std::function<void(int, float*)>& copy_row);
+  ShadowMap upload_cube(int side, const std::function<void(int, float*)>& copy_row);
+  // Writes a layer of a flat map. elsewhere: the depth of the texels that are not in the set, in [0, 1].
+  void upload_tiles(const MapDepths& map, float elsewhere, TiledMaps& to, int layer);
+  // The depths of a layer of a flat map at the texels of the set, by TexelSet::index. Throws Error(device).
+  void read_listed(GLuint map, int layer, const TexelSet& texels, std::span<float> depth);
 
   // Sets the uniforms of light, bias and receiver in a program that includes shaders/receiver.glsl, and binds the
-  // receivers.
-  void set_receiver_uniforms(Program& program, const Technique& technique);
+  // receivers. maps: those of the layers that are looked up, in their order.
+  void set_receiver_uniforms(Program& program, std::span<const Technique* const> maps);
+  void set_receiver_uniforms(Program& program, const Technique& technique) {
+    const Technique* const one = &technique;
+    set_receiver_uniforms(program, std::span(&one, 1));
+  }
   // Uploads and binds the pattern for a program that includes shaders/pattern.glsl.
   void set_pattern(Program& program, const TapPattern& pattern);
   // The texels in a cube map that these taps of the receivers in those rows read: LookupProbe::cube_texel.

@@ -38,6 +38,15 @@ void require_depths(std::span<const float> depths) {
               fmt::format("upload_map: depth {} at texel index {} is outside [0,1]", *first, first - depths.begin()));
 }
 
+// The depth of the texels that are not in the map's set. Of a whole map it says nothing.
+float checked_elsewhere(const MapDepths& map) {
+  require_depths(map.depth);
+  const glm::ivec2 size = map.size();
+  if (map.texels->count() == static_cast<size_t>(size.x) * static_cast<size_t>(size.y)) return 1;
+  require_depths({&map.elsewhere, 1});
+  return map.elsewhere;
+}
+
 }  // namespace
 
 GLint gl_wrap(Wrap wrap) {
@@ -66,21 +75,30 @@ void Renderer::Impl::check_map_size(glm::ivec2 size, bool cube) const {
                             info.max_map_resolution, info.renderer));
 }
 
-Texture Renderer::Impl::make_map_texture(GLenum format, glm::ivec2 size, bool cube, Wrap wrap) {
-  check_map_size(size, cube);
-  keep_spares_of(cube ? glm::ivec2(0) : size);
-  Texture texture = make_texture(format, size.x, size.y, cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D);
-  check_memory("a shadow map", size.x, size.y);
+Texture Renderer::Impl::make_map_texture(GLenum format, glm::ivec3 size, bool cube, Wrap wrap) {
+  check_map_size(glm::ivec2(size), cube);
+  if (cube) keep_spares_of(glm::ivec2(0));
+  Texture texture = cube ? make_texture(format, size.x, size.y, GL_TEXTURE_CUBE_MAP) : make_array(format, size);
+  check_memory(size.z > 1 && !cube ? fmt::format("{} shadow maps", size.z).c_str() : "a shadow map", size.x, size.y);
   set_sampling(texture, cube, wrap);
   return texture;
 }
 
-TiledMap Renderer::Impl::spare_or_new(SpareMaps& spares, GLenum format, glm::ivec2 size, Wrap wrap) {
-  keep_spares_of(size);
-  std::optional<TiledMap> spare = spares.take(format, size);
-  if (!spare) return {make_map_texture(format, size, false, wrap), format, size};
-  set_sampling(spare->texture, false, wrap);
-  return std::move(*spare);
+std::unique_ptr<ShadowMap::Impl> Renderer::Impl::make_flat(const std::shared_ptr<SpareMaps>& ends_in, GLenum format,
+                                                           std::span<const glm::ivec2> sizes, Wrap wrap) {
+  auto made = std::make_unique<ShadowMap::Impl>(context, ends_in, wrap, sizes);
+  for (TiledMaps& array : made->arrays) {
+    keep_spares_of(glm::ivec2(array.size));
+    if (std::optional<TiledMaps> spare = ends_in ? ends_in->take(format, array.size) : std::nullopt) {
+      set_sampling(spare->texture, false, wrap);
+      array = std::move(*spare);
+    } else {
+      array.texture = make_map_texture(format, array.size, false, wrap);
+      array.format = format;
+      array.known.resize(static_cast<size_t>(array.size.z));
+    }
+  }
+  return made;
 }
 
 void Renderer::Impl::keep_spares_of(glm::ivec2 size) {
@@ -98,24 +116,25 @@ void Renderer::Impl::set_sampling(const Texture& map, bool cube, Wrap wrap) {
   glTextureParameteri(map.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
 }
 
-Texture Renderer::Impl::upload_rows(glm::ivec2 face_size, Wrap wrap, bool cube,
-                                    const std::function<void(int, float*)>& copy_row) {
+void Renderer::Impl::upload_rows(GLuint texture, glm::ivec2 face_size, int first_layer, int faces,
+                                 const std::function<void(int, float*)>& copy_row) {
   const int width = face_size.x, height = face_size.y, rows = rows_of_band(face_size);
-  Texture texture = make_map_texture(GL_DEPTH_COMPONENT32F, face_size, cube, wrap);
   std::vector<float> band(static_cast<size_t>(width) * static_cast<size_t>(rows));
-  for (int face = 0; face < (cube ? 6 : 1); ++face)
+  for (int face = 0; face < faces; ++face)
     for (int first = 0; first < height; first += rows) {
       const int count = std::min(rows, height - first);
       for (int row = 0; row < count; ++row)
         copy_row(face * height + first + row, &band[static_cast<size_t>(row) * static_cast<size_t>(width)]);
-      if (cube)
-        glTextureSubImage3D(texture.id(), 0, 0, first, face, width, count, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
-                            band.data());
-      else
-        glTextureSubImage2D(texture.id(), 0, 0, first, width, count, GL_DEPTH_COMPONENT, GL_FLOAT, band.data());
+      glTextureSubImage3D(texture, 0, 0, first, first_layer + face, width, count, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                          band.data());
     }
   context->check("upload_map");
-  return texture;
+}
+
+ShadowMap Renderer::Impl::upload_cube(int side, const std::function<void(int, float*)>& copy_row) {
+  Texture texture = make_map_texture(GL_DEPTH_COMPONENT32F, {side, side, 6}, true, Wrap::clamp_to_edge);
+  upload_rows(texture.id(), glm::ivec2(side), 0, 6, copy_row);
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(context, std::move(texture), side));
 }
 
 ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& settings, MapShape shape) {
@@ -124,10 +143,12 @@ ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& set
   const bool cube = shape == MapShape::cube;
   require_size({depth.width, depth.height}, settings, cube);
   require_depths(depth.pixels);
-  const glm::ivec2 face(depth.width, cube ? depth.width : depth.height);
-  Texture texture = r.upload_rows(face, settings.wrap, cube,
-                                  [&](int y, float* row) { std::copy_n(&depth.at(0, y), depth.width, row); });
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), face, cube, settings.wrap));
+  const auto copy_row = [&](int y, float* row) { std::copy_n(&depth.at(0, y), depth.width, row); };
+  if (cube) return r.upload_cube(depth.width, copy_row);
+  const glm::ivec2 size(depth.width, depth.height);
+  auto made = r.make_flat(nullptr, GL_DEPTH_COMPONENT32F, {&size, 1}, settings.wrap);
+  r.upload_rows(made->arrays[0].texture.id(), size, 0, 1, copy_row);
+  return ShadowMap(std::move(made));
 }
 
 ShadowMap Renderer::upload_map(const MapDepths& map, const MapSettings& settings, MapShape shape) {
@@ -135,18 +156,37 @@ ShadowMap Renderer::upload_map(const MapDepths& map, const MapSettings& settings
   r.context->make_current();
   const bool cube = shape == MapShape::cube;
   require_size(map.size(), settings, cube);
-  require_depths(map.depth);
   const glm::ivec2 size = map.size();
-  const bool whole = map.texels->count() == static_cast<size_t>(size.x) * static_cast<size_t>(size.y);
-  if (!whole) require_depths({&map.elsewhere, 1});
-  if (cube) {
-    const glm::ivec2 face(size.x);
-    Texture texture = r.upload_rows(face, settings.wrap, cube, [&](int y, float* row) { map.copy_row(y, row); });
-    return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), face, cube, settings.wrap));
-  }
-  TiledMap tiled = r.upload_tiles(map, whole ? 1 : map.elsewhere, settings.wrap);  // of a whole map it says nothing
+  const float elsewhere = checked_elsewhere(map);
+  if (cube) return r.upload_cube(size.x, [&](int y, float* row) { map.copy_row(y, row); });
+  auto made = r.make_flat(r.uploaded, GL_DEPTH_COMPONENT32F, {&size, 1}, settings.wrap);
+  r.upload_tiles(map, elsewhere, made->arrays[0], 0);
   r.context->check("upload_map");
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, r.uploaded, std::move(tiled), settings.wrap));
+  return ShadowMap(std::move(made));
+}
+
+ShadowMap Renderer::upload_maps(std::span<const MapDepths* const> maps, std::span<const Technique> techniques) {
+  Impl& r = *impl_;
+  if (maps.size() != techniques.size() || maps.empty())
+    throw std::logic_error(fmt::format("upload_maps: {} maps of {} techniques", maps.size(), techniques.size()));
+  const MapSettings& first = techniques.front().settings.map;
+  const MapShape shape = techniques.front().frame.map_shape();
+  if (maps.size() == 1) return upload_map(*maps.front(), first, shape);
+  r.context->make_current();
+  std::vector<glm::ivec2> sizes;
+  std::vector<float> elsewhere;
+  for (size_t k = 0; k < maps.size(); ++k) {
+    require_size(maps[k]->size(), techniques[k].settings.map, false);
+    sizes.push_back(maps[k]->size());
+    elsewhere.push_back(checked_elsewhere(*maps[k]));
+  }
+  auto made = r.make_flat(r.uploaded, GL_DEPTH_COMPONENT32F, sizes, first.wrap);
+  for (size_t k = 0; k < maps.size(); ++k) {
+    const int map = static_cast<int>(k);
+    r.upload_tiles(*maps[k], elsewhere[k], made->array_of(map), made->layer_of(map));
+  }
+  r.context->check("upload_map");
+  return ShadowMap(std::move(made));
 }
 
 void Renderer::release_deleted() {
@@ -162,11 +202,12 @@ void Renderer::release_deleted() {
   r.context->check("release_deleted");
 }
 
-Image<float> Renderer::read_rows(const ShadowMap& map, int first_row, int count) {
+Image<float> Renderer::read_rows(const ShadowMap& map, int first_row, int count, int which) {
   Impl& r = *impl_;
   r.context->make_current();
-  const int width = map.size().x, height = map.size().y;
-  const int faces = map.impl_->cube ? 6 : 1, band = rows_of_band(map.size());
+  ShadowMap::Impl& m = *map.impl_;
+  const int width = map.size(which).x, height = map.size(which).y;
+  const int faces = m.faces(), band = rows_of_band(map.size(which));
   if (first_row < 0 || count < 0 || first_row + count > faces * height)
     throw Error(ErrorKind::defect,
                 fmt::format("read_rows: {} rows from {} on of a map of {}", count, first_row, faces * height));
@@ -174,12 +215,13 @@ Image<float> Renderer::read_rows(const ShadowMap& map, int first_row, int count)
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/read_map.frag"});
   Image<float> image(width, count);
   r.draw_into({r.map_strip.texture.id()}, 0, width, band);
+  Texture view;  // the faces as flat maps with the same texels
+  if (m.cube) view = make_view_of_faces(m.cube);
   for (int row = first_row; row < first_row + count;) {
     const int face = row / height, in_face = row % height;
     const int rows = std::min({band, height - in_face, first_row + count - row});
-    Texture view;  // one face as a flat map with the same texels
-    if (map.impl_->cube) view = make_face_view(map.impl_->depth, face);
-    glBindTextureUnit(2, view ? view.id() : map.impl_->depth.id());
+    glBindTextureUnit(2, view ? view.id() : m.array_of(which).texture.id());
+    program.set("layer", view ? face : m.layer_of(which));
     program.set("first_row", in_face);
     r.draw_screen(program);
     const size_t texels = static_cast<size_t>(width) * static_cast<size_t>(rows);
@@ -193,21 +235,22 @@ Image<float> Renderer::read_rows(const ShadowMap& map, int first_row, int count)
   return image;
 }
 
-Image<float> Renderer::read_map(const ShadowMap& map) {
-  return read_rows(map, 0, (map.impl_->cube ? 6 : 1) * map.size().y);
+Image<float> Renderer::read_map(const ShadowMap& map, int which) {
+  return read_rows(map, 0, map.impl_->faces() * map.size(which).y, which);
 }
 
-MapDepths Renderer::read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels) {
+MapDepths Renderer::read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels, int which) {
   MapDepths found(texels, MapDepths::unknown);
+  ShadowMap::Impl& m = *map.impl_;
   // A listed texel takes about as long as two of whole rows.
-  if (!map.impl_->cube && 2 * texels->count() < map.texels()) {
+  if (!m.cube && 2 * texels->count() < map.texels(which)) {
     impl_->context->make_current();
-    impl_->read_listed(map.impl_->depth.id(), *texels, found.depth);
+    impl_->read_listed(m.array_of(which).texture.id(), m.layer_of(which), *texels, found.depth);
     return found;
   }
-  const int band = rows_of_band(map.size());
+  const int band = rows_of_band(map.size(which));
   for (int first = 0; first < texels->size().y; first += band) {
-    const Image<float> rows = read_rows(map, first, std::min(band, texels->size().y - first));
+    const Image<float> rows = read_rows(map, first, std::min(band, texels->size().y - first), which);
     for (int row = 0; row < rows.height; ++row)
       texels->each_in_row(first + row, [&](int x, size_t index) { found.depth[index] = rows.at(x, row); });
   }

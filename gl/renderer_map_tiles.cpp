@@ -27,7 +27,7 @@ void put_tile(const MapDepths& map, size_t n, int left, int width, std::vector<f
 }
 
 // Writes these tiles, neighbours in a row of tiles with one call.
-void write_tiles(GLuint texture, const MapDepths& map, float elsewhere, const std::vector<uint8_t>& wanted) {
+void write_tiles(GLuint texture, int layer, const MapDepths& map, float elsewhere, const std::vector<uint8_t>& wanted) {
   const glm::ivec2 size = map.size();
   const size_t across = static_cast<size_t>((size.x + tile_side - 1) / tile_side);
   std::vector<float> image;
@@ -46,33 +46,35 @@ void write_tiles(GLuint texture, const MapDepths& map, float elsewhere, const st
     image.assign(static_cast<size_t>(width) * static_cast<size_t>(height), elsewhere);
     for (size_t n = first; n < end; ++n)
       if (map.texels->count(n)) put_tile(map, n, corner.x, width, image);
-    glTextureSubImage2D(texture, 0, corner.x, corner.y, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, image.data());
+    glTextureSubImage3D(texture, 0, corner.x, corner.y, layer, width, height, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                        image.data());
     first = end;
   }
 }
 
 }  // namespace
 
-TiledMap Renderer::Impl::upload_tiles(const MapDepths& map, float elsewhere, Wrap wrap) {
+void Renderer::Impl::upload_tiles(const MapDepths& map, float elsewhere, TiledMaps& to, int layer) {
   const TexelSet& texels = *map.texels;
-  TiledMap made = spare_or_new(*uploaded, GL_DEPTH_COMPONENT32F, map.size(), wrap);
-  if (made.elsewhere != elsewhere) {
-    glClearTexImage(made.texture.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &elsewhere);
-    made.elsewhere = elsewhere;
-    made.written.assign(texels.tiles(), 0);
+  TiledMaps::Known& known = to.known[static_cast<size_t>(layer)];
+  if (known.elsewhere != elsewhere) {
+    glClearTexSubImage(to.texture.id(), 0, 0, 0, layer, to.size.x, to.size.y, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                       &elsewhere);
+    known.elsewhere = elsewhere;
+    known.written.assign(texels.tiles(), 0);
   }
-  std::vector<uint8_t> written(texels.tiles()), wanted = made.written;
+  std::vector<uint8_t> written(texels.tiles()), wanted = known.written;
   for (size_t n = 0; n < texels.tiles(); ++n)
     if (texels.count(n)) written[n] = wanted[n] = 1;
-  write_tiles(made.texture.id(), map, elsewhere, wanted);
-  made.written = std::move(written);
-  return made;
+  write_tiles(to.texture.id(), layer, map, elsewhere, wanted);
+  known.written = std::move(written);
 }
 
-void Renderer::Impl::read_listed(GLuint map, const TexelSet& texels, std::span<float> depth) {
+void Renderer::Impl::read_listed(GLuint map, int layer, const TexelSet& texels, std::span<float> depth) {
   require(listed_texels, GL_R32UI, list_side, list_side);
   require(listed_depths, GL_R32F, list_side, list_side);
   Program& program = programs.get({"shaders/screen.vert", "shaders/read_texels.frag"});
+  program.set("layer", layer);
   std::vector<uint32_t> list;
   list.reserve(std::min<size_t>(texels.count(), list_side * list_side));
   std::vector<float> found;

@@ -1,10 +1,10 @@
-// Textures of flat maps that are looked up no more, for the next maps of the same size. What a texture of an uploaded map
+// Textures of flat maps that are looked up no more, for the next maps of the same size and number. What a texture of an uploaded map
 // holds is known, so that the next one writes only the tiles that hold something else (renderer_map_tiles.cpp). And new
 // memory costs more than it seems: the driver clears it, and the system gives it page by page.
 //
 //   SpareMaps spares(2);
 //   spares.put(std::move(map));                                              // at the end of a ShadowMap
-//   std::optional<TiledMap> next = spares.take(GL_DEPTH_COMPONENT32F, {1024, 1024});  // empty: make one
+//   std::optional<TiledMaps> next = spares.take(GL_DEPTH_COMPONENT32F, {1024, 1024, 4});  // empty: make one
 //
 // The context must be current for every call, because textures are deleted.
 #pragma once
@@ -19,46 +19,50 @@
 
 namespace noonmark::gl {
 
-// A flat map. All its texels are known to have the depth `elsewhere`, but for those of some tiles.
-struct TiledMap {
+// Flat maps of one size, the layers of an array; often only one.
+struct TiledMaps {
+  // All texels of a layer are known to have the depth `elsewhere`, but for those of some tiles.
+  struct Known {
+    float elsewhere = std::numeric_limits<float>::quiet_NaN();  // NaN: nothing is known, as of a drawn map
+    std::vector<uint8_t>
+        written{};  // for each tile of a TexelSet of this size: 1 if a texel of it may have another depth
+  };
   Texture texture;
   GLenum format = 0;
-  glm::ivec2 size{0};                                         // texels
-  float elsewhere = std::numeric_limits<float>::quiet_NaN();  // NaN: nothing is known, as of a drawn map
-  std::vector<uint8_t>
-      written{};  // for each tile of a TexelSet of this size: 1 if a texel of it may have another depth
+  glm::ivec3 size{0};          // texels of a layer, and layers
+  std::vector<Known> known{};  // of each layer
 };
 
 class SpareMaps {
  public:
-  static constexpr size_t most_map_bytes = size_t{128} << 20;  // of one map; a larger one is deleted
+  static constexpr size_t most_map_bytes = size_t{128} << 20;  // of one layer; larger ones are deleted
 
   // most: maps that are kept. Their memory is there already, so that put() allocates nothing: destructors call it.
   explicit SpareMaps(size_t most) : most_(most) { maps_.reserve(most); }
 
-  // Deletes the maps of other formats and sizes.
-  std::optional<TiledMap> take(GLenum format, glm::ivec2 size) {
-    std::erase_if(maps_, [&](const TiledMap& map) { return map.format != format || map.size != size; });
+  // Deletes the maps of other formats, sizes and numbers.
+  std::optional<TiledMaps> take(GLenum format, glm::ivec3 size) {
+    std::erase_if(maps_, [&](const TiledMaps& map) { return map.format != format || map.size != size; });
     if (maps_.empty()) return std::nullopt;
-    TiledMap map = std::move(maps_.back());
+    TiledMaps map = std::move(maps_.back());
     maps_.pop_back();
     return map;
   }
   // Deletes the map if there are enough.
-  void put(TiledMap map) {
+  void put(TiledMaps map) {
     const size_t texels = static_cast<size_t>(map.size.x) * static_cast<size_t>(map.size.y);
     if (maps_.size() < most_ && texels * sizeof(float) <= most_map_bytes) maps_.push_back(std::move(map));
   }
   // Deletes the maps of any other size. So they take no memory beside maps of another size.
   void keep_only(glm::ivec2 size) {
-    std::erase_if(maps_, [&](const TiledMap& map) { return map.size != size; });
+    std::erase_if(maps_, [&](const TiledMaps& map) { return glm::ivec2(map.size) != size; });
   }
   void clear() { maps_.clear(); }
   size_t count() const { return maps_.size(); }
 
  private:
   size_t most_;
-  std::vector<TiledMap> maps_;
+  std::vector<TiledMaps> maps_;
 };
 
 }  // namespace noonmark::gl

@@ -158,16 +158,9 @@ Flicker trace_flicker(const FlickerInput& in) {
 
   // The lookups, each of which differs from the one before in one respect. Cascades are the next frame's choice.
   const auto shown = [&](std::span<const Technique> techniques) {
-    Image<float> all(width, height, 0);
-    for (size_t k = 0; k < techniques.size(); ++k) {
-      MapStage map = in.stages.draw_map(in.renderer, scene, techniques[k]);
-      const Image<float> one = in.stages.look_up(in.renderer, *map.map, techniques[k]);
-      for (size_t i = 0; i < all.size(); ++i) {
-        const double share = next_cascades ? next_cascades->share(i, static_cast<int>(k)) : 1;
-        if (share > 0) all[i] = static_cast<float>(static_cast<double>(all[i]) + share * static_cast<double>(one[i]));
-      }
-    }
-    return all;
+    const MapStage map = in.stages.draw_maps(in.renderer, scene, techniques);
+    return mixed_results(in.stages.look_up(in.renderer, *map.map, techniques),
+                         next_cascades ? &*next_cascades : nullptr);
   };
   const auto same_maps = [](std::span<const Technique> a, std::span<const Technique> b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),

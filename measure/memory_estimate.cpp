@@ -143,8 +143,8 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
       placements += strip + pixels * per_pixel;
   }
   placements *= maps;
-  // A snapped map is drawn cell by cell and then put in order; the next frame of a motion has a map of its own.
-  const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? 1 : 0));
+  // A snapped map is drawn cell by cell and then put in order; the next frame of a motion has maps of its own.
+  const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? maps : 0));
   const double motion = s.view.motion.any() ? pixels * per_flicker_pixel : 0;
   double live = 0;
   if (input.pictures && maps == 1) {

@@ -44,7 +44,10 @@ void keep_small_index(gl::Renderer& renderer, const LightFrame& frame) {
 }  // namespace
 
 void keep_small(gl::Renderer& renderer, std::optional<gl::ShadowMap>& map) {
-  if (!map || is_kept(map->texels())) return;
+  if (!map) return;
+  bool kept = true;
+  for (int k = 0; k < map->count(); ++k) kept = kept && is_kept(map->texels(k));
+  if (kept) return;
   map.reset();
   renderer.release_deleted();
 }
@@ -70,6 +73,11 @@ void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage
     each_strip(evidence, strip);
   }
   keep_small_index(renderer, technique.frame);
+}
+
+gl::Renderer::CastersOf casters_of(const Scene& scene, const Technique& technique) {
+  if (!technique.moves_casters()) return {};
+  return [&scene](const Technique& of) { return caster_positions(scene, of.frame, of.settings.map, of.bias); };
 }
 
 double polygon_offset_unit(gl::Renderer& renderer, const Technique& technique) {
@@ -118,12 +126,9 @@ TruthStage Pipeline::trace_truth(const SceneStage& scene, const ViewStage& view,
   return made;
 }
 
-MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique) {
-  std::vector<glm::vec3> casters;
-  if (technique.moves_casters())
-    casters = caster_positions(scene, technique.frame, technique.settings.map, technique.bias);
+MapStage Pipeline::draw_maps(gl::Renderer& renderer, const Scene& scene, std::span<const Technique> techniques) {
   MapStage stage;
-  stage.map.emplace(renderer.render_map(technique, nullptr, casters));
+  stage.map.emplace(renderer.render_maps(techniques, nullptr, casters_of(scene, techniques.front())));
   return stage;
 }
 
@@ -151,7 +156,6 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
   const TruthAnswers answers = rays.texel_answers();
   return {.probe = std::move(probe),
           .exact_depth = std::move(depth),
-          .exact_map = {},
           .strips = std::move(strips),
           .rays = std::move(rays),
           .taps = {},
@@ -162,28 +166,48 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
           .seen_texels = seen_texels};
 }
 
-Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique) {
-  return renderer.lookup(map, technique);
+MapResults Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques) {
+  return renderer.lookup_maps(map, techniques);
+}
+
+ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
+                              std::span<const AskedMap> asked, std::span<const Technique> techniques) {
+  ShownMaps shown;
+  shown.r5 = look_up(renderer, *map.map, techniques);
+  for (size_t k = 0; k < asked.size(); ++k)
+    shown.stored.push_back(renderer.read_map(*map.map, asked[k].lookup.exact_depth.texels, static_cast<int>(k)));
+  keep_small(renderer, map.map);
+
+  const auto upload = [&](const auto& depths_of) {
+    std::vector<const MapDepths*> depths;
+    for (size_t k = 0; k < asked.size(); ++k) depths.push_back(&depths_of(k));
+    return renderer.upload_maps(depths, techniques);
+  };
+  if (!exact_map) exact_map.emplace(upload([&](size_t k) -> const MapDepths& { return asked[k].lookup.exact_depth; }));
+  shown.r4 = look_up(renderer, *exact_map, techniques);
+  keep_small(renderer, exact_map);
+
+  const ShownStage nothing;
+  for (size_t k = 0; k < asked.size(); ++k)
+    shown.ties.push_back(tie_map(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k])));
+  std::optional<gl::ShadowMap> tie_map_on_device(upload([&](size_t k) -> const MapDepths& { return shown.ties[k]; }));
+  shown.tie_lookup = look_up(renderer, *tie_map_on_device, techniques);
+  keep_small(renderer, tie_map_on_device);
+  return shown;
+}
+
+ShownStage ShownMaps::take(const ChosenCascades* chosen, size_t map) {
+  const int cascade = static_cast<int>(map);
+  return {result_in_map(r5, chosen, cascade), result_in_map(r4, chosen, cascade),
+          result_in_map(tie_lookup, chosen, cascade), std::move(stored[map]), std::move(ties[map])};
 }
 
 ShownStage Pipeline::show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
                           const Technique& technique) {
-  const MapSettings& settings = technique.settings.map;
-  const MapShape shape = technique.frame.map_shape();
-  ShownStage shown;
-  shown.r5 = look_up(renderer, *map.map, technique);
-  shown.stored = renderer.read_map(*map.map, lookup.exact_depth.texels);
-  keep_small(renderer, map.map);
-
-  if (!lookup.exact_map) lookup.exact_map.emplace(renderer.upload_map(lookup.exact_depth, settings, shape));
-  shown.r4 = look_up(renderer, *lookup.exact_map, technique);
-  keep_small(renderer, lookup.exact_map);
-
-  shown.ties = tie_map(evidence_of(lookup, truth, shown, technique));
-  std::optional<gl::ShadowMap> tie_map_on_device(renderer.upload_map(shown.ties, settings, shape));
-  shown.tie_lookup = look_up(renderer, *tie_map_on_device, technique);
-  keep_small(renderer, tie_map_on_device);
-  return shown;
+  std::optional<gl::ShadowMap> exact_map;
+  const AskedMap asked{lookup, truth};
+  ShownMaps shown = show_maps(renderer, map, exact_map, {&asked, 1}, {&technique, 1});
+  return shown.take(nullptr, 0);
 }
 
 Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,

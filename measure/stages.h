@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,19 +51,18 @@ struct TruthStage {
 };
 
 struct MapStage {
-  std::optional<gl::ShadowMap> map;  // none after show(), if the map is too large to be kept
+  std::optional<gl::ShadowMap> map;  // of cascades the maps of all; none after show(), if one is too large to be kept
   std::optional<int64_t> used;       // gl::Renderer::used_texels, once they have been counted
 };
 
-// Frees the map if it is larger than what is kept (most_kept_map_bytes).
+// Frees the maps if one of them is larger than what is kept (most_kept_map_bytes).
 void keep_small(gl::Renderer& renderer, std::optional<gl::ShadowMap>& map);
 
 // The lookup's inputs and their truth. The truth of the taps covers one strip of the picture at a time. If all taps fit
 // into one strip, the truth is kept and the rays are freed.
 struct LookupStage {
-  LookupProbe probe;                       // for a cube with the texels of the present strip
-  MapDepths exact_depth;                   // at the texels that the taps of facing receivers read
-  std::optional<gl::ShadowMap> exact_map;  // on the device, once show() has looked it up and if it is kept
+  LookupProbe probe;      // for a cube with the texels of the present strip
+  MapDepths exact_depth;  // at the texels that the taps of facing receivers read
   std::vector<PixelRange> strips;
   std::optional<raytrace::LookupTracer> rays;
   TapTruth taps;  // of the present strip
@@ -72,11 +72,26 @@ struct LookupStage {
   size_t seen_texels = 0;  // those of exact_depth that receivers read whose result the map has a part in
 };
 
-// What OpenGL shows: the technique on its own map, on the exact map and on the tie map.
+// What OpenGL shows in one map: the technique on its own map, on the exact map and on the tie map.
 struct ShownStage {
   Image<float> r5, r4, tie_lookup;
   MapDepths stored;  // the drawn map as the lookup's sampler returns it
   MapDepths ties;
+};
+
+// The same in all maps of a point, each kind of them looked up in one pass.
+struct ShownMaps {
+  MapResults r5, r4, tie_lookup;
+  std::vector<MapDepths> stored, ties;  // of each map
+
+  // What is shown in one of them, whose depths it takes. chosen: null with one map.
+  ShownStage take(const ChosenCascades* chosen, size_t map);
+};
+
+// A map with what is asked of it. All of it outlives the call that it is given to.
+struct AskedMap {
+  LookupStage& lookup;
+  const TruthStage& truth;
 };
 
 struct Climbed {
@@ -96,6 +111,9 @@ std::vector<PixelRange> strips_of(const Technique& technique, size_t kept_bytes)
 void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
                    const EachStrip& each_strip);
 
+// The casters of the technique's maps, if the bias moves them. The scene must outlive the result.
+gl::Renderer::CastersOf casters_of(const Scene& scene, const Technique& technique);
+
 // gl::Renderer::polygon_offset_unit, or 0 if the bias has no polygon offset.
 double polygon_offset_unit(gl::Renderer& renderer, const Technique& technique);
 
@@ -111,14 +129,21 @@ class Pipeline {
   virtual ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings);
   virtual TruthStage trace_truth(const SceneStage& scene, const ViewStage& view, const Technique& technique);
   // scene: as the renderer has it.
-  virtual MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique);
+  virtual MapStage draw_maps(gl::Renderer& renderer, const Scene& scene, std::span<const Technique> techniques);
+  MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique) {
+    return draw_maps(renderer, scene, {&technique, 1});
+  }
   virtual LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
                                      const TruthStage& truth, const Technique& technique);
-  // One lookup of all receivers. show() calls it for each of its maps.
-  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique);
-  // map: has its map; afterwards it and the exact map on the device are kept only if they are small.
-  virtual ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
-                          const Technique& technique);
+  // One lookup of all receivers, in all maps. show_maps() calls it for the drawn, the exact and the tie maps.
+  virtual MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques);
+  // map: has its maps; afterwards they and the exact maps on the device are kept only if they are small. exact_map: those of
+  // an earlier call for the same lookups, or none.
+  ShownMaps show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
+                      std::span<const AskedMap> asked, std::span<const Technique> techniques);
+  // The same of one map, whose exact map is not kept.
+  ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
+                  const Technique& technique);
   // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
   // each_strip: called for each strip while its taps are at hand, or empty.
   virtual Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,

@@ -113,23 +113,18 @@ PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup
   const Impl::Asked asked = b.begin(settings);
   const SceneStage& loaded = asked.loaded;
   b.see(asked);
-  b.maps.clear();  // there may be no memory for another map
+  b.forget_maps();  // there may be no memory for another map
+  std::vector<Technique> techniques = cascades_of(*loaded.scene, settings);
+  for (Technique& one : techniques)
+    if (one.cascade) one.cascade->seam = 1;  // an engine looks up nothing for comparison
   PassTimes times;
-  if (map) times.map_ms = 0;
-  if (lookup) times.lookup_ms = 0;
-  for (Technique& one : cascades_of(*loaded.scene, settings)) {
-    if (one.cascade) {
-      one.cascade->rows = rows_of(b.choose(asked, *b.view.value(), one).chosen, one.cascade->index);
-      one.cascade->seam = 1;  // an engine compares nothing; after the choice, which is remembered
-    }
-    std::vector<glm::vec3> casters;
-    if (one.moves_casters()) casters = caster_positions(*loaded.scene, one.frame, settings.map, one.bias);
-    double map_ms = 0, lookup_ms = 0;
-    const gl::ShadowMap drawn = b.renderer.render_map(one, map ? &map_ms : nullptr, casters);
-    if (lookup) b.renderer.lookup(drawn, one, &lookup_ms);
-    if (map) *times.map_ms += map_ms;
-    if (lookup) *times.lookup_ms += lookup_ms;
-  }
+  double ms = 0;
+  const gl::ShadowMap drawn =
+      b.renderer.render_maps(techniques, map ? &ms : nullptr, casters_of(*loaded.scene, techniques.front()));
+  if (map) times.map_ms = ms;
+  if (!lookup) return times;
+  b.renderer.lookup_maps(drawn, techniques, &ms);
+  times.lookup_ms = ms;
   return times;
 }
 

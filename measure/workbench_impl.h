@@ -41,8 +41,14 @@ class Remembered {
 // Of one map: the only one, or that of a cascade.
 struct MapStages {
   Remembered<TruthStage> truth;  // of a cascade: that of its receivers alone, which the lookup's rays refer to
-  Remembered<MapStage> map;
   Remembered<LookupStage> lookup;
+};
+
+// Of the maps of a point.
+struct KeptMaps {
+  std::deque<MapStages> each;  // whose addresses the stages refer to
+  Remembered<MapStage> drawn;
+  Remembered<std::optional<gl::ShadowMap>> exact;  // on the device, of the lookups' exact depths, once it was looked up
 };
 
 // The truth of the receivers that a cascade has a part in, and of the seam before it; the others do not face the light.
@@ -50,12 +56,11 @@ TruthStage truth_of_cascade(const TruthStage& all, const ChosenCascades& choice,
 
 // One map of a point: what it shows to its receivers, and why. truth: of these receivers.
 struct OneMap {
-  MapStages& kept;
+  LookupStage& lookup;
   const Technique& technique;
   const TruthStage& truth;
-  ShownStage shown;
+  MapDepths stored;  // the drawn map as the lookup's sampler returns it
   Climbed climbed;
-  LookupStage& lookup() const { return *kept.lookup.value(); }
 };
 
 // The cascades of the receivers as the lookup chooses them, how far that is off (compare/results/metrics.cpp:
@@ -83,7 +88,7 @@ struct Workbench::Impl {
 
   // The other stages depend on the scene; the rays of a lookup in strips even refer to its tracer.
   void forget_scene() {
-    maps.clear();
+    forget_maps();
     chosen.forget();
     truth.forget();
     view.forget();
@@ -127,15 +132,21 @@ struct Workbench::Impl {
   }
 
   // What is remembered of `count` maps.
-  std::deque<MapStages>& of_maps(size_t count) {
-    maps.resize(count);
+  KeptMaps& of_maps(size_t count) {
+    maps.each.resize(count);
     return maps;
   }
+  void forget_maps() {
+    maps.each.clear();
+    maps.drawn.forget();
+    maps.exact.forget();
+  }
 
-  // The map of a point, or of one of its cascades.
-  MapStage& drawn(MapStages& of, const Scene& drawn_scene, const Technique& technique, const std::string& key) {
-    MapStage& stage = of.map.get(key, [&] { return stages->draw_map(renderer, drawn_scene, technique); });
-    if (!stage.map) stage.map = stages->draw_map(renderer, drawn_scene, technique).map;
+  // The map of a point, or those of its cascades.
+  MapStage& drawn(KeptMaps& of, const Scene& drawn_scene, std::span<const Technique> techniques,
+                  const std::string& key) {
+    MapStage& stage = of.drawn.get(key, [&] { return stages->draw_maps(renderer, drawn_scene, techniques); });
+    if (!stage.map) stage.map = stages->draw_maps(renderer, drawn_scene, techniques).map;
     return stage;
   }
 
@@ -145,11 +156,10 @@ struct Workbench::Impl {
   // The truth of the receivers of this map: of a cascade those that it has a part in, and those of the seam before it.
   const TruthStage& truth_of(const Asked& asked, const Looked& looked, MapStages& kept, const Technique& technique);
 
-  // varied: the part of the bias whose curve is wanted, or null. each_strip: as of Pipeline::climb_strips(), with the
-  // stage that has been prepared.
-  OneMap measure_map(const Asked& asked, const ViewStage& seen, MapStages& kept, const TruthStage& truth_of,
-                     const Technique& technique, MetricSet metrics, const BiasPart* varied,
-                     const std::function<EachStrip(LookupStage&)>& each_strip);
+  // The lookups of all maps, and what OpenGL shows in them. truths: of each map.
+  ShownMaps show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
+                      std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
+                      MetricSet metrics);
 
   // Frees the receivers of a large picture on the device; see() brings them back.
   void free_large_picture(const ReceiverImage& receivers) {
@@ -158,9 +168,9 @@ struct Workbench::Impl {
     receivers_on_device.clear();
   }
 
-  // Frees a map that was drawn again for pictures, and that has no room beside what a probe needs.
-  void free_large_map(MapStages& of) {
-    if (MapStage* const kept = of.map.value()) keep_small(renderer, kept->map);
+  // Frees maps that were drawn again for pictures, and that have no room beside what a probe needs.
+  void free_large_maps(KeptMaps& of) {
+    if (MapStage* const kept = of.drawn.value()) keep_small(renderer, kept->map);
   }
 
   struct WorstPlacement {
@@ -186,7 +196,7 @@ struct Workbench::Impl {
   Remembered<SceneStage> scene;
   Remembered<ViewStage> view;
   Remembered<TruthStage> truth;
-  std::deque<MapStages> maps;  // whose addresses the stages refer to
+  KeptMaps maps;
   Remembered<ChoiceStage> chosen;
   Remembered<CurveStage> curve;
   std::string receivers_on_device;

@@ -111,7 +111,7 @@ std::map<std::string, double> laws_of(const Technique& technique, const Ladder& 
 // Of the receivers of one cascade, in the ladder of the whole point. It hides the others for that time.
 PointRecord::Cascade record_of_cascade(const OneMap& map, Ladder& ladder, const Image<uint8_t>& cascades,
                                        const SceneStage& loaded, const ViewStage& view) {
-  const LookupStage& lookup = map.lookup();
+  const LookupStage& lookup = map.lookup;
   const Technique& technique = map.technique;
   const CascadePlace& place = *technique.cascade;
   const Image<uint8_t> flags = ladder.flags;
@@ -133,28 +133,29 @@ PointRecord::Cascade record_of_cascade(const OneMap& map, Ladder& ladder, const 
 }
 
 // What the maps of a point have seen and taken.
-void add_maps(PointRecord& record, std::span<const OneMap> maps, const TruthStage& truth, MetricSet metrics) {
+void add_maps(PointRecord& record, std::span<const OneMap> maps, const MapStage& drawn, const TruthStage& truth,
+              MetricSet metrics) {
   TruthAnswers texels, taps;
   StageTime texel_stage, tap_stage;
-  double seen = 0, used = 0;
+  double seen = 0;
   const auto add = [](StageTime& all, const StageTime& one) {
     all.milliseconds += one.milliseconds;
     all.rays += one.rays;
   };
   for (const OneMap& map : maps) {
-    const LookupStage& lookup = map.lookup();
+    const LookupStage& lookup = map.lookup;
     add(texel_stage, lookup.texel_stage);
     add(tap_stage, lookup.tap_stage);
     texels += lookup.texel_answers;
     taps += map.climbed.tap_answers;
     seen += static_cast<double>(lookup.seen_texels);
-    if (metrics == MetricSet::all) used += static_cast<double>(*map.kept.map.value()->used);
   }
   add_time(record, "texel", texel_stage);
   add_time(record, "tap", tap_stage);
   add_answers(record, truth.receivers.answers, texels, taps);
   record.metrics["map_seen"] = seen / record.metrics.at("map_texels");
-  if (metrics == MetricSet::all) record.metrics["map_used"] = used / record.metrics.at("map_texels");
+  if (metrics == MetricSet::all)
+    record.metrics["map_used"] = static_cast<double>(*drawn.used) / record.metrics.at("map_texels");
 }
 
 // The mean of |R5 - R1| over the receivers of a map, each weighted by the map's share in it. NaN without one.
@@ -222,24 +223,25 @@ const ChoiceStage& Workbench::Impl::choose(const Asked& asked, const ViewStage& 
   });
 }
 
-OneMap Workbench::Impl::measure_map(const Asked& asked, const ViewStage& seen, MapStages& kept,
-                                    const TruthStage& truth_of, const Technique& technique, MetricSet metrics,
-                                    const BiasPart* varied, const std::function<EachStrip(LookupStage&)>& each_strip) {
+ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
+                                     std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
+                                     MetricSet metrics) {
   const SceneStage& loaded = asked.loaded;
-  if (!kept.lookup.has(asked.keys.lookup)) free_large_map(kept);
-  LookupStage& lookup = kept.lookup.get(
-      asked.keys.lookup, [&] { return stages->prepare_lookup(renderer, *loaded.tracer, seen, truth_of, technique); });
-  MapStage& map = drawn(kept, *loaded.scene, technique, asked.keys.map);
+  if (!kept.exact.has(asked.keys.lookup)) kept.exact.forget();
+  std::vector<AskedMap> of_each;
+  for (size_t k = 0; k < techniques.size(); ++k) {
+    Remembered<LookupStage>& lookup = kept.each[k].lookup;
+    if (!lookup.has(asked.keys.lookup)) free_large_maps(kept);
+    of_each.push_back(
+        {lookup.get(asked.keys.lookup,
+                    [&] { return stages->prepare_lookup(renderer, *loaded.tracer, seen, *truths[k], techniques[k]); }),
+         *truths[k]});
+  }
+  MapStage& map = drawn(kept, *loaded.scene, techniques, asked.keys.map);
   // A search does not read it, and it costs a pass over the map.
   if (metrics == MetricSet::all && !map.used) map.used = renderer.used_texels(*map.map);
-  OneMap made{kept, technique, truth_of, stages->show(renderer, map, lookup, truth_of, technique), {}};
-  made.climbed = stages->climb_strips(renderer, lookup, seen, truth_of, made.shown, technique, varied,
-                                      each_strip ? each_strip(lookup) : EachStrip());
-  // What is not needed again is freed before the point's numbers are computed, because it is large.
-  made.shown.r4 = Image<float>();
-  made.shown.tie_lookup = Image<float>();
-  made.shown.r5 = Image<float>();
-  return made;
+  std::optional<gl::ShadowMap>& exact = kept.exact.get(asked.keys.lookup, [] { return std::nullopt; });
+  return stages->show_maps(renderer, map, exact, of_each, techniques);
 }
 
 // OpenGL renders the worst placement of a map too: the counts are compared with it, and what it shows there is a metric of
@@ -297,7 +299,7 @@ std::vector<ReceiverSection> Workbench::sections(const Measurement& m, std::span
   const glm::ivec2 size(m.receivers.width(), m.receivers.height());
   for (size_t n = 0; n < m.maps.size(); ++n) {
     const MeasuredMap& map = m.maps[n];
-    MapStages& kept = b.of_maps(m.maps.size())[n];
+    MapStages& kept = b.of_maps(m.maps.size()).each[n];
     const TruthStage& truth = b.truth_of(asked, looked, kept, map.technique);
     LookupStage& lookup = kept.lookup.get(asked.keys.lookup, [&] {
       return b.stages->prepare_lookup(b.renderer, *asked.loaded.tracer, looked.view, truth, map.technique);
@@ -338,15 +340,15 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Impl::Looked looked = b.look(asked);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  std::vector<Technique> techniques = cascades_of(scene, settings);
+  const auto all_techniques = std::make_shared<const std::vector<Technique>>(cascades_of(scene, settings));
+  const std::vector<Technique>& techniques = *all_techniques;
   const bool cascaded = techniques.size() > 1;
-  std::deque<MapStages>& kept = b.of_maps(techniques.size());
+  KeptMaps& kept = b.of_maps(techniques.size());
   const ChoiceStage* const choice = cascaded ? &b.choose(asked, view, techniques.front()) : nullptr;
   std::vector<const TruthStage*> truths;
   std::vector<ScaledMap> scaled;
   for (size_t k = 0; k < techniques.size(); ++k) {
-    if (cascaded) techniques[k].cascade->rows = rows_of(choice->chosen, static_cast<int>(k));
-    truths.push_back(&b.truth_of(asked, looked, kept[k], techniques[k]));
+    truths.push_back(&b.truth_of(asked, looked, kept.each[k], techniques[k]));
     scaled.push_back({techniques[k].frame, truths[k]->receivers});
   }
 
@@ -363,21 +365,26 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
         unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>()));
     return [&stage = *placements[k]](const LookupEvidence& evidence, PixelRange strip) { stage.add(evidence, strip); };
   };
+  b.see(asked);
+  ShownMaps shown = b.show_maps(asked, view, kept, truths, techniques, metrics);
   std::vector<OneMap> maps;
   for (size_t k = 0; k < techniques.size(); ++k) {
-    b.see(asked);
-    maps.push_back(
-        b.measure_map(asked, view, kept[k], *truths[k], techniques[k], metrics, unknown,
-                      settings.map.placements > 1 ? std::function<EachStrip(LookupStage&)>(with_placements) : nullptr));
+    LookupStage& lookup = *kept.each[k].lookup.value();
+    // What is not needed again is freed before the point's numbers are computed, because it is large.
+    ShownStage one = shown.take(cascaded ? &choice->chosen : nullptr, k);
+    if (k + 1 == techniques.size()) shown = {};
+    Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, *truths[k], one, techniques[k], unknown,
+                                             settings.map.placements > 1 ? with_placements(lookup) : EachStrip());
+    maps.push_back({lookup, techniques[k], *truths[k], std::move(one.stored), std::move(climbed)});
     if (!placements.empty()) placements.back()->finish();
-    b.free_large_picture(view.receivers);
   }
+  b.free_large_picture(view.receivers);
 
   std::vector<PointRecord::Cascade> cascades;
   std::map<std::string, double> laws, soundness, of_placements;
   if (!cascaded) {
     const OneMap& map = maps.front();
-    laws = laws_of(technique, map.climbed.ladder, loaded, view, map.lookup());
+    laws = laws_of(technique, map.climbed.ladder, loaded, view, map.lookup);
     soundness = map.climbed.soundness;
     if (!placements.empty()) {
       const PlacementStage& stage = *placements.front();
@@ -410,7 +417,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   Recorded recorded{technique, m.ladder, loaded, view, truth, {}, cascaded ? &m.cascades : nullptr, metrics};
   for (const OneMap& map : maps)
     recorded.maps.push_back(
-        {map.technique.frame, map.lookup().probe, map.technique.bias, map.lookup().edge_distance_texels});
+        {map.technique.frame, map.lookup.probe, map.technique.bias, map.lookup.edge_distance_texels});
   m.record = record_of(recorded);
   if (cascaded) {
     Seam all;
@@ -419,7 +426,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   }
   m.record.metrics.merge(laws);
   m.record.metrics.merge(soundness);
-  add_maps(m.record, maps, truth, metrics);
+  add_maps(m.record, maps, *kept.drawn.value(), truth, metrics);
   m.record.cascades = std::move(cascades);
   if (varied && !nothing_judged(m.record)) {
     const CurveStage& found = b.curve.get(curve_key, [&] {
@@ -450,9 +457,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     b.add_placements(m.record, maps, placements, std::move(of_placements), view, asked);
   for (size_t k = 0; k < maps.size(); ++k)
     m.maps.push_back(
-        {techniques[k], maps[k].lookup().probe, std::move(maps[k].shown.stored), maps[k].lookup().exact_depth,
-         [&b, &scene, &of = kept[k], technique = techniques[k], key = asked.keys.map](int first_row, int count) {
-           return b.renderer.read_rows(*b.drawn(of, scene, technique, key).map, first_row, count);
+        {techniques[k], maps[k].lookup.probe, std::move(maps[k].stored), maps[k].lookup.exact_depth,
+         [&b, &scene, &kept, all_techniques, key = asked.keys.map, which = static_cast<int>(k)](int first, int count) {
+           return b.renderer.read_rows(*b.drawn(kept, scene, *all_techniques, key).map, first, count, which);
          }});
   return m;
 }

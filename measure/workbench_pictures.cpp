@@ -25,9 +25,9 @@ struct Workbench::Impl::SmallPicture {
     if (techniques.size() == 1) {
       truths.push_back(all);
     } else {
-      const ChosenCascades chosen = bench.renderer.choose_cascades(techniques.front());
+      chosen = bench.renderer.choose_cascades(techniques.front());
       for (size_t k = 0; k < techniques.size(); ++k)
-        truths.push_back(truth_of_cascade(all, chosen, static_cast<int>(k)));
+        truths.push_back(truth_of_cascade(all, *chosen, static_cast<int>(k)));
     }
     std::vector<ScaledMap> scaled;
     for (size_t k = 0; k < techniques.size(); ++k) scaled.push_back({techniques[k].frame, truths[k].receivers});
@@ -36,7 +36,8 @@ struct Workbench::Impl::SmallPicture {
   std::vector<Technique> techniques;
   ViewStage seen;
   TruthStage all;
-  std::deque<TruthStage> truths;  // of each map; lookups refer to them
+  std::optional<ChosenCascades> chosen;  // none with one map
+  std::deque<TruthStage> truths;         // of each map; lookups refer to them
   BiasScale scale;
 };
 
@@ -77,22 +78,24 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
     scale = small.scale;
     otherwise = 1 / (scale->texels_per_depth * scale->depth_per_unit);
   }
-  std::deque<MapStages> kept(small.techniques.size());
+  KeptMaps kept;
+  kept.each.resize(small.techniques.size());
   std::optional<PictureStack> stack;
   Settings at = settings;
   for (const double value : stack_values(part, settings.bias[part.name], marks, otherwise)) {
     at.bias[part.name] = value;
     const StageKeys keys(at);
     const std::vector<Technique> techniques = cascades_of(*loaded.scene, at);
+    std::vector<const TruthStage*> truths;
+    for (const TruthStage& truth : small.truths) truths.push_back(&truth);
+    ShownMaps shown =
+        show_maps({loaded, techniques.front(), keys}, small.seen, kept, truths, techniques, MetricSet::searched);
     std::optional<Ladder> ladder;
     for (size_t k = 0; k < techniques.size(); ++k) {
-      const Technique& technique = techniques[k];
       const TruthStage& truth = small.truths[k];
-      LookupStage& asked = kept[k].lookup.get(
-          keys.lookup, [&] { return stages->prepare_lookup(renderer, *loaded.tracer, small.seen, truth, technique); });
-      MapStage& map = drawn(kept[k], *loaded.scene, technique, keys.map);
-      const ShownStage shown = stages->show(renderer, map, asked, truth, technique);
-      Climbed climbed = stages->climb_strips(renderer, asked, small.seen, truth, shown, technique, nullptr);
+      LookupStage& asked = *kept.each[k].lookup.value();
+      const ShownStage one = shown.take(small.chosen ? &*small.chosen : nullptr, k);
+      Climbed climbed = stages->climb_strips(renderer, asked, small.seen, truth, one, techniques[k], nullptr);
       if (!stack) stack = empty_picture_stack(small.seen.receivers, small.all.receivers, asked.probe);
       if (ladder)
         join(*ladder, climbed.ladder, truth.receivers.share);
@@ -112,7 +115,7 @@ template <class Draw, class Write>
 auto Workbench::Impl::draw_small(const Settings& settings, const Draw& draw, const Write& write) {
   const SceneStage& loaded = load(settings);
   // The picture needs a map and a lookup of its own. There may be no memory for two of each.
-  maps.clear();
+  forget_maps();
   receivers_on_device.clear();
   Settings small = settings;
   const double shrink = std::min({1.0, static_cast<double>(most_live_width_px) / small.view.width_px,

@@ -143,16 +143,30 @@ CascadeChoice choose_cascade(const CascadePlace& place, glm::dvec3 eye_m, glm::d
   return {place.last(), 0};
 }
 
-glm::ivec2 rows_of(const ChosenCascades& chosen, int cascade) {
-  glm::ivec2 rows(0);
-  for (size_t i = 0; i < chosen.of.size(); ++i) {
-    const bool compared = chosen.seam[i] && chosen.of[i] + 1 == cascade;
-    if (!compared && !(chosen.share(i, cascade) > 0)) continue;
-    const int row = static_cast<int>(i) / chosen.of.width;
-    if (rows.y == 0) rows.x = row;
-    rows.y = row + 1;
+Image<float> result_in_map(const MapResults& results, const ChosenCascades* chosen, int cascade) {
+  if (!chosen) {
+    // In one cascade alone a receiver has at most one of both: it is looked up in it as its own, or as the next.
+    Image<float> one = results.own;
+    for (size_t i = 0; i < results.next.size(); ++i) one[i] += results.next[i];
+    return one;
   }
-  return rows;
+  Image<float> one(results.own.width, results.own.height, 0);
+  for (size_t i = 0; i < one.size(); ++i)
+    one[i] = chosen->of[i] == cascade ? results.own[i] : chosen->of[i] + 1 == cascade ? results.next[i] : 0;
+  return one;
+}
+
+Image<float> mixed_results(const MapResults& results, const ChosenCascades* chosen) {
+  Image<float> all = results.own;
+  if (!chosen || !chosen->blends()) return all;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const double later = static_cast<double>(chosen->next[i]);
+    if (!(later > 0)) continue;
+    // In two steps of float, as the maps come one after the other.
+    const auto own = static_cast<float>((1 - later) * static_cast<double>(all[i]));
+    all[i] = static_cast<float>(static_cast<double>(own) + later * static_cast<double>(results.next[i]));
+  }
+  return all;
 }
 
 double choice_excess(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 position, CascadeChoice made) {

@@ -58,8 +58,18 @@ struct ChosenCascades {
   }
 };
 
-// The rows in which a cascade has a part or is looked up for comparison (CascadePlace::rows); (0, 0) if there are none.
-glm::ivec2 rows_of(const ChosenCascades& chosen, int cascade);
+// What a lookup in the maps of cascades gives for each receiver: its result in the map that it is looked up in, and in
+// the next one where that one is looked up too; else 0.
+struct MapResults {
+  Image<float> own, next;  // next: empty with one map
+};
+
+// The result in one of the maps: 0 for receivers that are not looked up in it. chosen: the lookup's choice; null if one
+// map alone was looked up, of a light without cascades or of one cascade.
+Image<float> result_in_map(const MapResults& results, const ChosenCascades* chosen, int cascade);
+
+// The results of all maps, each with its share.
+Image<float> mixed_results(const MapResults& results, const ChosenCascades* chosen);
 
 // How far a choice that a shader made in float is off the one in double, as a multiple of the largest error that float
 // arithmetic makes there (technique/bounded.h): at most 1, if the shader is right. 0 if they are equal. position: as the shader has it.

@@ -26,9 +26,6 @@ struct CascadePlace {
   float seam = 1;   // from this place in a cascade on, the next one is looked up too, for comparison
   glm::vec3 view_forward{0, 0, -1};
   glm::mat3 light_axes{1};  // right, up and forward
-  // The rows of the picture, from the top, in which this map has a part: from x to before y. A lookup leaves out the others,
-  // where it would find only receivers of other maps. Empty: not known.
-  std::optional<glm::ivec2> rows{};
   // Of all cascades but the last. The selection reads some of them (technique/cascade_place.glsl).
   std::vector<glm::vec2> depths;           // where the place by depth is 0 and 1
   std::vector<glm::vec3> middles, halves;  // of the map's volume; or of the sphere, whose radius is x

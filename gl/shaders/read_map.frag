@@ -3,6 +3,10 @@
 #include "shaders/map/flat.glsl"
 
 uniform int first_row;
+uniform int layer;
 layout(location = 0) out float depth;
 
-void main() { depth = stored_depth(ivec2(gl_FragCoord.xy) + ivec2(0, first_row)); }
+void main() {
+  map_layer = layer;
+  depth = stored_depth(ivec2(gl_FragCoord.xy) + ivec2(0, first_row));
+}

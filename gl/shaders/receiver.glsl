@@ -49,7 +49,7 @@ Receiver receiver_at(ivec2 pixel) {
   if (position.w == 0.0 || !view.valid)
     return Receiver(false, 0.0, vec2(0.0), vec3(0.0), surface, 0.0, vec2(0.0), 0.0, index);
   // The radius that the tutorials use for soft shadows of point lights.
-  precise float radius = (1.0 + distance(eye_m, position.xyz) / light_far_m) / 25.0;
+  precise float radius = (1.0 + distance(eye_m, position.xyz) / light_far_m[map_layer]) / 25.0;
   return Receiver(true, view.depth, view.map_texels, view.from_light, surface, bias_unit_at(view),
                   plane_gradient(normal, view), radius, index);
 }

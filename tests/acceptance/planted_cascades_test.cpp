@@ -41,12 +41,41 @@ std::vector<Planted> defects() {
                  cascades(),
                  {.shaders = patched(choice, "int k = 0; k < last_cascade", "int k = 1; k < last_cascade")},
                  {{"cascade_choice_excess", 1, 1000}}});
-  // In the lookup alone: the receivers of the next cascade are looked up, and a cascade's own are left out.
-  all.push_back({"CascadeOfTheNextReceivers",
+  // In the lookup alone, which the probe does not share: the layer of the next cascade.
+  all.push_back({"CascadeLookedUpInTheNextLayer",
                  cascades(),
-                 {.shaders = patched(choice, "choice.cascade == this_cascade ", "choice.cascade == this_cascade + 1 ")},
-                 {{"contract", 0, 0.5}},
-                 {"cascade_choice_excess", "rounding_excess"}});
+                 {.shaders = patched(choice, "ivec2(layer_of_cascade[choice.cascade],",
+                                     "ivec2(layer_of_cascade[min(choice.cascade + 1, last_cascade)],")},
+                 {{"contract", 0, 0.3}},
+                 {"cascade_choice_excess", "rounding_excess", "map_error_quanta"}});
+  // The own map, with the matrix of the cascade before.
+  all.push_back({"CascadeLookedUpWithTheMatrixOfTheOneBefore",
+                 cascades(),
+                 {.shaders = patched(projected, "clip_from_world[map_layer] * vec4",
+                                     "clip_from_world[max(map_layer - 1, 0)] * vec4")},
+                 {{"contract", 0, 0.1}},
+                 {"cascade_choice_excess", "rounding_excess", "map_error_quanta"}});
+  // The bias is that of the texels of another cascade.
+  all.push_back({"CascadeWithTheBiasUnitOfTheOneBefore",
+                 cascades({{"bias.unit", "m"}, {"bias.constant", "0.2"}}),
+                 {.shaders = patched("shaders/light/directional.glsl", "light_bias_unit[map_layer]",
+                                     "light_bias_unit[max(map_layer - 1, 0)]")},
+                 {{"contract", 0, 0.001}},
+                 {"cascade_choice_excess", "rounding_excess", "map_error_quanta"}});
+  // Each texel is read from the layer after its own, by the lookup and by the read-back.
+  all.push_back(
+      {"CascadeMapsReadOneLayerOff",
+       cascades(),
+       {.shaders = patched("shaders/map/flat.glsl", "vec3(centre, map_layer)", "vec3(centre, map_layer + 1)")},
+       {{"contract", 0, 0.1}, {"map_error_quanta", 4, 1000}},
+       {"cascade_choice_excess", "rounding_excess"}});
+  // What is blended in is read from the own map once more.
+  all.push_back(
+      {"CascadeBlendsItsOwnMapIn",
+       cascades({{"cascades.blend", "0.3"}}),
+       {.shaders = patched(choice, "layer_of_cascade[choice.cascade + 1]", "layer_of_cascade[choice.cascade]")},
+       {{"contract", 0, 0.001}},
+       {"cascade_choice_excess", "rounding_excess", "map_error_quanta"}});
   // The weight of the next cascade falls where it should grow; and it is that of another band.
   all.push_back({"CascadeBlendTurned",
                  cascades({{"cascades.blend", "0.3"}}),

@@ -118,7 +118,7 @@ std::vector<Planted> defects() {
                  narrow(),
                  {.shaders = patched("shaders/map/flat.glsl", "  return textureLod",
                                      "  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, "
-                                     "textureSize(shadow_map, 0)))) return 0.0;\n  return textureLod")},
+                                     "textureSize(shadow_map, 0).xy))) return 0.0;\n  return textureLod")},
                  {{"contract", 0, 0.15}, {"tap_residual", 1e-6, 1}, {"error", 0.005, 0.15}}});
   // The address is the far corner of the texel, so that the lookup may read the neighbour. The read-back of R5's map
   // has the same fault. R4's map is not read back, because its values are known.
@@ -153,7 +153,8 @@ std::vector<Planted> defects() {
   // It also leaves receivers behind the light, which the lookup treats as background.
   all.push_back({"TransposedMatrix",
                  cubes(),
-                 {.shaders = patched(projected, "clip_from_world * vec4", "transpose(clip_from_world) * vec4")},
+                 {.shaders = patched(projected, "clip_from_world[map_layer] * vec4",
+                                     "transpose(clip_from_world[map_layer]) * vec4")},
                  {{"address_error_texels", 1e-4, 50}, {"reference_error_m", 1e-5, 0.5}, {"rounding_excess", 1, 1000}}});
   all.push_back({"FlippedYInTheAddress",
                  cubes(),

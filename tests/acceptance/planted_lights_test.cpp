@@ -50,12 +50,12 @@ std::vector<Planted> defects() {
                  {{"address_error_texels", 1e-3, 20}, {"rounding_excess", 1, 1000}},
                  {"contract", "reference_error_m"}});
   // The reference is the distance along the axis divided by far, but the map holds the depth of the perspective matrix.
-  all.push_back(
-      {"SpotDepthReadAsLinear",
-       spot_room(),
-       {.shaders = patched(projected, "is_finite(window), window.z,", "is_finite(window), clip.w / light_far_m,")},
-       {{"reference_error_m", 1e-3, 1}, {"rounding_excess", 1, 1000}},
-       {"contract", "address_error_texels"}});
+  all.push_back({"SpotDepthReadAsLinear",
+                 spot_room(),
+                 {.shaders = patched(projected, "is_finite(window), window.z,",
+                                     "is_finite(window), clip.w / light_far_m[map_layer],")},
+                 {{"reference_error_m", 1e-3, 1}, {"rounding_excess", 1, 1000}},
+                 {"contract", "address_error_texels"}});
   // The perspective division is left out. This is right only in a directional light's map, where w is 1.
   all.push_back(
       {"SpotWithoutTheDivision",
@@ -63,11 +63,12 @@ std::vector<Planted> defects() {
        {.shaders = patched(projected, "clip.xyz / clip.w", "clip.xyz")},
        {{"address_error_texels", 1e-3, 100}, {"reference_error_m", 1e-3, 0.5}, {"rounding_excess", 1, 1000}}});
   // N.L is computed for a directional light instead of a spot light.
-  all.push_back({"SpotDirectionOfTheAxis",
-                 spot_room({{"bias.constant", "0"}, {"bias.slope", "0.3"}, {"bias.slope_floor", "0.02"}}),
-                 {.shaders = patched("shaders/light/spot.glsl", "normalize(light_position - place_m)", "-light_axis")},
-                 {{"rounding_excess", 1, 1000}},
-                 {"contract", "address_error_texels", "reference_error_m"}});
+  all.push_back(
+      {"SpotDirectionOfTheAxis",
+       spot_room({{"bias.constant", "0"}, {"bias.slope", "0.3"}, {"bias.slope_floor", "0.02"}}),
+       {.shaders = patched("shaders/light/spot.glsl", "normalize(light_position[map_layer] - place_m)", "-light_axis")},
+       {{"rounding_excess", 1, 1000}},
+       {"contract", "address_error_texels", "reference_error_m"}});
 
   // --- A point light. -----------------------------------------------------------------------------------------------
 
@@ -96,7 +97,7 @@ std::vector<Planted> defects() {
   // The same mistake in the lookup puts all receivers beyond far.
   all.push_back({"DistanceDividedByNearInTheLookup",
                  point_room({{"map.near_m", "1"}}),
-                 {.shaders = patched(point, "length(from_light) / light_far_m", "length(from_light) / 1.0")},
+                 {.shaders = patched(point, "length(from_light) / light_far_m[map_layer]", "length(from_light) / 1.0")},
                  {{"reference_error_m", 1e-3, 10}, {"rounding_excess", 1, 1000}},
                  {"contract", "address_error_texels"}});
   // The map stores the depth along the axis of the face, as a perspective matrix gives it, instead of the distance.
@@ -119,11 +120,12 @@ std::vector<Planted> defects() {
                  {{"precision", 1e-3, 0.01}, {"map_error_quanta", 2, 1000}},
                  {"contract", "rounding_excess"}});
   // This is right only for a light in the origin. Here the light is two centimetres beside it.
-  all.push_back({"DirectionFromTheOrigin",
-                 point_room(),
-                 {.shaders = patched(point, "from_light = place_m - light_position", "from_light = place_m")},
-                 {{"address_error_texels", 0.1, 0.4}, {"reference_error_m", 1e-3, 0.01}, {"rounding_excess", 1, 1000}},
-                 {"contract"}});
+  all.push_back(
+      {"DirectionFromTheOrigin",
+       point_room(),
+       {.shaders = patched(point, "from_light = place_m - light_position[map_layer]", "from_light = place_m")},
+       {{"address_error_texels", 0.1, 0.4}, {"reference_error_m", 1e-3, 0.01}, {"rounding_excess", 1, 1000}},
+       {"contract"}});
   // The map is drawn with an earlier position of the light.
   all.push_back({"MapOfTheLightElsewhere",
                  point_room(),
@@ -147,11 +149,12 @@ std::vector<Planted> defects() {
                  {.shaders = patched("shaders/filter/mean.glsl", "tap < first + taps", "tap < first + 27")},
                  {{"contract", 0, 0.9}, {"tap_residual", 1e-6, 0.57}, {"error", 0.05, 0.4}},
                  {"rounding_excess"}});
-  all.push_back({"DiskThatIgnoresTheViewDistance",
-                 point_room({{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"bias.constant", "0.3"}}),
-                 {.shaders = patched(receiver, "(1.0 + distance(eye_m, position.xyz) / light_far_m)", "1.0")},
-                 {{"rounding_excess", 1, 1000}},
-                 {"contract", "reference_error_m"}});
+  all.push_back(
+      {"DiskThatIgnoresTheViewDistance",
+       point_room({{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"bias.constant", "0.3"}}),
+       {.shaders = patched(receiver, "(1.0 + distance(eye_m, position.xyz) / light_far_m[map_layer])", "1.0")},
+       {{"rounding_excess", 1, 1000}},
+       {"contract", "reference_error_m"}});
   // The disk has the fixed radius of the settings at every pixel.
   all.push_back({"DiskOfFixedRadiusInTheLookup",
                  point_room({{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"bias.constant", "0.3"}}),

@@ -49,32 +49,45 @@ class DefectivePipeline : public Pipeline {
     return Pipeline::take_view(sound, scene, settings);
   }
 
-  MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique) override {
+  MapStage draw_maps(gl::Renderer& renderer, const Scene& scene, std::span<const Technique> techniques) override {
     Scene drawn_scene = scene;
     if (defect_.drawn_scene) defect_.drawn_scene(drawn_scene);
     renderer.load_scene(drawn_scene);
-    LightFrame frame = technique.frame;
-    Settings drawn = technique.settings;
-    if (defect_.drawn_map) defect_.drawn_map(frame, drawn.map);
-    if (defect_.drawn_bias) defect_.drawn_bias(drawn.bias);
-    MapStage made = Pipeline::draw_map(renderer, drawn_scene, {drawn, frame});
-    if (defect_.edited_map) {
-      made.map.emplace(renderer.upload_map(defect_.edited_map(renderer.read_map(*made.map)), technique.settings.map,
-                                           frame.map_shape()));
+    std::vector<Technique> drawn;
+    for (const Technique& technique : techniques) {
+      LightFrame frame = technique.frame;
+      Settings settings = technique.settings;
+      if (defect_.drawn_map) defect_.drawn_map(frame, settings.map);
+      if (defect_.drawn_bias) defect_.drawn_bias(settings.bias);
+      drawn.emplace_back(settings, frame);
     }
+    MapStage made = Pipeline::draw_maps(renderer, drawn_scene, drawn);
+    if (defect_.edited_map)
+      made.map.emplace(uploaded(renderer, *made.map, techniques, techniques.front().settings.map, defect_.edited_map));
     return made;
   }
 
   // A map keeps the wrap mode that it was made with, so another wrap mode needs another map.
-  Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique) override {
-    Technique asked(asked_, technique.frame);
-    asked.cascade = technique.cascade;
-    if (asked_.map.wrap == technique.settings.map.wrap) return Pipeline::look_up(renderer, map, asked);
-    return Pipeline::look_up(
-        renderer, renderer.upload_map(renderer.read_map(map), asked_.map, technique.frame.map_shape()), asked);
+  MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques) override {
+    std::vector<Technique> asked;
+    for (const Technique& technique : techniques) {
+      asked.emplace_back(asked_, technique.frame);
+      asked.back().cascade = technique.cascade;
+    }
+    if (asked_.map.wrap == techniques.front().settings.map.wrap) return Pipeline::look_up(renderer, map, asked);
+    return Pipeline::look_up(renderer, uploaded(renderer, map, techniques, asked_.map, {}), asked);
   }
 
  private:
+  // The map once more, with these settings, and edited.
+  static gl::ShadowMap uploaded(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques,
+                                const MapSettings& settings,
+                                const std::function<Image<float>(const Image<float>&)>& edited) {
+    if (techniques.size() != 1) throw std::logic_error("a defect of one map's texels, planted in cascades");
+    const Image<float> depth = renderer.read_map(map);
+    return renderer.upload_map(edited ? edited(depth) : depth, settings, techniques.front().frame.map_shape());
+  }
+
   const Defect& defect_;
   Settings asked_;
 };

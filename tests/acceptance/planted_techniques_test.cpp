@@ -20,8 +20,7 @@ std::vector<Planted> defects() {
   // The comparison is reversed: all that is lit becomes dark, except for the sixth of the receivers beyond far.
   all.push_back({"HardwareComparesTheOtherWay",
                  hardware(),
-                 {.shaders = patched(bilinear, "textureLod(comparing_map, vec3(at, biased), 0.0)",
-                                     "(1.0 - textureLod(comparing_map, vec3(at, biased), 0.0))")},
+                 {.shaders = patched(bilinear, "compared_at(at, biased)", "(1.0 - compared_at(at, biased))")},
                  {{"contract", 0, 0.8}, {"precision", 1e-3, 0.8}, {"error", 0.03, 0.8}},
                  {"rounding_excess"}});
   // Texel centres are mistaken for corners: the sampler reads four other texels, with other weights.
@@ -142,8 +141,8 @@ std::vector<Planted> defects() {
   // The same mistake in the lookup.
   all.push_back({"LookupNotSnapped",
                  cubes({{"map.snap", "true"}}),
-                 {.shaders = patched(projected, "steps * snapped_step - snapped_corner",
-                                     "steps * snapped_step - snapped_corner + 0.25")},
+                 {.shaders = patched(projected, "steps * snapped_step[map_layer] - snapped_corner[map_layer]",
+                                     "steps * snapped_step[map_layer] - snapped_corner[map_layer] + 0.25")},
                  {{"address_error_texels", 1e-4, 0.24}, {"rounding_excess", 1, 1000}},
                  {"contract", "reference_error_m"}});
   return all;

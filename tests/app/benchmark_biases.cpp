@@ -103,8 +103,8 @@ class Bench final : public Pipeline {
   TruthStage trace_truth(const SceneStage& scene, const ViewStage& view, const Technique& technique) override {
     return timed(once_.truth, [&] { return Pipeline::trace_truth(scene, view, technique); });
   }
-  MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique) override {
-    return timed(once_.map, [&] { return Pipeline::draw_map(renderer, scene, technique); });
+  MapStage draw_maps(gl::Renderer& renderer, const Scene& scene, std::span<const Technique> techniques) override {
+    return timed(once_.map, [&] { return Pipeline::draw_maps(renderer, scene, techniques); });
   }
   LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
                              const TruthStage& truth, const Technique& technique) override {

@@ -105,21 +105,24 @@ TEST_F(GlTest, ListedTexelsAreThoseOfTheWholeMap) {
 
 TEST(GlSpareMaps, AreFewAndOfOneKind) {
   constexpr GLenum kind = GL_DEPTH_COMPONENT32F;
-  const auto of_side = [](int side) { return TiledMap{Texture(), kind, glm::ivec2(side)}; };
-  const glm::ivec2 square(64);
+  const auto of_side = [](int side) { return TiledMaps{Texture(), kind, glm::ivec3(side, side, 1)}; };
+  const glm::ivec3 square(64, 64, 1);
   SpareMaps spares(2);
   EXPECT_FALSE(spares.take(kind, square));
   for (int i = 0; i < 5; ++i) spares.put(of_side(64));
   EXPECT_EQ(spares.count(), 2u);
   EXPECT_EQ(spares.take(kind, square)->size, square);
   EXPECT_EQ(spares.count(), 1u);
-  EXPECT_FALSE(spares.take(kind, {64, 65})) << "a map of another size";
+  EXPECT_FALSE(spares.take(kind, {64, 65, 1})) << "a map of another size";
   EXPECT_EQ(spares.count(), 0u) << "must not take memory beside that map";
   spares.put(of_side(64));
   EXPECT_FALSE(spares.take(GL_DEPTH_COMPONENT16, square)) << "a map of another format";
   EXPECT_EQ(spares.count(), 0u) << "must not take the place of one of that format";
   spares.put(of_side(64));
-  spares.keep_only(square);
+  EXPECT_FALSE(spares.take(kind, {64, 64, 2})) << "two maps";
+  EXPECT_EQ(spares.count(), 0u);
+  spares.put(of_side(64));
+  spares.keep_only(glm::ivec2(square));
   EXPECT_EQ(spares.count(), 1u);
   spares.keep_only(glm::ivec2(0));
   EXPECT_EQ(spares.count(), 0u);

@@ -121,6 +121,20 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"texels", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 4096\n"},
         // Too large to be kept on the device (most_kept_map_bytes).
         Case{"large_map", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 8192\n"},
+        // Arrays of maps: drawn, exact and tie maps of all cascades are kept; and one that is not.
+        Case{"cascades",
+             "scene = \"street\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
+             "2048\nfit "
+             "= \"sphere\"\nreach_m = 80\n[cascades]\ncount = 4\n"},
+        Case{"large_cascades",
+             "scene = \"street\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
+             "6144\nfit "
+             "= \"sphere\"\nreach_m = 80\n[cascades]\ncount = 3\n"},
+        Case{"snapped_cascades_that_move",
+             "scene = \"street\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\nnear_m = "
+             "0.2\n[map]\nresolution = "
+             "2048\nfit = \"sphere\"\nreach_m = 80\nsnap = true\n[cascades]\ncount = 4\n[motion]\nmove_m = [0.1, 0, "
+             "0.3]\n"},
         Case{"cube",
              "scene = \"point-room\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
              "1536\n"},

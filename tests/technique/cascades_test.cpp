@@ -426,20 +426,6 @@ TEST(Cascades, NeedRoomForTheTapsWhereTheMapIsChosenByIt) {
   }
 }
 
-TEST(Cascades, HaveTheRowsOfTheirReceivers) {
-  ChosenCascades chosen{Image<uint8_t>(2, 5, no_cascade), Image<float>(2, 5, 0), Image<uint8_t>(2, 5, 0)};
-  chosen.of.at(1, 1) = 0;
-  chosen.of.at(0, 2) = 0;
-  chosen.of.at(1, 4) = 2;
-  EXPECT_EQ(rows_of(chosen, 0), glm::ivec2(1, 3));
-  EXPECT_EQ(rows_of(chosen, 1), glm::ivec2(0));
-  EXPECT_EQ(rows_of(chosen, 2), glm::ivec2(4, 5));
-  chosen.next.at(1, 1) = 0.25f;
-  EXPECT_EQ(rows_of(chosen, 1), glm::ivec2(1, 2)) << "what is blended in";
-  chosen.seam.at(0, 2) = 1;
-  EXPECT_EQ(rows_of(chosen, 1), glm::ivec2(1, 3)) << "what is compared";
-}
-
 TEST(Cascades, MayHaveAResolutionEach) {
   Settings s;
   s.scene.name = "street";

@@ -2,6 +2,7 @@
 precision highp float;
 precision highp int;
 precision highp sampler2D;
+precision highp sampler2DArray;
 #include "light_view.glsl"
 #include "own_surface.glsl"
 
@@ -16,7 +17,7 @@ layout(location = 0) out vec4 rungs;   // 1 facing, 2 lit (R1), 4 outside the ma
 layout(location = 1) out vec4 causes;  // taps: acne, Peter Panning, aliasing too dark, aliasing too light
 layout(location = 2) out vec4 others;  // taps: coverage too dark, coverage too light, lit at the places looked up; N.L
 
-vec2 centre_of(ivec2 texel) { return first_texel_m + (vec2(texel) + 0.5) * light_texel_m; }
+vec2 centre_of(ivec2 texel) { return first_texel_m + (vec2(texel) + 0.5) * light_texel_m[map_layer]; }
 
 // The depth that an exact map holds at a texel inside it.
 float exact_depth(vec2 centre, Hit hit) {
@@ -43,7 +44,7 @@ void main() {
 
   for (int tap = 0; tap < taps; ++tap) {
     vec3 offset = vec3(row(offsets, tap).xy, 0.0);
-    vec2 offset_m = offset.xy * light_texel_m;
+    vec2 offset_m = offset.xy * light_texel_m[map_layer];
     bool exact_lit = lit_truth;
     if (offset != vec3(0.0)) exact_lit = is_lit_at(own, p, lit_truth, p + offset_m, first_hit(p + offset_m, -infinity));
     bool moved_lit = exact_lit;

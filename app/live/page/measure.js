@@ -16,11 +16,11 @@ class Meter {
     const gl = this.gl = document.createElement('canvas').getContext('webgl2', {antialias: false, depth: false});
     if (!gl) throw new Error('this browser has no WebGL 2');
     if (!gl.getExtension('EXT_color_buffer_float')) throw new Error('this WebGL cannot draw into float pictures');
-    const head = '#version 300 es\nprecision highp float; precision highp sampler2D;\n';
+    const head = '#version 300 es\nprecision highp float; precision highp sampler2D; precision highp sampler2DArray;\n';
     this.facesProgram = this.program(shaders.mesh, head + 'flat in float shown; out vec4 color; void main() { color = vec4(shown); }');
     this.mapProgram = this.program(shaders.map_boxes, shaders.map);
-    this.readProgram = this.program(shaders.screen, head + `uniform sampler2D depths; uniform float side; out vec4 color;
-void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }`);
+    this.readProgram = this.program(shaders.screen, head + `uniform sampler2DArray depths; uniform float side; out vec4 color;
+void main() { color = vec4(textureLod(depths, vec3(gl_FragCoord.xy / side, 0.0), 0.0).r); }`);
     this.judgeProgram = this.program(shaders.screen, shaders.judge);
     this.loadMesh();
     this.takeView();
@@ -56,6 +56,15 @@ void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }
     gl.texStorage2D(gl.TEXTURE_2D, 1, gl[internal], width, height);
     for (const name of ['TEXTURE_MIN_FILTER', 'TEXTURE_MAG_FILTER']) gl.texParameteri(gl.TEXTURE_2D, gl[name], gl.NEAREST);
     for (const name of ['TEXTURE_WRAP_S', 'TEXTURE_WRAP_T']) gl.texParameteri(gl.TEXTURE_2D, gl[name], gl.CLAMP_TO_EDGE);
+    return made;
+  }
+
+  // The map: the one layer of an array, as the lookup's shader reads it.
+  mapTexture(internal, side) {
+    const gl = this.gl, made = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D_ARRAY, made);
+    gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 1, gl[internal], side, side, 1);
+    for (const name of ['TEXTURE_MIN_FILTER', 'TEXTURE_MAG_FILTER']) gl.texParameteri(gl.TEXTURE_2D_ARRAY, gl[name], gl.NEAREST);
     return made;
   }
 
@@ -102,12 +111,13 @@ void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }
     this.screen = gl.createVertexArray();
   }
 
-  target(colours, depth) {
+  target(colours, depth, map = null) {
     const gl = this.gl, made = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, made);
     colours.forEach((c, i) => gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + i, gl.TEXTURE_2D, c, 0));
     gl.drawBuffers(colours.length ? colours.map((_, i) => gl.COLOR_ATTACHMENT0 + i) : [gl.NONE]);
     if (depth) gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, depth, 0);
+    if (map) gl.framebufferTextureLayer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, map, 0, 0);
     if (gl.checkFramebufferStatus(gl.FRAMEBUFFER) !== gl.FRAMEBUFFER_COMPLETE) throw new Error('this WebGL cannot draw into the page\'s pictures');
     return made;
   }
@@ -176,13 +186,14 @@ void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }
         gl.deleteTexture(this.map);
         gl.deleteFramebuffer(this.mapTarget);
       }
-      this.map = this.texture(formats[format][0], frame.resolution, frame.resolution);
-      this.mapTarget = this.target([], this.map);
+      this.map = this.mapTexture(formats[format][0], frame.resolution);
+      this.mapTarget = this.target([], null, this.map);
       this.mapKey = key;
     }
-    gl.bindTexture(gl.TEXTURE_2D, this.map);
+    gl.bindTexture(gl.TEXTURE_2D_ARRAY, this.map);
     const wrap = this.data.map.wrap === 0 ? gl.REPEAT : gl.CLAMP_TO_EDGE;
-    for (const name of ['TEXTURE_WRAP_S', 'TEXTURE_WRAP_T']) gl.texParameteri(gl.TEXTURE_2D, gl[name], wrap);
+    for (const name of ['TEXTURE_WRAP_S', 'TEXTURE_WRAP_T']) gl.texParameteri(gl.TEXTURE_2D_ARRAY, gl[name], wrap);
+    gl.bindTexture(gl.TEXTURE_2D_ARRAY, null);  // it is drawn into
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.mapTarget);
     gl.viewport(0, 0, frame.resolution, frame.resolution);
     gl.clearBufferfv(gl.DEPTH, 0, [1]);
@@ -248,7 +259,7 @@ void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }
     for (const name of ['faces', 'beyond', 'face_nodes', 'face_items', 'edges', 'edge_nodes']) images[name] = this.tables[name];
     Object.entries(images).forEach(([name, image], i) => {
       gl.activeTexture(gl.TEXTURE0 + i);
-      gl.bindTexture(gl.TEXTURE_2D, image);
+      gl.bindTexture(image === this.map ? gl.TEXTURE_2D_ARRAY : gl.TEXTURE_2D, image);
       set(name, '1i', i);
     });
     gl.activeTexture(gl.TEXTURE0);
@@ -276,7 +287,7 @@ void main() { color = vec4(textureLod(depths, gl_FragCoord.xy / side, 0.0).r); }
     gl.viewport(0, 0, side, side);
     gl.disable(gl.DEPTH_TEST);
     gl.useProgram(this.readProgram);
-    gl.bindTexture(gl.TEXTURE_2D, this.map);
+    gl.bindTexture(gl.TEXTURE_2D_ARRAY, this.map);
     this.set(this.readProgram, 'depths', '1i', 0);
     this.set(this.readProgram, 'side', '1f', side);
     gl.bindVertexArray(this.screen);

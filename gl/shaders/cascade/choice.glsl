@@ -1,8 +1,9 @@
-// Which cascade a receiver is looked up in. Each cascade is looked up in a pass of its own, which leaves out the receivers
-// of the others. The file that includes this one has defined
+// Which cascades a receiver is looked up in. The file that includes this one has defined
 //   float cascade_place(int cascade, vec3 position)   how far it lies in a cascade: at most 1 inside
 
-uniform int this_cascade;
+#include "shaders/cascade/lookups.glsl"
+#include "shaders/map/layer.glsl"
+uniform int layer_of_cascade[most_layers];  // in the array that is looked up; -1: in another one
 uniform int last_cascade;     // it takes what lies in no other
 uniform float cascade_blend;  // 0: no cascade blends into the next
 uniform float cascade_seam;   // from this place on the next cascade is looked up too, for comparison; 1: nowhere
@@ -22,8 +23,9 @@ CascadeChoice choose_cascade(vec3 position) {
   return CascadeChoice(last_cascade, 0.0, false);
 }
 
-bool in_this_map(vec3 position) {
+Lookups lookups_of(vec3 position) {
   CascadeChoice choice = choose_cascade(position);
-  return choice.cascade == this_cascade ||
-         ((choice.next > 0.0 || choice.at_seam) && choice.cascade + 1 == this_cascade);
+  bool both = choice.next > 0.0 || choice.at_seam;
+  return Lookups(ivec2(layer_of_cascade[choice.cascade], both ? layer_of_cascade[choice.cascade + 1] : -1),
+                 both ? 2 : 1);
 }

@@ -1,8 +1,6 @@
 // Weighted fetches. The sampler's hardware compares four texels in each fetch and blends the four verdicts.
 #include "shaders/pattern.glsl"
-
-// The sampler is linear, with GL_LEQUAL so that a tie is lit.
-layout(binding = 3) uniform sampler2DShadow comparing_map;
+#include "shaders/map/comparing.glsl"
 
 float all_lit() { return 1.0; }
 
@@ -11,7 +9,7 @@ float lit(Receiver receiver, float bias) {
   for (int fetch = 0; fetch < taps; ++fetch) {
     vec4 row = tap_offsets[fetch];
     vec2 at = (receiver.map_texels + row.xy) / map_size;
-    sum += row.w * textureLod(comparing_map, vec3(at, biased), 0.0);
+    sum += row.w * compared_at(at, biased);
   }
   return sum;
 }

@@ -2,9 +2,7 @@
 // either axis by its position between them, and has the weight of both. So half as many fetches as texels are enough
 // along each axis.
 // filter_weight is the weight of a texel, from the formula of the filter.
-
-// The sampler is linear, with GL_LEQUAL so that a tie is lit.
-layout(binding = 3) uniform sampler2DShadow comparing_map;
+#include "shaders/map/comparing.glsl"
 
 float all_lit() { return 1.0; }
 
@@ -21,7 +19,7 @@ float lit(Receiver receiver, float bias) {
       vec2 between = vec2(right / (left + right), above / (below + above));
       vec2 place = (base + vec2(x - before, y - before) + 0.5 + between) / map_size;
       whole += weight;
-      sum += weight * textureLod(comparing_map, vec3(place, biased), 0.0);
+      sum += weight * compared_at(place, biased);
     }
   }
   // The sum of the weights is 1 except for rounding. If all taps are lit, the result is exactly 1.

@@ -1,3 +1,5 @@
+#include "shaders/map/layer.glsl"
+
 // The functions that the file of each kind of light (this folder) defines for a place:
 //   LightView seen_by_light(vec3 place_m)          its position in the map, and its depth
 //   vec3 to_light(vec3 place_m)                    direction to the light, unit
@@ -14,10 +16,11 @@ struct LightView {
   float axis_m;     // spot, point: metres along the axis of the light or of the cube's face
 };
 
-uniform vec3 light_position;    // directional: LightFrame::drawn_origin_m
-uniform float light_texel_m;    // the width of a texel; spot, point: its width at one metre along the axis
-uniform int bias_unit;          // BiasUnit (technique/settings.h): 0 depth, 1 m, 2 texel
-uniform float light_bias_unit;  // window depth of one unit of bias; spot, point: at one metre along the axis
-uniform float light_far_m;
+// Each map has its own, by map_layer.
+uniform vec3 light_position[most_layers];    // directional: LightFrame::drawn_origin_m
+uniform float light_texel_m[most_layers];    // the width of a texel; spot, point: its width at one metre along the axis
+uniform float light_bias_unit[most_layers];  // window depth of one unit of bias; spot, point: at one metre along the axis
+uniform float light_far_m[most_layers];
+uniform int bias_unit;  // BiasUnit (technique/settings.h): 0 depth, 1 m, 2 texel
 
 bool is_finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }

@@ -1,11 +1,12 @@
-// The lookup in a flat shadow map. It uses the wrap modes of OpenGL.
+// The lookup in a flat shadow map, the layer map_layer of an array. It uses the wrap modes of OpenGL.
+#include "shaders/map/layer.glsl"
 #define MapAddress ivec2
 
-layout(binding = 2) uniform sampler2D shadow_map;  // nearest, no comparison
+layout(binding = 2) uniform sampler2DArray shadow_map;  // nearest, no comparison
 
 float stored_depth(ivec2 texel) {
-  vec2 centre = (vec2(texel) + 0.5) / vec2(textureSize(shadow_map, 0));
-  return textureLod(shadow_map, centre, 0.0).r;
+  vec2 centre = (vec2(texel) + 0.5) / vec2(textureSize(shadow_map, 0).xy);
+  return textureLod(shadow_map, vec3(centre, map_layer), 0.0).r;
 }
 
 // Texels are clamped to this range. For a texel t within it, the sampler takes (t + 0.5) / resolution back to texels
