@@ -1,0 +1,3 @@
+// yes if a < b, else no. The formulas that GLSL and C++ share choose with it, so that the host can also compile them with
+// error bounds (technique/bounded.h: both choices where the errors leave the order open) and with counters.
+real where_less(real a, real b, real yes, real no) { return a < b ? yes : no; }
