@@ -30,6 +30,9 @@ struct Bounded {
   constexpr Bounded(double v, double e) : value(v), error(e) {}
 };
 
+// A constant that float may have to round.
+inline Bounded rounded(double constant) { return {constant, float_rounding * std::abs(constant)}; }
+
 // The value with the error that comes from the operands, plus one rounding of the computed value. A result below the
 // least normal float may be flushed to 0 (GLSL 4.50, 4.7.1). 0 times an infinite error has no bound.
 inline Bounded computed(double value, double error, double relative) {

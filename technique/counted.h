@@ -27,6 +27,8 @@ struct Counted {
   }
 };
 
+inline Counted rounded(double constant) { return Counted(constant); }
+
 inline Counted done(Counted a, Counted b) {
   int* const count = a.count ? a.count : b.count;
   if (count) ++*count;

@@ -3,8 +3,8 @@
 // (technique/bounded.h), for the contract check; and with counters (technique/counted.h), for the cost. Those of
 // technique/reference/*.glsl are compiled in float and with counters. Those of technique/lookups/*.glsl are compiled in
 // all of these and in long double, which is their truth (technique/lookup_formulas.h). The files use only words that GLSL
-// and C++ share: vec2, vec3, vec4, dot, abs, min, max, clamp, sqrt, exp, and where_less (technique/where_less.glsl). `real`
-// is the type of a number, `precise` is GLSL's keyword, and a constant is written real(1).
+// and C++ share: vec2, vec3, vec4, dot, abs, min, max, clamp, sqrt, exp, where_less (technique/where_less.glsl), and rounded. `real`
+// is the type of a number, `precise` is GLSL's keyword, and a constant is written real(1), or rounded(0.1) if float does not hold it exactly.
 #pragma once
 #include <glm/glm.hpp>
 
