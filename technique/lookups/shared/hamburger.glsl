@@ -2,9 +2,10 @@
 // 2015): among all distributions with the moments b1 ... b4, the one on three depths of which one is the receiver's has the
 // largest share at the receiver's depth or behind it.
 
-// The other two depths, z1 <= z2. regular: 1, or 0 where the moments are singular and z1, z2 mean nothing.
+// The other two depths, z1 <= z2.
 struct OtherDepths {
-  real regular;
+  real regular;  // 1, or 0 where the moments are singular
+  real finite;   // 1, or 0 where they are singular or one of the depths is infinite: then z1 and z2 mean nothing
   real z1;
   real z2;
 };
@@ -36,22 +37,23 @@ OtherDepths other_depths(vec4 b, real depth) {
   c1 = c1 - l32 * c2;
   precise real c0 = real(1) - (c1 * b.x + c2 * b.y);
 
-  regular = where_less((abs(c0) + abs(c1)) * real(9.313225746154785e-10), abs(c2), regular, real(0));
-  real safe_c2 = where_less(real(0), regular, c2, real(1));
-  precise real p = where_less(real(0), regular, c1, real(0)) / safe_c2;
-  precise real q = where_less(real(0), regular, c0, real(0)) / safe_c2;
+  real finite = where_less((abs(c0) + abs(c1)) * real(9.313225746154785e-10), abs(c2), regular, real(0));
+  real safe_c2 = where_less(real(0), finite, c2, real(1));
+  precise real p = where_less(real(0), finite, c1, real(0)) / safe_c2;
+  precise real q = where_less(real(0), finite, c0, real(0)) / safe_c2;
   // Rounding alone makes the discriminant negative; then both roots are one.
   precise real root = sqrt(max(p * p * real(0.25) - q, real(0)));
   precise OtherDepths other;
   other.regular = regular;
+  other.finite = finite;
   other.z1 = -p * real(0.5) - root;
   other.z2 = -p * real(0.5) + root;
   return other;
 }
 
-// The lit fraction where the moments are singular: Chebyshev's bound of the first two. It is exact for one depth, for two
+// The lit fraction where there are no three finite depths: Chebyshev's bound of the first two moments. It is exact for one depth, for two
 // depths where the receiver is at one of them, and where c2 is 0; and never below the comparison.
-real singular_lit(vec4 b, real depth) {
+real two_moments_lit(vec4 b, real depth) {
   precise real variance = b.y - b.x * b.x;
   return chebyshev_share_behind(b.x, max(variance, real(0)), depth);
 }
@@ -67,5 +69,5 @@ real hamburger_lit(vec4 b, real depth, OtherDepths other) {
   precise real both_before = real(1) + quotient;
   real shadow = where_less(other.z2, depth, both_before, where_less(other.z1, depth, quotient, real(0)));
   precise real lit = real(1) - clamp(shadow, real(0), real(1));
-  return where_less(real(0), other.regular, lit, singular_lit(b, depth));
+  return where_less(real(0), other.finite, lit, two_moments_lit(b, depth));
 }
