@@ -1,0 +1,35 @@
+// The lit fraction of a filtered map without rounding: what a formula of technique/lookups/ gives for a receiver, in long
+// double and from the depths themselves, not from their moments. A variance is the sum of the squared ways from the mean,
+// and MSM's determinants are the sums of squares that Gram and Schmidt's procedure leaves, so nothing cancels however close
+// the depths are. With moments even of long double, two depths 1e-7 apart have no digit of MSM's determinant left.
+//
+//   const double depths[] = {0.25, 0.5}, weights[] = {0.3, 0.7};
+//   long double lit = msm_truth(depths, weights, 0.5, {.moment_bias = 0});   // 0.7
+//
+// depths: window depths of the texels. weights: 0 or more, as many; divided by their sum, which is above 0. receiver: window
+// depth with the bias subtracted. The parameters are those of the .glsl file; LookupParameters::moments only says which
+// distribution moment_bias mixes in. All are finite. Throws std::logic_error if the counts differ or the sum is not above 0.
+#pragma once
+#include <span>
+
+#include "technique/lookup_parameters.h"
+
+namespace noonmark {
+
+using LookupTruth = long double (*)(std::span<const double> depths, std::span<const double> weights, double receiver,
+                                    const in_extended::LookupParameters&);
+
+long double vsm_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                      const in_extended::LookupParameters&);
+long double esm_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                      const in_extended::LookupParameters&);
+long double evsm2_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                        const in_extended::LookupParameters&);
+long double evsm4_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                        const in_extended::LookupParameters&);
+long double msm_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                      const in_extended::LookupParameters&);
+long double msm_hausdorff_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                                const in_extended::LookupParameters&);
+
+}  // namespace noonmark
