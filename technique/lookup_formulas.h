@@ -11,6 +11,8 @@
 // The depth may lie outside [0, 1]. For finite input within the ranges of technique/lookups/parameters.glsl the results are
 // finite; each file says what it gives where its formula divides by 0.
 //
+// three.js blurs deviations, not squares: its two passes are further functions (technique/lookups/three_vsm.glsl).
+//
 //   in_float::LookupParameters p{.v_min = 1e-6f};
 //   float lit = in_float::vsm_lit(in_float::vsm_moments(0.25f, p), 0.5f, p);
 #pragma once
@@ -18,16 +20,31 @@
 
 namespace noonmark::in_float {
 #include "lookup_declarations.inc"
-}
+vec4 three_vsm_add_depth(vec4 sums, real depth);
+vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
+vec4 three_vsm_spread(vec4 sums, real taps);
+}  // namespace noonmark::in_float
 namespace noonmark::in_double {
 #include "lookup_declarations.inc"
-}
+vec4 three_vsm_add_depth(vec4 sums, real depth);
+vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
+vec4 three_vsm_spread(vec4 sums, real taps);
+}  // namespace noonmark::in_double
 namespace noonmark::in_extended {
 #include "lookup_declarations.inc"
-}
+vec4 three_vsm_add_depth(vec4 sums, real depth);
+vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
+vec4 three_vsm_spread(vec4 sums, real taps);
+}  // namespace noonmark::in_extended
 namespace noonmark::in_bounds {
 #include "lookup_declarations.inc"
-}
+vec4 three_vsm_add_depth(vec4 sums, real depth);
+vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
+vec4 three_vsm_spread(vec4 sums, real taps);
+}  // namespace noonmark::in_bounds
 namespace noonmark::in_counts {
 #include "lookup_declarations.inc"
-}
+vec4 three_vsm_add_depth(vec4 sums, real depth);
+vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
+vec4 three_vsm_spread(vec4 sums, real taps);
+}  // namespace noonmark::in_counts

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "technique/lookup_formulas.h"
+
 namespace noonmark {
 namespace {
 
@@ -162,6 +164,15 @@ Number hausdorff_lit(const Distribution& shares, double receiver, Number hamburg
   return std::min(hamburger, at_receiver + at_one + (middle > 0 ? at_free : 0));
 }
 
+// The formula itself, on the mean of what each depth stores.
+template <in_extended::vec4 (*moments)(Number, Parameters), Number (*lit)(in_extended::vec4, Number, Parameters)>
+Number formula_lit(std::span<const double> depths, std::span<const double> weights, double receiver,
+                   const Parameters& p) {
+  in_extended::vec4 stored(0);
+  for (const Share& share : about(depths, weights, receiver)) stored += share.weight * moments(share.way + receiver, p);
+  return lit(stored, receiver, p);
+}
+
 }  // namespace
 
 long double vsm_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
@@ -204,6 +215,17 @@ long double msm_hausdorff_truth(std::span<const double> depths, std::span<const 
   const Number hamburger = three_depths_lit(Kernel(shares));
   if (!(receiver < 1)) return hamburger;
   return hausdorff_lit(shares, receiver, hamburger);
+}
+
+long double babylon_esm_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                              const Parameters& p) {
+  return formula_lit<in_extended::babylon_esm_moments, in_extended::babylon_esm_lit>(depths, weights, receiver, p);
+}
+
+long double babylon_close_esm_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                                    const Parameters& p) {
+  return formula_lit<in_extended::babylon_close_esm_moments, in_extended::babylon_close_esm_lit>(depths, weights,
+                                                                                                 receiver, p);
 }
 
 }  // namespace noonmark

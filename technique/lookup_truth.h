@@ -6,6 +6,9 @@
 //   const double depths[] = {0.25, 0.5}, weights[] = {0.3, 0.7};
 //   long double lit = msm_truth(depths, weights, 0.5, {.moment_bias = 0});   // 0.7
 //
+// The look-alikes of Babylon.js are no bounds and nothing cancels in them: theirs is the .glsl file in long double. three.js's
+// has none, because the result depends on which depths each of its passes blurs; in_extended compiles the passes.
+//
 // depths: window depths of the texels. weights: 0 or more, as many; divided by their sum, which is above 0. receiver: window
 // depth with the bias subtracted. The parameters are those of the .glsl file; LookupParameters::moments only says which
 // distribution moment_bias mixes in. All are finite. Throws std::logic_error if the counts differ or the sum is not above 0.
@@ -31,5 +34,9 @@ long double msm_truth(std::span<const double> depths, std::span<const double> we
                       const in_extended::LookupParameters&);
 long double msm_hausdorff_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
                                 const in_extended::LookupParameters&);
+long double babylon_esm_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                              const in_extended::LookupParameters&);
+long double babylon_close_esm_truth(std::span<const double> depths, std::span<const double> weights, double receiver,
+                                    const in_extended::LookupParameters&);
 
 }  // namespace noonmark

@@ -208,7 +208,9 @@ TEST_P(LookupFormulas, LitIsTheHosts) {
 
 INSTANTIATE_TEST_SUITE_P(All, LookupFormulas,
                          testing::Values(FORMULA(vsm, false), FORMULA(esm, true), FORMULA(evsm2, true),
-                                         FORMULA(msm_hausdorff, false), FORMULA(evsm4, true), FORMULA(msm, false)),
+                                         FORMULA(evsm4, true), FORMULA(msm, false), FORMULA(msm_hausdorff, false),
+                                         FORMULA(babylon_esm, true), FORMULA(babylon_close_esm, true),
+                                         FORMULA(three_vsm, false)),
                          [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace
