@@ -13,7 +13,8 @@
 //
 // three.js blurs deviations, not squares: its two passes are further functions (technique/lookups/three_vsm.glsl).
 //
-//   in_float::LookupParameters p{.v_min = 1e-6f};
+//   in_float::LookupParameters p{};
+//   p.v_min = 1e-6f;
 //   float lit = in_float::vsm_lit(in_float::vsm_moments(0.25f, p), 0.5f, p);
 #pragma once
 #include "technique/lookup_parameters.h"

@@ -1,6 +1,7 @@
 // The numbers that the formulas of filtered shadow maps read, for every type of number (technique/lookup_formulas.h).
 //
-//   in_float::LookupParameters vsm{.v_min = 1e-6f};
+//   in_float::LookupParameters vsm{};  // bare: without floor and moment bias
+//   vsm.v_min = 1e-6f;
 #pragma once
 #include "technique/formulas.h"
 

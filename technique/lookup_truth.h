@@ -4,7 +4,7 @@
 // the depths are. With moments even of long double, two depths 1e-7 apart have no digit of MSM's determinant left.
 //
 //   const double depths[] = {0.25, 0.5}, weights[] = {0.3, 0.7};
-//   long double lit = msm_truth(depths, weights, 0.5, {.moment_bias = 0});   // 0.7
+//   long double lit = msm_truth(depths, weights, 0.5, {});   // 0.7
 //
 // The look-alikes of Babylon.js are no bounds and nothing cancels in them: theirs is the .glsl file in long double. three.js's
 // has none, because the result depends on which depths each of its passes blurs; in_extended compiles the passes.
