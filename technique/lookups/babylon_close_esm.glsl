@@ -6,5 +6,5 @@ vec4 babylon_close_esm_moments(real depth, LookupParameters p) { return vec4(dep
 real babylon_close_esm_lit(vec4 moments, real depth, LookupParameters p) {
   precise real way = clamp(depth, real(0), real(1)) - moments.x;
   precise real lit = exp(min(-(p.exponent * way), real(87)));
-  return min(lit, real(1));
+  return where_less(lit, real(1), lit, real(1));
 }

@@ -8,6 +8,6 @@ vec4 babylon_esm_moments(real depth, LookupParameters p) {
 
 real babylon_esm_lit(vec4 moments, real depth, LookupParameters p) {
   precise real shadow = exp(min(p.exponent * clamp(depth, real(0), real(1)), real(87))) * moments.x;
-  precise real lit = real(1) - clamp(shadow, real(0), real(1));
+  precise real lit = real(1) - where_less(shadow, real(1), shadow, real(1));
   return lit;
 }

@@ -7,5 +7,5 @@ vec4 esm_moments(real depth, LookupParameters p) {
 
 real esm_lit(vec4 moments, real depth, LookupParameters p) {
   precise real share = exp(-(p.exponent * depth)) * moments.x;
-  return min(share, real(1));
+  return where_less(share, real(1), share, real(1));
 }

@@ -12,5 +12,5 @@ real evsm4_lit(vec4 moments, real depth, LookupParameters p) {
   real positive = warped_share_behind(moments.x, moments.y, positive_warp(depth, p.exponent), p.floor, p.exponent);
   real negative = warped_share_behind(moments.z, moments.w, negative_warp(depth, p.negative_exponent), p.floor,
                                       p.negative_exponent);
-  return min(positive, negative);
+  return where_less(negative, positive, negative, positive);
 }

@@ -2,6 +2,8 @@
 // 2015): among all distributions with the moments b1 ... b4, the one on three depths of which one is the receiver's has the
 // largest share at the receiver's depth or behind it.
 
+real within_0_and_1(real x) { return where_less(x, real(0), real(0), where_less(real(1), x, real(1), x)); }
+
 // The other two depths, z1 <= z2.
 struct OtherDepths {
   real regular;  // 1, or 0 where the moments are singular
@@ -68,6 +70,6 @@ real hamburger_lit(vec4 b, real depth, OtherDepths other) {
   precise real quotient = share / where_less(real(0), abs(ways), ways, real(1));
   precise real both_before = real(1) + quotient;
   real shadow = where_less(other.z2, depth, both_before, where_less(other.z1, depth, quotient, real(0)));
-  precise real lit = real(1) - clamp(shadow, real(0), real(1));
+  precise real lit = real(1) - within_0_and_1(shadow);
   return where_less(real(0), other.finite, lit, two_moments_lit(b, depth));
 }

@@ -23,7 +23,7 @@ real four_depths_lit(vec4 b, real depth, real free, real otherwise) {
   precise real slope = third * (from_step - depth) / where_less(real(0), divisors, ways, real(1));
   precise real shadow =
       (spread + slope) / where_less(real(0), divisors, from_step, real(1)) + real(1) - b.x;
-  precise real lit = real(1) - clamp(shadow, real(0), real(1));
+  precise real lit = real(1) - within_0_and_1(shadow);
   real bound = where_less(real(0), divisors, lit, otherwise);
   return where_less(real(0), depth, bound, real(1));
 }
