@@ -112,6 +112,43 @@ TEST(LookupFormulas, AnInfiniteThirdDepthHasNoShare) {
   EXPECT_NEAR((hausdorff(0.749f) + hausdorff(0.751f)) / 2, hausdorff(0.75f), 1e-3f) << "no jump";
 }
 
+// Moments on [0, 1] that no distribution has: Chebyshev's bound of the first two takes its place.
+TEST(LookupFormulas, MomentsOfNoDistributionAreChebyshevs) {
+  const in_float::LookupParameters p = bare_floats(3);
+  const auto expect = [&](in_float::vec4 b, float variance) {
+    for (const float receiver : {0.0f, 0.25f, 0.75f, 1.0f}) {
+      const float behind = receiver - b.x;
+      const float share = behind > 0 ? variance / (variance + behind * behind) : 1;
+      EXPECT_EQ(in_float::msm_lit(b, receiver, p), share) << receiver;
+    }
+  };
+  expect({0.5f, 0.2f, 0.1f, -0.96f}, 0);    // D22 and the variance of z^2 are below 0, and so D33 is above 0
+  expect({0, 0.25f, 0, 0.05f}, 0.25f);      // D33 is below 0
+  expect({0, 0.015625f, 0, 1}, 0.015625f);  // the variance of z^2 is above 16 times that of z
+}
+
+// Moments of three depths 1e-5 apart: the discriminant is below 0 through rounding, and the two depths are one.
+TEST(LookupFormulas, RoundedRootsAreOne) {
+  const in_float::vec4 b(-0.281206131f, 0.0790768936f, -0.0222369097f, 0.00625315681f);
+  EXPECT_EQ(in_float::msm_lit(b, 0.631250024f, bare_floats(3)), 0);
+}
+
+// No depth lies before 0. Hamburger's bound, which does not know this, is below 1 there where rounding moves the moments.
+TEST(LookupFormulas, HausdorffsReceiverAtZeroIsLit) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> within(0, 1);
+  const in_float::LookupParameters p = bare_floats();
+  int darkened = 0;
+  for (int set = 0; set < 10'000; ++set) {
+    in_float::vec4 moments(0);
+    for (int depth = 0; depth < 4; ++depth)
+      moments += 0.25f * in_float::msm_moments(depth ? 0.001f * within(random) : 0, p);
+    darkened += in_float::msm_lit(moments, 0, p) < 1;
+    ASSERT_EQ(in_float::msm_hausdorff_lit(moments, 0, p), 1) << set;
+  }
+  EXPECT_GT(darkened, 0);
+}
+
 // Moments that no distribution has, and the largest parameters: every result is a number.
 TEST(LookupFormulas, AreFinite) {
   std::mt19937 random(4);
