@@ -81,7 +81,7 @@ bool has_three_depths(const Distribution& shares) {
 }
 
 // The polynomials of degree 0, 1 and 2 that are orthogonal under a distribution on three depths or more: 1, x - middle, and
-// (x - middle)^2 - skew (x - middle) - variance. With their squares' means they give the kernel
+// (x - middle)^2 - skew (x - middle) - D22. With their squares' means D22 and D33 they give the kernel
 //   K(x, y) = 1 + P1(x) P1(y) / D22 + P2(x) P2(y) / D33,
 // whose roots K(x, 0) = 0 are the two depths that share the moments with the receiver's depth 0, and 1 / K(x, x) is the
 // share of each of the three.
@@ -91,12 +91,6 @@ class Kernel {
     middle_ = mean(shares, [](Number x) { return x; });
     d22_ = mean(shares, [&](Number x) { return p1(x) * p1(x); });
     skew_ = mean(shares, [&](Number x) { return p1(x) * p1(x) * p1(x); }) / d22_;
-    variance_ = d22_;
-    // Gram and Schmidt's second pass: what rounding left of the lower polynomials in P2.
-    const Number left = mean(shares, [&](Number x) { return p2(x); });
-    const Number left_slope = mean(shares, [&](Number x) { return p1(x) * p2(x); }) / d22_;
-    variance_ += left;
-    skew_ += left_slope;
     d33_ = mean(shares, [&](Number x) { return p2(x) * p2(x); });
   }
 
@@ -114,9 +108,9 @@ class Kernel {
 
  private:
   Number p1(Number x) const { return x - middle_; }
-  Number p2(Number x) const { return p1(x) * p1(x) - skew_ * p1(x) - variance_; }
+  Number p2(Number x) const { return p1(x) * p1(x) - skew_ * p1(x) - d22_; }
 
-  Number middle_ = 0, d22_ = 0, skew_ = 0, variance_ = 0, d33_ = 0;
+  Number middle_ = 0, d22_ = 0, skew_ = 0, d33_ = 0;
 };
 
 // The two roots of the kernel, the lower first. One is infinite if its square is 0.
