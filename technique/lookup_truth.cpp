@@ -22,12 +22,18 @@ using Distribution = std::vector<Share>;
 Distribution about(std::span<const double> depths, std::span<const double> weights, double receiver) {
   if (depths.size() != weights.size()) throw std::logic_error("a distribution needs one weight for each depth");
   Number sum = 0;
-  for (const double weight : weights) sum += weight;
-  if (!(sum > 0)) throw std::logic_error("the weights of a distribution sum to no number above 0");
+  for (const double weight : weights) {
+    if (!(weight >= 0)) throw std::logic_error("a weight of a distribution is below 0 or no number");
+    sum += weight;
+  }
+  if (!(sum > 0 && std::isfinite(sum))) throw std::logic_error("the weights of a distribution sum to 0 or to infinity");
   Distribution made;
   made.reserve(depths.size() + 3);
-  for (size_t i = 0; i < depths.size(); ++i)
-    if (weights[i] > 0) made.push_back({static_cast<Number>(depths[i]) - receiver, weights[i] / sum});
+  for (size_t i = 0; i < depths.size(); ++i) {
+    const Number way = static_cast<Number>(depths[i]) - receiver;
+    if (!std::isfinite(way)) throw std::logic_error("a depth of a distribution is no finite number");
+    if (weights[i] > 0) made.push_back({way, weights[i] / sum});
+  }
   return made;
 }
 

@@ -11,7 +11,8 @@
 //
 // depths: window depths of the texels. weights: 0 or more, as many; divided by their sum, which is above 0. receiver: window
 // depth with the bias subtracted. The parameters are those of the .glsl file; LookupParameters::moments only says which
-// distribution moment_bias mixes in. All are finite. Throws std::logic_error if the counts differ or the sum is not above 0.
+// distribution moment_bias mixes in. Throws std::logic_error if the counts differ, a weight is below 0, all are 0, or a number
+// is not finite.
 #pragma once
 #include <span>
 

@@ -25,6 +25,7 @@ struct Formula {
   in_bounds::vec4 (*bounded_moments)(Bounded, in_bounds::LookupParameters);
   Bounded (*bounded_lit)(in_bounds::vec4, Bounded, in_bounds::LookupParameters);
 };
+void PrintTo(const Formula& formula, std::ostream* out) { *out << formula.name; }
 #define FORMULA(name, warps)                                                                                       \
   Formula {                                                                                                        \
 #name, warps, in_float::name##_moments, in_float::name##_lit, in_bounds::name##_moments, in_bounds::name##_lit \

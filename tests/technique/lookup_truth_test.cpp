@@ -140,6 +140,21 @@ struct Worst {
   }
 };
 
+TEST(LookupTruth, RefusesWhatIsNoDistribution) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [](std::vector<double> depths, std::vector<double> weights, double receiver) {
+    for (const LookupTruth truth : {vsm_truth, esm_truth, evsm2_truth, evsm4_truth, msm_truth, msm_hausdorff_truth,
+                                    babylon_esm_truth, babylon_close_esm_truth})
+      EXPECT_THROW(truth(depths, weights, receiver, {}), std::logic_error);
+  };
+  refused({0.5, nan}, {1, 1}, 0.5);
+  refused({0.5, 0.5}, {1, nan}, 0.5);
+  refused({0.5, 0.5}, {2, -1}, 0.5);
+  refused({0.5, 0.5}, {0, 0}, 0.5);
+  refused({0.5, 0.5}, {1}, 0.5);
+  refused({0.5, 0.5}, {1, 1}, nan);
+}
+
 TEST(LookupTruth, IsThatOfTheDefinitions) {
   std::mt19937_64 random(1);
   Worst vsm, floored, esm, evsm2, evsm4, msm, biased, hausdorff_form;
