@@ -18,6 +18,7 @@ namespace noonmark {
 constexpr double float_rounding = 0x1p-24;  // u
 constexpr double float_division = 5 * float_rounding;
 constexpr double float_square_root = 4 * float_rounding + float_division;
+constexpr double float_least_normal = 0x1p-126;
 
 // The number and its operations stand in one namespace, where the vectors find them.
 namespace bounded {
@@ -29,9 +30,16 @@ struct Bounded {
   constexpr Bounded(double v, double e) : value(v), error(e) {}
 };
 
-// The value with the error that comes from the operands, plus one rounding of the computed value.
+// A constant that float may have to round.
+inline Bounded rounded(double constant) { return {constant, float_rounding * std::abs(constant)}; }
+
+// The value with the error that comes from the operands, plus one rounding of the computed value. A result below the
+// least normal float may be flushed to 0 (GLSL 4.50, 4.7.1). 0 times an infinite error has no bound.
 inline Bounded computed(double value, double error, double relative) {
-  return {value, error + relative * (std::abs(value) + error)};
+  const double rounded = error + relative * (std::abs(value) + error);
+  if (std::isnan(rounded)) return {value, HUGE_VAL};
+  const bool flushed = value != 0 && std::abs(value) - rounded < float_least_normal;
+  return {value, flushed ? rounded + float_least_normal : rounded};
 }
 
 inline Bounded operator-(Bounded a) { return {-a.value, a.error}; }
@@ -60,8 +68,25 @@ inline Bounded sqrt(Bounded a) {
   return computed(root, lost, float_square_root);
 }
 
+// Within 3 + 2 |x| units in the last place (GLSL 4.50, 4.7.1); a unit is at most 2 u of the value.
+inline Bounded exp(Bounded a) {
+  const double units = 3 + 2 * (std::abs(a.value) + a.error);
+  const double value = std::exp(a.value);
+  return computed(value, value * std::expm1(a.error), units * 2 * float_rounding);
+}
+// yes if a < b, else no. Where the errors leave the order open, the bound holds for both.
+inline Bounded where_less(Bounded a, Bounded b, Bounded yes, Bounded no) {
+  const bool less = a.value < b.value;
+  const Bounded chosen = less ? yes : no, other = less ? no : yes;
+  const double unsure = a.error + b.error;
+  if (unsure == 0 || std::abs(a.value - b.value) > unsure) return chosen;
+  const double farthest = std::abs(other.value - chosen.value) + other.error;
+  return {chosen.value, std::max(chosen.error, farthest)};
+}
+
 using vec2 = Vector2<Bounded>;
 using vec3 = Vector3<Bounded>;
+using vec4 = Vector4<Bounded>;
 // The order of the sums is not known, so each product may be rounded in both sums.
 inline Bounded dot(const vec3& a, const vec3& b) {
   const Bounded x = a.x * b.x, y = a.y * b.y, z = a.z * b.z;

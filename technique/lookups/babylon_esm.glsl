@@ -1,0 +1,13 @@
+// Babylon.js's exponential shadow map (useBlurExponentialShadowMap; @babylonjs/core 9.34,
+// ShadersInclude/shadowMapFragment and shadowsFragmentFunctions, computeShadowWithESM). It stores e^(-c z), so it is no
+// bound of the lit share: a receiver that is in the map itself is dark. The exponent is held at 87, as there.
+vec4 babylon_esm_moments(real depth, LookupParameters p) {
+  precise real warped = exp(-min(p.exponent * depth, real(87)));
+  return vec4(clamp(warped, real(0), real(1)), real(0), real(0), real(0));
+}
+
+real babylon_esm_lit(vec4 moments, real depth, LookupParameters p) {
+  precise real shadow = exp(min(p.exponent * clamp(depth, real(0), real(1)), real(87))) * moments.x;
+  precise real lit = real(1) - where_less(shadow, real(1), shadow, real(1));
+  return lit;
+}
