@@ -9,7 +9,7 @@ namespace noonmark::gl {
 
 namespace {
 
-std::string uniform(const FilterRead& read) { return fmt::format("filter_{}", read.parameter->name()); }
+std::string uniform(const KindRead<FilterSettings>& read) { return fmt::format("filter_{}", read.parameter->name()); }
 
 }  // namespace
 
@@ -25,11 +25,43 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
           {"bias", bias_name}};
 }
 
+ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique) {
+  const std::string_view name = technique.moments.value().kind().name;
+  const std::string slot = fmt::format("lookup {}", name);
+  programs.define(slot, fmt::format("#include \"technique/lookups/shared/words.glsl\"\n"
+                                    "#include \"technique/lookups/{0}.glsl\"\n"
+                                    "uniform LookupParameters lookup;\n"
+                                    "vec4 stored_moments(float depth) {{ return {0}_moments(depth, lookup); }}\n"
+                                    "float lit_fraction(vec4 moments, float depth) {{\n"
+                                    "  return {0}_lit(moments, depth, lookup);\n"
+                                    "}}\n",
+                                    name));
+  return {{"lookup", slot}};
+}
+
+void set_lookup_uniforms(Program& program, const Technique& technique) {
+  const in_float::LookupParameters& p = technique.moments.value().parameters();
+  program.set_if_used("lookup.v_min", p.v_min);
+  program.set_if_used("lookup.floor", p.floor);
+  program.set_if_used("lookup.exponent", p.exponent);
+  program.set_if_used("lookup.negative_exponent", p.negative_exponent);
+  program.set_if_used("lookup.moment_bias", p.moment_bias);
+  program.set_if_used("lookup.moments", p.moments);
+}
+
 ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
+  if (technique.moments) {
+    ShaderSlots slots = receiver_slots(programs, technique.frame, technique.bias);
+    slots.merge(moment_slots(programs, technique));
+    slots["filter"] = "moments";
+    programs.define("moments", "#include <lookup>\n#include \"shaders/filter/moments.glsl\"\n");
+    slots["cascade"] = cascade_file(technique);
+    return slots;
+  }
   const Filter& filter = *technique.filter;
   const std::string name(filter.name);
   std::string text;
-  for (const FilterRead& read : filter.reads)
+  for (const KindRead<FilterSettings>& read : filter.reads)
     text += fmt::format("uniform {} {};  // {}\n", read.parameter->type == ValueType::real ? "float" : "int",
                         uniform(read), read.parameter->unit);
   if (filter.own_weights)
@@ -61,7 +93,7 @@ void set_cascade_uniforms(Program& program, const CascadePlace& cascade) {
 }
 
 void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings) {
-  for (const FilterRead& read : filter.reads) {
+  for (const KindRead<FilterSettings>& read : filter.reads) {
     const double value = settings[read.parameter->name()];
     if (read.parameter->type == ValueType::real)
       program.set_if_used(uniform(read).c_str(), static_cast<float>(value));

@@ -22,6 +22,13 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
 
 std::string cascade_file(const Technique& technique);  // of <cascade>
 
+// The slot of the passes that make a map of moments, <lookup>: the formulas of technique.moments, as
+//   vec4 stored_moments(float depth)                 what a texel of this window depth stores
+//   float lit_fraction(vec4 moments, float depth)    of a receiver of this biased depth, before light-bleed reduction
+// whose parameters set_lookup_uniforms() sets. It is part of lookup_slots() too.
+ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique);
+void set_lookup_uniforms(Program& program, const Technique& technique);
+
 void set_cascade_uniforms(Program& program, const CascadePlace& cascade);
 void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings);
 

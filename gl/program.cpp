@@ -58,6 +58,8 @@ int Program::location(const char* uniform) const {
 void Program::set(const char* uniform, int value) { glProgramUniform1i(id(), location(uniform), value); }
 void Program::set(const char* uniform, float value) { glProgramUniform1f(id(), location(uniform), value); }
 void Program::set(const char* uniform, glm::vec2 value) { glProgramUniform2fv(id(), location(uniform), 1, &value.x); }
+void Program::set(const char* uniform, glm::ivec2 value) { glProgramUniform2iv(id(), location(uniform), 1, &value.x); }
+void Program::set(const char* uniform, glm::vec4 value) { glProgramUniform4fv(id(), location(uniform), 1, &value.x); }
 void Program::set(const char* uniform, glm::vec3 value) { glProgramUniform3fv(id(), location(uniform), 1, &value.x); }
 void Program::set(const char* uniform, const glm::mat4& value) { set(uniform, std::span(&value, 1)); }
 void Program::set(const char* uniform, std::span<const int> values) {

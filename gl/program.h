@@ -31,7 +31,9 @@ class Program {
   void set(const char* uniform, int value);
   void set(const char* uniform, float value);
   void set(const char* uniform, glm::vec2 value);
+  void set(const char* uniform, glm::ivec2 value);
   void set(const char* uniform, glm::vec3 value);
+  void set(const char* uniform, glm::vec4 value);
   void set(const char* uniform, const glm::mat4& value);
   void set(const char* uniform, std::span<const int> values);
   void set(const char* uniform, std::span<const glm::mat4> values);

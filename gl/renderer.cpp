@@ -96,6 +96,11 @@ void Renderer::Impl::draw_into_layer(GLuint depth, int layer, glm::ivec2 size) {
   glNamedFramebufferTextureLayer(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth, 0, layer);
 }
 
+void Renderer::Impl::draw_into_colour_layer(GLuint colour, int layer, glm::ivec2 size) {
+  draw_into({colour}, 0, size.x, size.y);
+  glNamedFramebufferTextureLayer(framebuffer.id(), GL_COLOR_ATTACHMENT0, colour, 0, layer);
+}
+
 void Renderer::Impl::draw_into(std::initializer_list<GLuint> colours, GLuint depth, int width, int height) {
   std::array<GLenum, 4> buffers{};
   GLsizei count = 0;

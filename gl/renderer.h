@@ -151,7 +151,8 @@ class Renderer {
   double polygon_offset_unit(DepthFormat format);
 
   // The technique's result: the visibility of every receiver, in [0, 1]. Background pixels and receivers at or behind
-  // the light have 0. time_ms: as in render_map. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
+  // the light have 0. Of a lookup in a map of moments it makes that map first, if the last lookup was another one, and the
+  // result is reduced already (lookup.reduction). time_ms: as in render_map, without the passes over the map. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
   // Of a cascade: 0 for receivers that are not looked up in it.
   Image<float> lookup(const ShadowMap& map, const Technique& technique, double* time_ms = nullptr);
@@ -159,6 +160,15 @@ class Renderer {
   // if it is blended in (or compared: CascadePlace::seam). Of maps of different sizes, in one pass for each size.
   // techniques: those of the map, in its order. Throws Error(defect) if their frames are not of these sizes.
   MapResults lookup_maps(const ShadowMap& map, std::span<const Technique> techniques, double* time_ms = nullptr);
+
+  // Of a lookup in a map of moments: what OpenGL made of this map, stage by stage. The texels are in the order of the set; the
+  // channels that the lookup does not store are not defined.
+  // techniques: as of lookup_maps(); which: the map of a cascade.
+  MomentEvidence read_moments(const ShadowMap& map, std::span<const Technique> techniques, const TexelSet& texels,
+                              size_t which = 0);
+  // The time of the passes that store and blur the moments of a map; as time_ms in render_map.
+  // Of cascades those of all maps; technique: any of them.
+  double time_moments(const ShadowMap& map, const Technique& technique);
 
   // What the lookup chooses for each receiver (shaders/cascade/choice.glsl). technique: of any of the cascades.
   ChosenCascades choose_cascades(const Technique& technique);

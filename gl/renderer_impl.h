@@ -1,7 +1,9 @@
 // The members of a Renderer, for its own source files: renderer.cpp (construction, scene), renderer_receivers.cpp,
 // renderer_map.cpp (maps drawn as engines draw them), renderer_map_data.cpp (maps uploaded and read back),
-// renderer_map_tiles.cpp (flat maps, at some of their texels), renderer_lookup.cpp and renderer_probe.cpp.
+// renderer_map_tiles.cpp (flat maps, at some of their texels), renderer_prefilter.cpp (maps of moments),
+// renderer_lookup.cpp and renderer_probe.cpp.
 #pragma once
+#include <array>
 #include <functional>
 #include <limits>
 #include <map>
@@ -25,6 +27,12 @@ inline constexpr GLfloat lit_border[4] = {1, 1, 1, 1};
 
 GLint gl_wrap(Wrap wrap);
 
+// The textures of an array of maps of moments: what its texels store, blurred along u, and blurred along v too, which the lookup reads.
+struct MomentTextures {
+  std::string key;  // of the settings that they depend on
+  std::array<Texture, 3> passes;
+};
+
 struct ShadowMap::Impl {
   // Keeps the context alive, because the textures belong to it. A map may exist longer than its Renderer.
   std::shared_ptr<EglContext> context;
@@ -36,8 +44,9 @@ struct ShadowMap::Impl {
     size_t array = 0;
     int layer = 0;
   };
-  std::vector<Place> places{};        // of each flat map
-  std::weak_ptr<SpareMaps> spares{};  // where the arrays go in the end
+  std::vector<Place> places{};            // of each flat map
+  std::weak_ptr<SpareMaps> spares{};      // where the arrays go in the end
+  std::vector<MomentTextures> moments{};  // of each array, for the last lookup that read moments
 
   // Flat maps of these sizes, which are empty yet.
   Impl(std::shared_ptr<EglContext> owner, const std::shared_ptr<SpareMaps>& ends_in, Wrap mode,
@@ -77,7 +86,7 @@ struct Renderer::Impl {
   Target primitive_colour, primitive_depth;
   Target position_image, normal_image;
   glm::vec3 eye_m{0};
-  Target lit, map_strip, listed_texels, listed_depths;
+  Target lit, fetched, map_strip, listed_texels, listed_depths;
   // Two uploaded ones: an exact map and a tie map come by turns. Shared, because a map may exist longer.
   std::shared_ptr<SpareMaps> uploaded = std::make_shared<SpareMaps>(2), drawn = std::make_shared<SpareMaps>(1);
   Target probe_scalars, probe_texels, probe_radius;
@@ -98,6 +107,7 @@ struct Renderer::Impl {
   // several layers has all of them bound; draw_into_layer() binds one.
   void draw_into(std::initializer_list<GLuint> colours, GLuint depth, int width, int height);
   void draw_into_layer(GLuint depth, int layer, glm::ivec2 size);
+  void draw_into_colour_layer(GLuint colour, int layer, glm::ivec2 size);
   // Ends draw_into. It detaches all textures, because an attached texture stays in memory after it is deleted.
   void detach(size_t colours);
 
@@ -141,6 +151,9 @@ struct Renderer::Impl {
     const Technique* const one = &technique;
     set_receiver_uniforms(program, std::span(&one, 1));
   }
+  // The moments of all maps, as this lookup reads them: those that the map has already, or new ones. time_ms: as of run(); the
+  // passes are then done anyway.
+  const std::vector<MomentTextures>& moments_of(const ShadowMap& map, const Technique& technique, double* time_ms);
   // Uploads and binds the pattern for a program that includes shaders/pattern.glsl.
   void set_pattern(Program& program, const TapPattern& pattern);
   // The texels in a cube map that these taps of the receivers in those rows read: LookupProbe::cube_texel.

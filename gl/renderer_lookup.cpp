@@ -149,15 +149,20 @@ MapResults Renderer::lookup_maps(const ShadowMap& map, std::span<const Technique
                               frame.tiles, frame.resolution, frame.rows, m.faces(), size.x, size.y));
   }
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, lookup_slots(r.programs, first));
-  r.set_pattern(program, pattern);
-  set_filter_uniforms(program, *first.filter, first.settings.filter);
+  const std::vector<MomentTextures>* const moments = first.moments ? &r.moments_of(map, first, nullptr) : nullptr;
+  if (moments) {
+    set_lookup_uniforms(program, first);
+  } else {
+    r.set_pattern(program, pattern);
+    set_filter_uniforms(program, *first.filter, first.settings.filter);
+  }
   if (first.cascade) set_cascade_uniforms(program, *first.cascade);
   program.set("lit_beyond_far", first.settings.map.lit_beyond_far ? 1 : 0);
   const int width = r.position_image.width, height = r.position_image.height;
   if (time_ms) *time_ms = 0;
   // A pass over an array of maps. A receiver that is looked up in another array has 0 there.
   MapResults results;
-  const auto add_pass = [&](GLuint texture, std::span<const Technique* const> layers) {
+  const auto add_pass = [&](GLuint texture, std::span<const Technique* const> layers, size_t array) {
     r.set_receiver_uniforms(program, layers);
     if (first.cascade) {
       std::vector<int> layer_of_cascade(static_cast<size_t>(first.cascade->last()) + 1, -1);
@@ -166,7 +171,9 @@ MapResults Renderer::lookup_maps(const ShadowMap& map, std::span<const Technique
       program.set("layer_of_cascade", std::span<const int>(layer_of_cascade));
     }
     glBindTextureUnit(2, texture);
-    if (pattern.bilinear()) {
+    if (moments) {
+      glBindTextureUnit(3, (*moments)[array].passes.back().id());
+    } else if (pattern.bilinear()) {
       glSamplerParameteri(r.comparing.id(), GL_TEXTURE_WRAP_S, gl_wrap(m.wrap));
       glSamplerParameteri(r.comparing.id(), GL_TEXTURE_WRAP_T, gl_wrap(m.wrap));
       glBindTextureUnit(3, texture);
@@ -194,16 +201,19 @@ MapResults Renderer::lookup_maps(const ShadowMap& map, std::span<const Technique
   };
   if (m.cube) {
     const Technique* const one = &first;
-    add_pass(m.cube.id(), {&one, 1});
+    add_pass(m.cube.id(), {&one, 1}, 0);
   }
   for (size_t array = 0; array < m.arrays.size(); ++array) {
     std::vector<const Technique*> layers;
     for (size_t k = 0; k < techniques.size(); ++k)
       if (m.places[k].array == array) layers.push_back(&techniques[k]);
-    add_pass(m.arrays[array].texture.id(), layers);
+    add_pass(m.arrays[array].texture.id(), layers, array);
   }
   r.context->check("lookup");
-  if (!pattern.bilinear() && pattern.taps > 1) {
+  if (first.moments) {
+    for (Image<float>* const image : {&results.own, &results.next})
+      for (float& v : image->pixels) v = first.moments->reduced(v);
+  } else if (!pattern.bilinear() && pattern.taps > 1) {
     const float taps = static_cast<float>(pattern.taps);
     for (Image<float>* const image : {&results.own, &results.next})
       for (float& v : image->pixels) v /= taps;

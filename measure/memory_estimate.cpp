@@ -13,6 +13,7 @@
 #include "raytrace/tracer.h"
 #include "scenes/scene_size.h"
 #include "technique/casters.h"
+#include "technique/lookups.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -68,6 +69,10 @@ constexpr double per_cascade_pixel = 130;
 // Of the flicker to the next frame: four lookups and what is booked of them, which pixels see a receiver and which light
 // reaches it there, and the receivers as they are uploaded again.
 constexpr double per_flicker_pixel = 90;
+// Of a lookup in a map of moments: four more causes, the moments that each receiver fetches, on both sides of OpenGL, and what
+// another reduction would give.
+constexpr double per_moment_pixel = 16 + 32 + 80;
+constexpr double per_asked_moments = 3 * 16;  // as they are read back, of two maps one after the other
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
 
 // asked: the texels that taps read.
@@ -98,7 +103,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
                             ? *std::max_element(s.cascades.resolutions.begin(), s.cascades.resolutions.end())
                             : s.map.resolution;
   const double texels = widest * widest * s.map.rows() / s.map.resolution * faces;
-  const TapPattern pattern = tap_pattern(s.filter);
+  const TapPattern pattern = tap_pattern(s);
   const double taps = pixels * pattern.taps;
   const double map =
       map_bytes(texels, std::min(taps, texels), kind_of_light(input.light).map_shape() == MapShape::cube);
@@ -120,10 +125,15 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   if (two_lights) scene += per_light_triangle * static_cast<double>(input.scene.triangles);
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 
+  double moments = 0;
+  if (reads_moments(s)) {
+    const double each = (s.map.moments == MomentFormat::f32 ? 4 : 2) * find_lookup(s.lookup.kind).channels;
+    moments = 2 * 3 * texels * each + std::min(taps, texels) * per_asked_moments + pixels * per_moment_pixel;
+  }
   const double maps = s.cascades.count;
   if (maps > 1) scene += pixels * sizeof(double) * maps;  // ReceiverTruth::share
   double curve = 0;
-  if (input.curve && curve_part(s.bias))
+  if (input.curve && curve_part(s))
     curve = std::min<double>(taps, batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +
             std::min(taps * per_summed_tap, most_sums);
   const double all_taps = taps * static_cast<double>(bytes_per_tap(input.light)), row = all_taps / s.view.height_px;
@@ -167,6 +177,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
       {"the shadow map",
        maps > 1 ? "lower map.resolution, cascades.resolutions or cascades.count" : "lower map.resolution",
        maps * map + more_maps},
+      {"the map of moments", "lower map.resolution, or set map.moments = 16f", maps * moments},
   }};
 }
 

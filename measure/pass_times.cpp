@@ -19,7 +19,7 @@ struct Work {
 
 // One sample of each work that has none in this round.
 void sample_round(const SamplePasses& sample, std::span<const Settings> points, const std::vector<size_t>& picture,
-                  const std::vector<Work>& work, size_t round, Samples& maps, Samples& lookups) {
+                  const std::vector<Work>& work, size_t round, Samples& maps, Samples& filters, Samples& lookups) {
   for (const size_t i : picture) {
     std::vector<double>&map = maps[work[i].map], &lookup = lookups[work[i].lookup];
     const bool map_wanted = map.size() == round, lookup_wanted = lookup.size() == round;
@@ -27,6 +27,7 @@ void sample_round(const SamplePasses& sample, std::span<const Settings> points, 
     const PassTimes times = sample(points[i], map_wanted, lookup_wanted);
     if (map_wanted) map.push_back(*times.map_ms);
     if (lookup_wanted) lookup.push_back(*times.lookup_ms);
+    if (lookup_wanted && times.prefilter_ms) filters[work[i].lookup].push_back(*times.prefilter_ms);
   }
 }
 
@@ -59,15 +60,19 @@ std::optional<std::vector<TimeMetrics>> time_passes(const SamplePasses& sample, 
   const int rounds = time_rounds(points);
   int done = 0;
   for (const auto& [key, picture] : pictures) {
-    Samples maps, lookups;
+    Samples maps, filters, lookups;
     for (int round = 0; round < timed_rounds; ++round, ++done) {
       if (!go_on(done, rounds)) return std::nullopt;
-      sample_round(sample, points, picture, work, static_cast<size_t>(round), maps, lookups);
+      sample_round(sample, points, picture, work, static_cast<size_t>(round), maps, filters, lookups);
     }
     for (const size_t i : picture) {
       const std::vector<double>&map = maps[work[i].map], &lookup = lookups[work[i].lookup];
       std::vector<double> sum(map.size());
       std::transform(map.begin(), map.end(), lookup.begin(), sum.begin(), std::plus<>());
+      if (const auto filter = filters.find(work[i].lookup); filter != filters.end()) {
+        std::transform(sum.begin(), sum.end(), filter->second.begin(), sum.begin(), std::plus<>());
+        add(all[i], "prefilter_ms", filter->second);
+      }
       add(all[i], "map_ms", map);
       add(all[i], "lookup_ms", lookup);
       add(all[i], "shadow_ms", sum);

@@ -184,6 +184,7 @@ std::string technique_text(const Settings& settings) {
 
 Settings phase_settings(const Settings& given, const Scene& scene) {
   require_one_map(given, "a phase diagram");
+  require_compared(given, "a phase diagram");
   Settings settings = given;
   const LightKind light = effective_light(scene, settings).kind;
   if (!kind_of_light(light).placements_form_lattice())

@@ -31,7 +31,7 @@ std::vector<uint64_t> work_of(const Settings& s, const Settings* before, const s
   const auto anew = [&](const auto& key) { return !before || key(s) != key(*before); };
   const auto square = [](int n) { return static_cast<uint64_t>(n) * static_cast<uint64_t>(n); };
   const uint64_t pixels = static_cast<uint64_t>(s.view.width_px) * static_cast<uint64_t>(s.view.height_px);
-  const uint64_t taps = pixels * static_cast<uint64_t>(tap_pattern(s.filter).taps);
+  const uint64_t taps = pixels * static_cast<uint64_t>(tap_pattern(s).taps);
   const uint64_t texels = static_cast<uint64_t>(s.map.resolution) * static_cast<uint64_t>(s.map.rows());
   work[PointWork::point] = 1;
   work[PointWork::scene] = anew(scene_key_of);
@@ -45,7 +45,7 @@ std::vector<uint64_t> work_of(const Settings& s, const Settings* before, const s
   if (anew(lookup_key_of)) work[PointWork::look] = taps;
   if (timed && anew(lookup_work_of)) work[PointWork::passes] = taps;
   work[PointWork::compare] = taps;
-  const BiasPart* const varied = options ? curve_part(s.bias) : nullptr;
+  const BiasPart* const varied = options ? curve_part(s) : nullptr;
   if (varied && anew([&](const Settings& one) { return curve_key_of(one, *varied, *options); }))
     work[PointWork::curve] = taps;
   if (s.map.placements > 1) work[PointWork::place] = taps * square(s.map.placements);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compare/ladder/moment_climb.h"
 #include "compare/ladder/receiver_taps.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
@@ -30,7 +31,15 @@ void bring_taps(gl::Renderer& renderer, LookupStage& lookup, const Technique& te
 
 LookupEvidence evidence_of(const LookupStage& l, const TruthStage& truth, const ShownStage& shown,
                            const Technique& technique) {
-  return {truth.receivers, l.probe, l.taps, l.exact_depth, technique.settings.map, technique.bias, shown.r4, shown.r5};
+  return {truth.receivers,
+          l.probe,
+          l.taps,
+          l.exact_depth,
+          technique.settings.map,
+          technique.bias,
+          shown.r4,
+          shown.r5,
+          technique.moments ? &*technique.moments : nullptr};
 }
 
 bool is_kept(size_t map_texels) { return map_texels * sizeof(float) <= most_kept_map_bytes; }
@@ -171,11 +180,24 @@ MapResults Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, s
 }
 
 ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
-                              std::span<const AskedMap> asked, std::span<const Technique> techniques) {
+                              std::span<const AskedMap> asked, std::span<const Technique> techniques,
+                              const ChosenCascades* chosen) {
   ShownMaps shown;
+  shown.moments.resize(asked.size());
+  shown.ties.resize(asked.size());
+  const ShownStage nothing;
+  const auto check_stages = [&](const gl::ShadowMap& of, const MapResults& results, const auto& depths_of) {
+    for (size_t k = 0; k < asked.size() && techniques[k].moments; ++k) {
+      const MapDepths& depths = depths_of(k);
+      const MomentEvidence moments = renderer.read_moments(of, techniques, *depths.texels, k);
+      shown.moments[k] += check_moments(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k]), depths,
+                                        moments, result_in_map(results, chosen, static_cast<int>(k)));
+    }
+  };
   shown.r5 = look_up(renderer, *map.map, techniques);
   for (size_t k = 0; k < asked.size(); ++k)
     shown.stored.push_back(renderer.read_map(*map.map, asked[k].lookup.exact_depth.texels, static_cast<int>(k)));
+  check_stages(*map.map, shown.r5, [&](size_t k) -> const MapDepths& { return shown.stored[k]; });
   keep_small(renderer, map.map);
 
   const auto upload = [&](const auto& depths_of) {
@@ -183,13 +205,15 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
     for (size_t k = 0; k < asked.size(); ++k) depths.push_back(&depths_of(k));
     return renderer.upload_maps(depths, techniques);
   };
-  if (!exact_map) exact_map.emplace(upload([&](size_t k) -> const MapDepths& { return asked[k].lookup.exact_depth; }));
+  const auto exact_of = [&](size_t k) -> const MapDepths& { return asked[k].lookup.exact_depth; };
+  if (!exact_map) exact_map.emplace(upload(exact_of));
   shown.r4 = look_up(renderer, *exact_map, techniques);
+  check_stages(*exact_map, shown.r4, exact_of);
   keep_small(renderer, exact_map);
+  if (techniques.front().moments) return shown;
 
-  const ShownStage nothing;
   for (size_t k = 0; k < asked.size(); ++k)
-    shown.ties.push_back(tie_map(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k])));
+    shown.ties[k] = tie_map(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k]));
   std::optional<gl::ShadowMap> tie_map_on_device(upload([&](size_t k) -> const MapDepths& { return shown.ties[k]; }));
   shown.tie_lookup = look_up(renderer, *tie_map_on_device, techniques);
   keep_small(renderer, tie_map_on_device);
@@ -198,15 +222,19 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
 
 ShownStage ShownMaps::take(const ChosenCascades* chosen, size_t map) {
   const int cascade = static_cast<int>(map);
-  return {result_in_map(r5, chosen, cascade), result_in_map(r4, chosen, cascade),
-          result_in_map(tie_lookup, chosen, cascade), std::move(stored[map]), std::move(ties[map])};
+  return {result_in_map(r5, chosen, cascade),
+          result_in_map(r4, chosen, cascade),
+          tie_lookup.own.size() ? result_in_map(tie_lookup, chosen, cascade) : Image<float>(),
+          std::move(stored[map]),
+          std::move(ties[map]),
+          moments[map]};
 }
 
 ShownStage Pipeline::show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
                           const Technique& technique) {
   std::optional<gl::ShadowMap> exact_map;
   const AskedMap asked{lookup, truth};
-  ShownMaps shown = show_maps(renderer, map, exact_map, {&asked, 1}, {&technique, 1});
+  ShownMaps shown = show_maps(renderer, map, exact_map, {&asked, 1}, {&technique, 1}, nullptr);
   return shown.take(nullptr, 0);
 }
 
@@ -216,12 +244,26 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   const LookupEvidence evidence = evidence_of(lookup, truth, shown, technique);
   SoundnessCheck soundness(
       {evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers, technique.frame, view.camera.eye_m});
-  Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height()), {}, {}, {}};
+  Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height(),
+                               technique.moments ? cause_count : compared_cause_count),
+                  {},
+                  {},
+                  {},
+                  {}};
+  double below_comparison = 0;
   if (varied) climbed.counts.emplace(lookup.probe, *varied);
   if (lookup.rays) lookup.tap_stage = {};
   for (const PixelRange& strip : lookup.strips) {
     if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
     climbed.tap_answers += lookup.taps.answers;
+    if (technique.moments) {
+      MomentClimb climbing(evidence, strip, climbed.ladder);
+      read_taps(evidence, strip, climbing, soundness);
+      below_comparison = larger_residual(below_comparison, climbing.below_comparison());
+      climbed.reductions.add(climbing.reductions());
+      if (each_strip) each_strip(evidence, strip);
+      continue;
+    }
     Climb climbing(evidence, strip, climbed.ladder);
     if (climbed.counts) {
       BiasCounts::Adding counting(*climbed.counts, evidence, shown.stored);
@@ -233,6 +275,10 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   }
   keep_small_index(renderer, technique.frame);
   climbed.soundness = soundness.metrics();
+  if (technique.moments) {
+    climbed.soundness.merge(moment_contract_metrics(shown.moments));
+    climbed.soundness["below_comparison"] = below_comparison;
+  }
   return climbed;
 }
 

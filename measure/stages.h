@@ -21,9 +21,11 @@
 #include <string>
 #include <vector>
 
+#include "compare/judge/moment_contract.h"
 #include "compare/judge/soundness.h"
 #include "compare/ladder/bias_curves.h"
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/reduction_window.h"
 #include "gl/renderer.h"
 #include "measure/memory_estimate.h"
 #include "raytrace/tracer.h"
@@ -77,12 +79,14 @@ struct ShownStage {
   Image<float> r5, r4, tie_lookup;
   MapDepths stored;  // the drawn map as the lookup's sampler returns it
   MapDepths ties;
+  MomentContractCounts moments{};  // of a lookup in a map of moments, which has no tie map
 };
 
 // The same in all maps of a point, each kind of them looked up in one pass.
 struct ShownMaps {
   MapResults r5, r4, tie_lookup;
   std::vector<MapDepths> stored, ties;  // of each map
+  std::vector<MomentContractCounts> moments;
 
   // What is shown in one of them, whose depths it takes. chosen: null with one map.
   ShownStage take(const ChosenCascades* chosen, size_t map);
@@ -99,6 +103,7 @@ struct Climbed {
   std::map<std::string, double> soundness;  // compare/judge/soundness.h
   std::optional<BiasCounts> counts;         // if a part is varied
   TruthAnswers tap_answers{};
+  ReductionWindow reductions{};  // of a lookup in a map of moments
 };
 
 using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
@@ -138,9 +143,10 @@ class Pipeline {
   // One lookup of all receivers, in all maps. show_maps() calls it for the drawn, the exact and the tie maps.
   virtual MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques);
   // map: has its maps; afterwards they and the exact maps on the device are kept only if they are small. exact_map: those of
-  // an earlier call for the same lookups, or none.
+  // an earlier call for the same lookups, or none. chosen: null with one map.
   ShownMaps show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
-                      std::span<const AskedMap> asked, std::span<const Technique> techniques);
+                      std::span<const AskedMap> asked, std::span<const Technique> techniques,
+                      const ChosenCascades* chosen);
   // The same of one map, whose exact map is not kept.
   ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
                   const Technique& technique);

@@ -156,10 +156,10 @@ struct Workbench::Impl {
   // The truth of the receivers of this map: of a cascade those that it has a part in, and those of the seam before it.
   const TruthStage& truth_of(const Asked& asked, const Looked& looked, MapStages& kept, const Technique& technique);
 
-  // The lookups of all maps, and what OpenGL shows in them. truths: of each map.
+  // The lookups of all maps, and what OpenGL shows in them. truths: of each map. of_receivers: null with one map.
   ShownMaps show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
                       std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
-                      MetricSet metrics);
+                      const ChosenCascades* of_receivers, MetricSet metrics);
 
   // Frees the receivers of a large picture on the device; see() brings them back.
   void free_large_picture(const ReceiverImage& receivers) {

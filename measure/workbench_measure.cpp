@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "compare/judge/poor_view.h"
 #include "compare/ladder/join_cascades.h"
@@ -105,7 +106,7 @@ PointRecord record_of(const Recorded& in) {
 std::map<std::string, double> laws_of(const Technique& technique, const Ladder& ladder, const SceneStage& loaded,
                                       const ViewStage& view, const LookupStage& lookup) {
   return measure_laws({ladder, *loaded.scene, view.receivers, view.camera, technique.frame,
-                       technique.settings.map.format, lookup.probe});
+                       technique.settings.map.format, lookup.probe, technique.moments.has_value()});
 }
 
 // Of the receivers of one cascade, in the ladder of the whole point. It hides the others for that time.
@@ -225,7 +226,7 @@ const ChoiceStage& Workbench::Impl::choose(const Asked& asked, const ViewStage& 
 
 ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
                                      std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
-                                     MetricSet metrics) {
+                                     const ChosenCascades* of_receivers, MetricSet metrics) {
   const SceneStage& loaded = asked.loaded;
   if (!kept.exact.has(asked.keys.lookup)) kept.exact.forget();
   std::vector<AskedMap> of_each;
@@ -241,7 +242,7 @@ ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, 
   // A search does not read it, and it costs a pass over the map.
   if (metrics == MetricSet::all && !map.used) map.used = renderer.used_texels(*map.map);
   std::optional<gl::ShadowMap>& exact = kept.exact.get(asked.keys.lookup, [] { return std::nullopt; });
-  return stages->show_maps(renderer, map, exact, of_each, techniques);
+  return stages->show_maps(renderer, map, exact, of_each, techniques, of_receivers);
 }
 
 // OpenGL renders the worst placement of a map too: the counts are compared with it, and what it shows there is a metric of
@@ -352,7 +353,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     scaled.push_back({techniques[k].frame, truths[k]->receivers});
   }
 
-  const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
+  const BiasPart* const varied = curve_options ? curve_part(settings) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
   // Only for a curve that is not known yet.
@@ -366,12 +367,13 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     return [&stage = *placements[k]](const LookupEvidence& evidence, PixelRange strip) { stage.add(evidence, strip); };
   };
   b.see(asked);
-  ShownMaps shown = b.show_maps(asked, view, kept, truths, techniques, metrics);
+  const ChosenCascades* const of_receivers = cascaded ? &choice->chosen : nullptr;
+  ShownMaps shown = b.show_maps(asked, view, kept, truths, techniques, of_receivers, metrics);
   std::vector<OneMap> maps;
   for (size_t k = 0; k < techniques.size(); ++k) {
     LookupStage& lookup = *kept.each[k].lookup.value();
     // What is not needed again is freed before the point's numbers are computed, because it is large.
-    ShownStage one = shown.take(cascaded ? &choice->chosen : nullptr, k);
+    ShownStage one = shown.take(of_receivers, k);
     if (k + 1 == techniques.size()) shown = {};
     Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, *truths[k], one, techniques[k], unknown,
                                              settings.map.placements > 1 ? with_placements(lookup) : EachStrip());
@@ -426,6 +428,13 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   }
   m.record.metrics.merge(laws);
   m.record.metrics.merge(soundness);
+  // In a blend band a result is a mix of two lookups, which another reduction would change both.
+  if (technique.moments && curve_options && settings.lookup["reduction_span"] == 0 && !m.cascades.blends()) {
+    ReductionWindow reductions;
+    for (OneMap& map : maps) reductions.add(std::exchange(map.climbed.reductions, {}));
+    m.record.metrics.merge(
+        reduction_metrics(reductions, curve_options->peter_panning_bound, curve_options->acne_bound));
+  }
   add_maps(m.record, maps, *kept.drawn.value(), truth, metrics);
   m.record.cascades = std::move(cascades);
   if (varied && !nothing_judged(m.record)) {

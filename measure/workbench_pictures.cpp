@@ -44,7 +44,7 @@ struct Workbench::Impl::SmallPicture {
 // One attempt at a live picture, of the picture's size in the settings.
 LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings& settings) {
   SmallPicture small(*this, loaded, settings);
-  const BiasPart& varied = *curve_part(settings.bias);
+  const BiasPart& varied = *curve_part(settings);
   LivePicture picture = empty_live_picture(small.seen.receivers.width(), small.seen.receivers.height());
   picture.taps = small.techniques.front().taps.taps;
   picture.parameter = "bias." + std::string(varied.name);
@@ -88,13 +88,14 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
     const std::vector<Technique> techniques = cascades_of(*loaded.scene, at);
     std::vector<const TruthStage*> truths;
     for (const TruthStage& truth : small.truths) truths.push_back(&truth);
-    ShownMaps shown =
-        show_maps({loaded, techniques.front(), keys}, small.seen, kept, truths, techniques, MetricSet::searched);
+    const ChosenCascades* const of_receivers = small.chosen ? &*small.chosen : nullptr;
+    ShownMaps shown = show_maps({loaded, techniques.front(), keys}, small.seen, kept, truths, techniques, of_receivers,
+                                MetricSet::searched);
     std::optional<Ladder> ladder;
     for (size_t k = 0; k < techniques.size(); ++k) {
       const TruthStage& truth = small.truths[k];
       LookupStage& asked = *kept.each[k].lookup.value();
-      const ShownStage one = shown.take(small.chosen ? &*small.chosen : nullptr, k);
+      const ShownStage one = shown.take(of_receivers, k);
       Climbed climbed = stages->climb_strips(renderer, asked, small.seen, truth, one, techniques[k], nullptr);
       if (!stack) stack = empty_picture_stack(small.seen.receivers, small.all.receivers, asked.probe);
       if (ladder)

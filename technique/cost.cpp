@@ -2,6 +2,7 @@
 
 #include "technique/bias.h"
 #include "technique/filters.h"
+#include "technique/lookups.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -65,16 +66,37 @@ int weight_operations(const Filter& filter, int size) {
   return counter.operations;
 }
 
+// Of a lookup in a map of moments: the formula, and light-bleed reduction where there is one.
+int moment_operations(const LookupKind& kind, const LookupSettings& settings) {
+  Counter counter;
+  const auto number = [&] { return counter.number(); };
+  const in_counts::LookupParameters parameters{number(), number(), number(), number(), number(), 0};
+  Counted lit = kind.moments->counted_lit({number(), number(), number(), number()}, number(), parameters);
+  if (settings["reduction"] != 0 || settings["reduction_span"] != 0)
+    lit = clamp((lit - number()) * number(), Counted(0.0), Counted(1.0));
+  return counter.operations;
+}
+
+int bytes_of_moments(const Settings& settings) {
+  const int each = settings.map.moments == MomentFormat::f32 ? 4 : 2;
+  return each * find_lookup(settings.lookup.kind).channels;
+}
+
 }  // namespace
 
 LookupCost lookup_cost(const Settings& settings) {
   const Filter& filter = find_filter(settings.filter.kind);
-  const TapPattern pattern = tap_pattern(settings.filter);
+  const TapPattern pattern = tap_pattern(settings);
   const Bias bias(settings.bias);
   const int fetches = pattern.fetches();
   LookupCost cost{fetches, pattern.bilinear() ? 4 * fetches : fetches, 0};
   cost.operations = compared_operations(bias) + moving_operations(bias);
   const int subtractions = bias.compared().empty() ? 0 : 1;
+  if (const LookupKind& kind = find_lookup(settings.lookup.kind); kind.reads_moments()) {
+    cost.fetches = 1, cost.texels = 4;
+    cost.operations += subtractions + moment_operations(kind, settings.lookup);
+    return cost;
+  }
   if (pattern.bilinear()) {
     // One biased depth for all fetches; the sampler compares. The product and the sum of each fetch, and of weights that
     // the shader makes itself also their sum and the division by it.
@@ -99,6 +121,16 @@ FrameCost frame_cost(const Settings& settings, int tiles, int64_t map_texels, in
   cost.lookup = lookup_cost(settings);
   cost.texel_work = cost.map_texels + receivers * cost.lookup.fetches;
   cost.traffic_bytes = cost.map_bytes + receivers * cost.lookup.texels * texel;
+  if (!reads_moments(settings)) return cost;
+  // A pass that stores moments reads each texel once, and each of two passes of the blur reads as many as the kernel has.
+  // All three write each texel. The passes come and go between two textures.
+  const int64_t moments = bytes_of_moments(settings);
+  const auto width = static_cast<int64_t>(tap_pattern(settings).kernel.size());
+  cost.pass_fetches = map_texels * (1 + 2 * width);
+  cost.texel_work += 3 * map_texels + cost.pass_fetches;
+  cost.map_bytes += 2 * map_texels * moments;
+  cost.traffic_bytes =
+      map_texels * (2 * texel + 3 * moments + 2 * width * moments) + receivers * cost.lookup.texels * moments;
   return cost;
 }
 

@@ -181,6 +181,13 @@ struct TapTruth {
   }
 };
 
+// What OpenGL made of a map for a lookup that reads moments: each stage from the one before it.
+struct MomentEvidence {
+  // Of each texel, by TexelSet::index: what it stores, blurred along u, and along v too.
+  std::vector<glm::vec4> stored, blurred_along_u, blurred;
+  Image<glm::vec4> fetched;  // by the lookup of each receiver
+};
+
 // The true visibility of each receiver, without a filter and without a map. All points of a sweep that have the same
 // view and light use the same ReceiverTruth.
 struct ReceiverTruth {

@@ -35,13 +35,13 @@ namespace {
 
 // The parameters.
 
-constexpr FilterParameter size{.setting = "filter.size",
-                               .unit = "taps",
-                               .type = ValueType::integer,
-                               .min = 1,
-                               .max = 31,
-                               .initial = 3,
-                               .help = "taps along each side; an odd number."};
+constexpr KindParameter size{.setting = "filter.size",
+                             .unit = "taps",
+                             .type = ValueType::integer,
+                             .min = 1,
+                             .max = 31,
+                             .initial = 3,
+                             .help = "taps along each side; an odd number."};
 
 std::string even_size(const FilterSettings& s) {
   if (s.whole("size") % 2 != 0) return "";
@@ -57,36 +57,36 @@ std::string not_3_5_7(const FilterSettings& s) {
   return fmt::format("filter.size = {}: the filter {} has a size of 3, 5, 7", s["size"], s.kind);
 }
 
-constexpr FilterParameter step_texels{.setting = "filter.step_texels",
-                                      .unit = "texels",
-                                      .max = 64,
-                                      .initial = 1,
-                                      .help = "distance from one tap to the next."};
+constexpr KindParameter step_texels{.setting = "filter.step_texels",
+                                    .unit = "texels",
+                                    .max = 64,
+                                    .initial = 1,
+                                    .help = "distance from one tap to the next."};
 
-constexpr FilterParameter sigma_texels{.setting = "filter.sigma_texels",
-                                       .unit = "texels",
-                                       .min = 0.1,
-                                       .max = 64,
-                                       .initial = 1,
-                                       .help = "standard deviation of the weights."};
+constexpr KindParameter sigma_texels{.setting = "filter.sigma_texels",
+                                     .unit = "texels",
+                                     .min = 0.1,
+                                     .max = 64,
+                                     .initial = 1,
+                                     .help = "standard deviation of the weights."};
 
-constexpr FilterParameter radius_texels{
+constexpr KindParameter radius_texels{
     .setting = "filter.radius_texels", .unit = "texels", .max = 256, .initial = 2, .help = "radius of the disk."};
 
-constexpr FilterParameter rotate{.setting = "filter.rotate",
-                                 .unit = "",
-                                 .type = ValueType::flag,
-                                 .help = "the disk is rotated by a different angle at each pixel."};
+constexpr KindParameter rotate{.setting = "filter.rotate",
+                               .unit = "",
+                               .type = ValueType::flag,
+                               .help = "the disk is rotated by a different angle at each pixel."};
 
-constexpr FilterParameter number_of_taps{.setting = "filter.taps",
-                                         .unit = "taps",
-                                         .type = ValueType::integer,
-                                         .min = 1,
-                                         .max = 64,
-                                         .initial = 16,
-                                         .help = "number of taps."};
+constexpr KindParameter number_of_taps{.setting = "filter.taps",
+                                       .unit = "taps",
+                                       .type = ValueType::integer,
+                                       .min = 1,
+                                       .max = 64,
+                                       .initial = 16,
+                                       .help = "number of taps."};
 
-constexpr FilterParameter offset_m{
+constexpr KindParameter offset_m{
     .setting = "filter.offset_m",
     .unit = "m",
     .max = 1e3,
@@ -94,7 +94,7 @@ constexpr FilterParameter offset_m{
     .help = "the taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world."};
 
 constexpr std::string_view disks[] = {"fixed", "view_distance"};
-constexpr FilterParameter disk{
+constexpr KindParameter disk{
     .setting = "filter.disk",
     .unit = "",
     .type = ValueType::choice,
@@ -102,11 +102,11 @@ constexpr FilterParameter disk{
         "radius of the disk. fixed: filter.radius_m; view_distance: (1 + distance to the camera / far) / 25 metres.",
     .choices = disks};
 
-constexpr FilterParameter radius_m{.setting = "filter.radius_m",
-                                   .unit = "m",
-                                   .max = 1e3,
-                                   .initial = 0.05,
-                                   .help = "factor of the 20 directions (1,1,1), (1,1,0) and so on."};
+constexpr KindParameter radius_m{.setting = "filter.radius_m",
+                                 .unit = "m",
+                                 .max = 1e3,
+                                 .initial = 0.05,
+                                 .help = "factor of the 20 directions (1,1,1), (1,1,0) and so on."};
 
 std::string disk_follows_view(const FilterSettings& s) {
   return disks[s.whole("disk")] == "view_distance" ? "with filter.disk = view_distance" : "";
@@ -127,13 +127,15 @@ std::vector<Filter> make_filters() {
        .law = "k = ½; aliasing w·(a/4 + b²/12a) for each metre of edge (law 5)",
        .map = FilterMap::any,
        .shader = "none",
-       .taps = none_taps},
+       .taps = none_taps,
+       .blur = [](const FilterSettings&) { return equal_weights(1); }},
       {.name = "box",
        .help = "mean of N x N nearest taps",
        .law = "k = r·step + ½; blur Σ wᵢ·|oᵢ·n| (law 7)",
        .shader = "box",
        .taps = box_taps,
-       .reads = {{&size, even_size}, {&step_texels}}},
+       .reads = {{&size, even_size}, {&step_texels}},
+       .blur = [](const FilterSettings& s) { return equal_weights(s.whole("size")); }},
       {.name = "hardware",
        .help = "one linear fetch of a comparison sampler (2 x 2 texels)",
        .law = "k = 1; half of the blur of 3 × 3",
@@ -146,7 +148,8 @@ std::vector<Filter> make_filters() {
        .shader = "bilinear",
        .taps = gaussian_taps,
        .reads = {{&size, even_size}, {&sigma_texels}},
-       .blended = true},
+       .blended = true,
+       .blur = [](const FilterSettings& s) { return gaussian_weights(s.whole("size"), s["sigma_texels"]); }},
       {.name = "poisson",
        .help = "mean of 16 nearest taps in a disk",
        .law = "k from the tap furthest up the slope",
@@ -194,47 +197,11 @@ std::vector<Filter> make_filters() {
   };
 }
 
-std::vector<const FilterParameter*> make_filter_parameters() {
-  std::vector<const FilterParameter*> all;
-  for (const Filter& filter : filters())
-    for (const FilterRead& read : filter.reads)
-      if (std::find(all.begin(), all.end(), read.parameter) == all.end()) all.push_back(read.parameter);
-  return all;
-}
-
-size_t parameter_index(std::string_view name) {
-  const std::span<const FilterParameter* const> all = filter_parameters();
-  for (size_t i = 0; i < all.size(); ++i)
-    if (all[i]->name() == name) return i;
-  throw std::logic_error("no filter has a parameter '" + std::string(name) + "'");
-}
-
 }  // namespace
 
-const FilterRead* Filter::read(const FilterParameter& parameter) const {
-  for (const FilterRead& read : reads)
-    if (read.parameter == &parameter) return &read;
-  return nullptr;
-}
-
-std::span<const FilterParameter* const> filter_parameters() {
-  static const std::vector<const FilterParameter*> all = make_filter_parameters();
+std::span<const KindParameter* const> FilterTable::parameters() {
+  static const std::vector<const KindParameter*> all = parameters_of(filters());
   return all;
-}
-
-FilterSettings::FilterSettings(std::string kind_name,
-                               std::initializer_list<std::pair<std::string_view, double>> parameters)
-    : kind(std::move(kind_name)) {
-  for (const auto& [name, value] : parameters) (*this)[name] = value;
-}
-
-double& FilterSettings::operator[](std::string_view parameter) { return values_[parameter_index(parameter)]; }
-double FilterSettings::operator[](std::string_view parameter) const { return values_[parameter_index(parameter)]; }
-
-std::vector<double> FilterSettings::defaults() {
-  std::vector<double> values;
-  for (const FilterParameter* parameter : filter_parameters()) values.push_back(parameter->initial);
-  return values;
 }
 
 std::span<const Filter> filters() {

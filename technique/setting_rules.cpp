@@ -10,6 +10,7 @@
 #include "technique/bias.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace setting_rules {
@@ -119,7 +120,7 @@ std::string without_size_of_light(const Settings& s, LightKind kind) {
 // A part of the compared depth is in this unit, also the one that a curve would vary; and so is the cap.
 std::string without_part_in_unit(const Settings& s, LightKind) {
   const bool capped = s.bias.plane_cap && tap_reference(s.bias.reference).reads_cap;
-  return capped || curve_part(s.bias) ? "" : "without a part of the bias in that unit";
+  return capped || curve_part(s) ? "" : "without a part of the bias in that unit";
 }
 std::string without_capped_plane(const Settings& s, LightKind) {
   return tap_reference(s.bias.reference).reads_cap ? "" : "with bias.reference = " + s.bias.reference;
@@ -156,6 +157,9 @@ std::string without_slice_fit(const Settings& s, LightKind) {
 std::string without_reach(const Settings& s, LightKind light) {
   return s.cascades.count > 1 ? "" : without_slice_fit(s, light);
 }
+std::string without_moments(const Settings& s, LightKind) {
+  return reads_moments(s) ? "" : "with lookup.kind = " + s.lookup.kind;
+}
 std::string without_motion(const Settings& s, LightKind) { return s.view.motion.any() ? "" : "without a motion"; }
 std::string without_turning_light(const Settings& s, LightKind) {
   return s.view.motion.light_turn_deg ? "" : "without motion.light_turn_deg";
@@ -171,6 +175,58 @@ std::string with_name_of_light(const Settings& s, LightKind) {
 
 std::string no_direction_up(const Settings& s, std::optional<LightKind>) {
   return s.view.up && *s.view.up == glm::dvec3(0) ? "view.up = 0,0,0 is no direction; give another, or auto" : "";
+}
+
+// What a map of moments cannot be combined with.
+std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> light) {
+  if (!reads_moments(s)) return "";
+  const std::string& kind = s.lookup.kind;
+  if (light && kind_of_light(*light).map_shape() == MapShape::cube)
+    return fmt::format("lookup.kind = {} needs a flat map; a point light's cube map has lookup.kind = compare", kind);
+  if (!find_filter(s.filter.kind).blur)
+    return fmt::format(
+        "lookup.kind = {} reads a map that is blurred before the lookup, and filter.kind = {} is no blur; "
+        "take filter.kind {}",
+        kind, s.filter.kind, filters_that([](const Filter& f) { return f.blur != nullptr; }));
+  if (s.filter.kind == "box" && s.filter["step_texels"] != 1)
+    return fmt::format("lookup.kind = {} blurs neighbouring texels; set filter.step_texels = 1", kind);
+  if (tap_reference(s.bias.reference).plane)
+    return fmt::format(
+        "bias.reference = {} gives each tap a depth of its own, and lookup.kind = {} has one for all; set "
+        "bias.reference = own_depth",
+        s.bias.reference, kind);
+  for (const BiasPart& part : bias_parts())
+    if (part.acts_on == BiasTarget::caster && s.bias[part.name] != 0)
+      return fmt::format(
+          "bias.{} moves the casters in the map, and what a map of moments shows with it is not measured yet; "
+          "set it to 0 and give the receiver a bias (bias.constant, bias.slope)",
+          part.name);
+  if (s.map.placements > 1)
+    return fmt::format(
+        "map.placements = {}: other placements of the texel grid are not measured yet with lookup.kind = {}; "
+        "set map.placements = 1",
+        s.map.placements, kind);
+  return "";
+}
+
+std::string moments_beyond_format(const Settings& s, std::optional<LightKind>) {
+  const LookupKind& kind = find_lookup(s.lookup.kind);
+  if (!kind.reads_moments()) return "";
+  if (s.map.moments == MomentFormat::u16 && !(kind.within_one && kind.within_one(s.lookup)))
+    return fmt::format(
+        "map.moments = 16 holds numbers from 0 to 1, and lookup.kind = {} stores others{}; set 16f or 32f", kind.name,
+        kind.within_one ? " with lookup.moments = plain" : "");
+  // The largest number that is stored: e^c of a depth of 1, or the square e^(2 c).
+  if (s.map.moments != MomentFormat::f16 || kind.warp_power == 0) return "";
+  const double largest_half = 65504, most = std::log(largest_half) / kind.warp_power;
+  for (const char* parameter : {"exponent", "negative_exponent"})
+    for (const auto& read : kind.reads)
+      if (read.parameter->name() == parameter && s.lookup[parameter] > most)
+        return fmt::format(
+            "lookup.{} = {}: with map.moments = 16f numbers go up to {}, so it goes up to {:.4g}; lower it, or "
+            "set map.moments = 32f",
+            parameter, s.lookup[parameter], largest_half, most);
+  return "";
 }
 
 std::string filter_of_another_map(const Settings& s, std::optional<LightKind> light) {
@@ -249,6 +305,14 @@ void validate(const Settings& settings, std::optional<LightKind> light) {
   for (const Setting& row : settings_table())
     if (row.why_refused)
       if (const std::string why = row.why_refused(settings, light); !why.empty()) throw SettingConflict(row.name, why);
+}
+
+void require_compared(const Settings& settings, std::string_view who) {
+  if (reads_moments(settings))
+    throw SettingConflict("lookup.kind",
+                          fmt::format("{} is of a lookup that compares depths, and lookup.kind = {}; set "
+                                      "lookup.kind = compare",
+                                      who, settings.lookup.kind));
 }
 
 void require_one_map(const Settings& settings, std::string_view who) {

@@ -37,6 +37,9 @@ void validate(const Settings& settings, std::optional<LightKind> light = std::nu
 // Throws SettingConflict if the settings have several cascades. who: what is made for one map, "a phase diagram".
 void require_one_map(const Settings& settings, std::string_view who);
 
+// Throws SettingConflict if the settings' lookup reads moments. who: what is made for one that compares, "a phase diagram".
+void require_compared(const Settings& settings, std::string_view who);
+
 struct IdleSetting {
   std::string name;  // "map.extent_m"
   std::string why;   // "on a point light"
@@ -70,6 +73,7 @@ std::string without_part_in_unit(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
 std::string without_slice_fit(const Settings&, LightKind);
 std::string without_reach(const Settings&, LightKind);  // of the map: not fitted to a slice of the view, nor cascades
+std::string without_moments(const Settings&, LightKind);
 std::string without_motion(const Settings&, LightKind);
 std::string without_turning_light(const Settings&, LightKind);
 std::string without_moving_light(const Settings& s, LightKind light);
@@ -85,6 +89,8 @@ std::string sun_of_elevation(const Settings&, std::optional<LightKind>);
 std::string casters_without_lit_border(const Settings&, std::optional<LightKind>);
 std::string moved_fit_without_parallel_rays(const Settings&, std::optional<LightKind>);
 std::string no_direction_up(const Settings&, std::optional<LightKind>);
+std::string moments_without_a_blur(const Settings&, std::optional<LightKind>);
+std::string moments_beyond_format(const Settings&, std::optional<LightKind>);
 std::string filter_of_another_map(const Settings&, std::optional<LightKind>);
 std::string plane_on_cube_or_blended(const Settings&, std::optional<LightKind>);
 std::string cube_shifted_along_u(const Settings&, std::optional<LightKind>);

@@ -12,6 +12,7 @@
 #include "technique/corner_fits.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
+#include "technique/lookups.h"
 #include "technique/placements.h"
 #include "technique/setting_rows.h"
 #include "technique/setting_rules.h"
@@ -89,13 +90,15 @@ Setting bias_row(const BiasParameter& parameter) {
   return row;
 }
 
-// The row of one parameter of the filters. It is idle with a filter that does not read it.
-Setting filter_row(const FilterParameter& parameter) {
+// The row of one parameter of a table of kinds, such as the filters. It is idle with a kind that does not read it. member:
+// Settings& -> the settings of the table's group.
+template <class Rows, class Member>
+Setting kind_row(const Rows& rows, const KindParameter& parameter, Member of) {
   std::vector<std::string_view> readers;
-  for (const Filter& filter : filters())
-    if (filter.read(parameter)) readers.push_back(filter.name);
+  for (const auto& row : rows)
+    if (find_read(row, parameter)) readers.push_back(row.name);
   const std::string help = fmt::format("{}: {}", fmt::join(readers, ", "), parameter.help);
-  const auto member = [&parameter](Settings& s) -> double& { return s.filter[parameter.name()]; };
+  const auto member = [&parameter, of](Settings& s) -> double& { return of(s)[parameter.name()]; };
   const auto bare = [&] {
     switch (parameter.type) {
       case ValueType::integer:
@@ -107,18 +110,24 @@ Setting filter_row(const FilterParameter& parameter) {
       case ValueType::choice:
         return choice(parameter.setting, {parameter.choices.begin(), parameter.choices.end()}, help, member);
       default:
-        throw std::logic_error("a parameter of a filter that is no number, flag or choice");
+        throw std::logic_error("a parameter of a kind that is no number, flag or choice");
     }
   };
+  const auto read_by = [rows, &parameter, of](const Settings& s) {
+    const auto& values = of(const_cast<Settings&>(s));
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one.name == values.kind; });
+    return std::pair(row == rows.end() ? nullptr : find_read(*row, parameter), &values);
+  };
+  const std::string kind = std::string(parameter.setting.substr(0, parameter.setting.find('.'))) + ".kind";
   return bare()
-      .idle([&parameter](const Settings& s, LightKind) {
-        const FilterRead* read = find_filter(s.filter.kind).read(parameter);
-        if (!read) return "with filter.kind = " + s.filter.kind;
-        return read->why_idle ? read->why_idle(s.filter) : "";
+      .idle([read_by, kind](const Settings& s, LightKind) {
+        const auto [read, values] = read_by(s);
+        if (!read) return fmt::format("with {} = {}", kind, values->kind);
+        return read->why_idle ? read->why_idle(*values) : "";
       })
-      .refused([&parameter](const Settings& s, std::optional<LightKind>) {
-        const FilterRead* read = find_filter(s.filter.kind).read(parameter);
-        return read && read->why_refused ? read->why_refused(s.filter) : "";
+      .refused([read_by](const Settings& s, std::optional<LightKind>) {
+        const auto [read, values] = read_by(s);
+        return read && read->why_refused ? read->why_refused(*values) : "";
       });
 }
 
@@ -129,7 +138,7 @@ Stages stages_of_group(std::string_view group) {
   if (group == "motion") return {Stage::view, Stage::truth, Stage::map, Stage::lookup};
   if (group == "light") return {Stage::truth, Stage::map, Stage::lookup};
   if (group == "map" || group == "cascades") return {Stage::map, Stage::lookup};
-  if (group == "bias" || group == "filter") return {Stage::lookup};
+  if (group == "bias" || group == "filter" || group == "lookup") return {Stage::lookup};
   if (group == "truth") return {Stage::truth};
   if (group == "given") return {Stage::scene};  // another frame is another scene (app/sweep/frame_run.h)
   throw std::logic_error("no stage reads the group of settings '" + std::string(group) + "'");
@@ -389,6 +398,12 @@ std::vector<Setting> make_table() {
            "through the plane gets other depths. Implies map.depth_clamp.",
            MEMBER(map.pancake))
           .refused(pancaked_perspective),
+      choice("map.moments", {"32f", "16f", "16"},
+             "Format of each number of a map of moments: floats of 32 or 16 bits, or integers of 16 bits for 0 to 1.",
+             MEMBER(map.moments))
+          .idle(without_moments)
+          .refused(moments_beyond_format)
+          .only_read_by({Stage::ladder}),
       choice("map.cube_pass", {"layered", "six_passes"},
              "point: all six faces in one pass through a geometry shader, or one pass for each face. The map is the "
              "same; the time differs.",
@@ -410,6 +425,8 @@ std::vector<Setting> make_table() {
           .idle(without_capped_plane),
       named("filter.kind", "The filter: where the lookup reads the map.", filters(), MEMBER(filter.kind))
           .refused(filter_of_another_map),
+      named("lookup.kind", "How the lookup answers from what it reads in the map.", lookups(), MEMBER(lookup.kind))
+          .refused(moments_without_a_blur),
       real("truth.standard_error", "", 1e-3, 0.5,
            "Largest standard error of R0 at a receiver, for a light with a size. A smaller value takes more rays.",
            MEMBER(truth.standard_error))
@@ -433,7 +450,12 @@ std::vector<Setting> make_table() {
   const std::vector<Setting> motion = motion_rows();
   table.insert(std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "light.name"; }),
                motion.begin(), motion.end());
-  after("filter.kind", filter_parameters(), [](const FilterParameter* parameter) { return filter_row(*parameter); });
+  after("filter.kind", FilterTable::parameters(),
+        [](const KindParameter* parameter) { return kind_row(filters(), *parameter, MEMBER(filter)); });
+  after("lookup.kind", LookupTable::parameters(), [](const KindParameter* parameter) {
+    // What the taps read does not depend on it.
+    return kind_row(lookups(), *parameter, MEMBER(lookup)).only_read_by({Stage::ladder});
+  });
   const std::vector<Setting> cascades = cascade_rows();
   table.insert(std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.unit"; }),
                cascades.begin(), cascades.end());

@@ -25,10 +25,13 @@
 
 #include "scenes/scene_settings.h"
 #include "technique/bias_parts.h"
+#include "technique/kind_parameters.h"
 
 namespace noonmark {
 
 enum class DepthFormat { d16, d24, d32f };
+// The format of each number of a map of moments. f16 and f32 are floats, u16 is an integer of 16 bits for [0, 1].
+enum class MomentFormat { f32, f16, u16 };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
 enum class MapFit { scene, tight, view, sphere, casters, corner_sphere, corner_square, corner_box };
@@ -87,7 +90,8 @@ struct MapSettings {
   bool lit_beyond_far = true;
   CulledFaces cull = CulledFaces::none;
   bool depth_clamp = false;  // geometry before near or beyond far is kept, at depth 0 or 1, instead of clipped
-  bool pancake = false;      // directional: vertices before the near plane are moved onto it; depths are clamped too
+  MomentFormat moments = MomentFormat::f32;  // of a lookup in a map of moments
+  bool pancake = false;  // directional: vertices before the near plane are moved onto it; depths are clamped too
   CubePass cube_pass = CubePass::layered;  // point: the method to draw the six faces; the map is the same
   std::optional<glm::dvec3> turn_deg;      // point: rotates the cube; axis times angle; empty: along the world's axes
 
@@ -135,25 +139,22 @@ struct BiasSettings {
   std::vector<double> values_ = no_bias();  // in the order of bias_parameters()
 };
 
-struct FilterSettings {
-  FilterSettings() = default;
-  // FilterSettings("box", {{"size", 5}})
-  FilterSettings(std::string kind_name, std::initializer_list<std::pair<std::string_view, double>> parameters);
+// Of one of filters() (technique/filters.h).
+struct FilterTable {
+  static constexpr std::string_view first = "none";
+  static std::span<const KindParameter* const> parameters();
+};
+struct FilterSettings : KindSettings<FilterTable> {
+  using KindSettings::KindSettings;
+};
 
-  std::string kind = "none";  // the name of one of filters()
-
-  // A parameter of a filter by its name without the group: "size" is filter.size. A flag is 0 or 1; a choice is the
-  // index of its value. Throws std::logic_error if no filter has such a parameter.
-  double& operator[](std::string_view parameter);
-  double operator[](std::string_view parameter) const;
-  int whole(std::string_view parameter) const { return static_cast<int>((*this)[parameter]); }
-
-  // The same kind, and the same value of each parameter, also of those that this kind does not read.
-  bool operator==(const FilterSettings&) const = default;
-
- private:
-  static std::vector<double> defaults();
-  std::vector<double> values_ = defaults();  // in the order of filter_parameters() (technique/filters.h)
+// Of one of lookups() (technique/lookups.h): how the lookup answers from what it reads.
+struct LookupTable {
+  static constexpr std::string_view first = "compare";
+  static std::span<const KindParameter* const> parameters();
+};
+struct LookupSettings : KindSettings<LookupTable> {
+  using KindSettings::KindSettings;
 };
 
 // Which frame of another renderer a point judges. Only [[frame]] of an experiment gives it.
@@ -180,6 +181,7 @@ struct Settings {
   CascadeSettings cascades;
   BiasSettings bias;
   FilterSettings filter;
+  LookupSettings lookup;
   TruthSettings truth;
   GivenSettings given;
 };
@@ -194,8 +196,6 @@ struct Stages {
   }
   constexpr bool has(Stage stage) const { return (bits & static_cast<uint8_t>(stage)) != 0; }
 };
-
-enum class ValueType { integer, real, flag, choice, text, point, list, whole_list, real_list };
 
 // One row of the table. A value is stored as text in one canonical form: "auto" for an empty optional or list, "x,y,z" for a
 // point, "5,15,50" for a list, the shortest decimal that reads back as the same double. So the same value always has the same key in the

@@ -51,6 +51,7 @@ struct TapPattern {
   double reach_texels() const;
 };
 
+// Of a lookup that compares depths. Of any lookup: tap_pattern(Settings) in technique/lookups.h.
 TapPattern tap_pattern(const FilterSettings& filter);
 
 // The variant of the pattern that a pixel uses, from its index (row 0 on top). The shader computes the same integers.

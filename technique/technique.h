@@ -10,6 +10,7 @@
 #include "technique/casters.h"
 #include "technique/filters.h"
 #include "technique/light_frame.h"
+#include "technique/moment_lookup.h"
 #include "technique/settings.h"
 #include "technique/tap_pattern.h"
 
@@ -48,6 +49,7 @@ struct Technique {
   Bias bias;             // with its reference of a tap
   const Filter* filter;  // the row of settings.filter.kind; never null
   TapPattern taps;
+  std::optional<MomentLookup> moments;  // of a lookup in a map of moments
   std::optional<CascadePlace> cascade;  // empty: the map is for all receivers
 };
 

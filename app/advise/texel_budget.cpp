@@ -94,6 +94,7 @@ class Divider {
   Settings measured(size_t light, int resolution) {
     Settings settings = lights_[light].second;
     require_one_map(settings, "a budget of texels");
+    require_compared(settings, "a budget of texels");
     settings.map.resolution = resolution;
     settings.map.placements = 1;
     say_(fmt::format("{}: a map of {} texels", lights_[light].first, resolution));

@@ -16,7 +16,7 @@ namespace noonmark {
 namespace {
 
 bool is_cause(std::string_view metric) {
-  for (int cause = 1; cause < cause_count; ++cause)
+  for (int cause = 1; cause < compared_cause_count; ++cause)
     if (metric == cause_name(static_cast<Cause>(cause))) return true;
   return false;
 }
@@ -31,7 +31,7 @@ void require_frame_metric(std::string_view metric) {
   std::vector<std::string_view> names = {"receivers", "facing", "counted", "ambiguous"};
   for (const Metric& row : metrics_table())
     if (row.of_frames) names.push_back(row.name);
-  for (int cause = 1; cause < cause_count; ++cause) names.push_back(cause_name(static_cast<Cause>(cause)));
+  for (int cause = 1; cause < compared_cause_count; ++cause) names.push_back(cause_name(static_cast<Cause>(cause)));
   if (std::find(names.begin(), names.end(), metric) != names.end()) return;
   find_metric(metric);  // an unknown name has its own message
   const std::string of_frame = fmt::format("frame_{}", metric);

@@ -215,6 +215,7 @@ std::string code(const Settings& settings) {
 
 std::string live_page(const Scene& scene, const Settings& settings, std::string_view version) {
   require_one_map(settings, "a live page");
+  require_compared(settings, "a live page");
   make_light_frame(scene, settings);  // throws what is wrong with the settings
   return report::fill_template(file("live.html"), [&](std::string_view name) -> std::string {
     if (name == "title") return report::Markup(printable(scene.name)).html();

@@ -43,8 +43,15 @@ Image<Color> shaded(const Measurement& m, const Image<float>& visibility) {
   });
 }
 
+// How strongly an error shows. A bound from moments is a little off nearly everywhere in a shadow: what is less than a step of
+// a picture is fainter. The arguments of std::min have this order so that NaN gets the full strength.
+float strength_of(float wrong, bool of_moments) {
+  constexpr float faint = 1.0f / 64;
+  return 0.25f * (of_moments ? std::min(1.0f, wrong / faint) : 1.0f) + 0.75f * std::min(1.0f, wrong);
+}
+
 // Each wrong pixel in the colour of its cause, over the grey of right pixels. The strength of the colour is the size of
-// the error. The arguments of std::min have this order so that NaN gets the full strength.
+// the error.
 Image<Color> classes(const Measurement& m) {
   return paint(m, [&](size_t i) {
     if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
@@ -54,9 +61,9 @@ Image<Color> classes(const Measurement& m) {
     const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.truth()[i] != 0 ? "lit" : "shadowed"));
     if (m.ladder.cause[i] == static_cast<uint8_t>(Cause::none)) return Color(right + 0.5f);
     const float wrong = std::abs(m.ladder.shown()[i] - m.ladder.truth()[i]);
-    return Color(
-        glm::mix(right, glm::vec3(color_of(m.ladder, m.ladder.cause[i])), 0.25f + 0.75f * std::min(1.0f, wrong)) +
-        0.5f);
+    return Color(glm::mix(right, glm::vec3(color_of(m.ladder, m.ladder.cause[i])),
+                          strength_of(wrong, m.technique.moments.has_value())) +
+                 0.5f);
   });
 }
 

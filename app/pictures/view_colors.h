@@ -20,8 +20,8 @@ inline Color named_color(std::string_view name) {
 
 // Of an index into ladder.causes.
 inline Color color_of(const Ladder& ladder, size_t cause) {
-  if (cause < cause_count) return named_color(ladder.causes[cause].name);
-  const auto [r, g, b] = ladder.brought[cause - cause_count].color;
+  if (cause < ladder.built_in()) return named_color(ladder.causes[cause].name);
+  const auto [r, g, b] = ladder.brought[cause - ladder.built_in()].color;
   return {r, g, b};
 }
 

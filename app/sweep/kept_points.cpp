@@ -26,7 +26,7 @@ std::string key_of(const std::map<std::string, std::string>& settings, const std
 
 // Whether the stored point has the curve that its part of the experiment asks for, or can have it without a measurement.
 bool has_asked_curve(const PointRecord& stored, const Experiment& part, const Settings& settings) {
-  const bool asked = part.curve_enabled && curve_part(settings.bias) && !nothing_judged(stored);
+  const bool asked = part.curve_enabled && curve_part(settings) && !nothing_judged(stored);
   if (stored.curve.has_value() != asked) return false;
   if (!asked) return true;
   const BiasCurve& curve = *stored.curve;

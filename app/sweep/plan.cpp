@@ -58,7 +58,7 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
   std::vector<int64_t> listed = wanted;
   if (!shard) std::sort(listed.begin(), listed.end());
   const auto taps = [](const Settings& s) {
-    return static_cast<double>(s.view.width_px) * s.view.height_px * tap_pattern(s.filter).taps;
+    return static_cast<double>(s.view.width_px) * s.view.height_px * tap_pattern(s).taps;
   };
   // Checks the same things as run, in the same order.
   require_room_to_start(writes_pictures(experiment));

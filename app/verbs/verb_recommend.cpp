@@ -255,6 +255,7 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
                          const std::function<void(const std::string&)>& say) {
   AdviceRequest request;
   request.conditions = conditions_of(experiment);
+  for (const Settings& condition : request.conditions) require_compared(condition, "a recommendation");
   const Settings first = request.conditions.front();
   const Scene& scene = bench.scene(first.scene);
   if (request.conditions.size() == 1 && options.views > 1) {

@@ -153,7 +153,8 @@ void print_ladder(const Measurement& m, const char* clock) {
   // Up to 1 the map is fine enough for the camera.
   for (const char* name : {"perspective_aliasing", "perspective_aliasing_p95"})
     if (!(value(name) <= 1)) fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), "texel widths for a pixel's");
-  for (const char* name : {"map_ms", "lookup_ms"}) {
+  for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
+    if (!m.record.metrics.contains(name)) continue;
     const MedianInterval time = interval_of(m.record, name);
     fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);
   }

@@ -18,6 +18,7 @@
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "measure/workbench.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -86,6 +87,7 @@ int draw_section(const SectionOptions& options) {
   require_new_file(options);
   const Experiment experiment = experiment_from(options.experiment, options.arguments);
   const Settings settings = the_point(experiment, options.point, "section");
+  require_compared(settings, "a section");
   if (!options.worst.empty()) (void)find_quantity(options.worst);
   require_room_to_start(false);
   Workbench bench(gl::DebugMode::log);
@@ -95,7 +97,7 @@ int draw_section(const SectionOptions& options) {
   const Measurement m = bench.measure(settings, std::nullopt, MetricSet::searched);
   const ChosenPixel pixel = chosen_pixel(options, m.record);
   ReceiverSection section = bench.sections(m, std::array{pixel.at}).front();
-  for (int cause = 1; cause < cause_count; ++cause)
+  for (int cause = 1; cause < compared_cause_count; ++cause)
     if (cause_name(static_cast<Cause>(cause)) == options.worst) explain(section, static_cast<Cause>(cause));
   const auto theme = static_cast<report::SectionTheme>(
       std::find(report::section_themes.begin(), report::section_themes.end(), options.theme) -

@@ -30,7 +30,8 @@ std::string why_no_flicker(const PointRecord& point) {
   constexpr const char *smaller_step =
                            "make the camera's step smaller (motion.move_m, motion.turn_deg, motion.zoom; "
                            "motion.time_s where a file's animation moves it)",
-                       *smaller_turn = "make the light's step smaller (motion.light_turn_deg, motion.light_move_m, motion.time_s)";
+                       *smaller_turn =
+                           "make the light's step smaller (motion.light_turn_deg, motion.light_move_m, motion.time_s)";
   const double outside = count_of(point, "flicker_outside"), hidden = count_of(point, "flicker_hidden"),
                unlit = count_of(point, "flicker_unlit"), judged = count_of(point, "counted"),
                changed = judged - outside - hidden - unlit;

@@ -40,7 +40,8 @@ struct SoundnessInput {
 // lookup:
 //   contract              share whose visibility at R4, at R5 or on the tie map is not, bit for bit, what the
 //                         technique's definition gives for the probe's numbers and that map's. If a sampler blends the
-//                         taps: is not within the sampler's rounding. Sound: 0.
+//                         taps: is not within the sampler's rounding. Sound: 0. Of a lookup in a map of moments it is
+//                         always 0 here: compare/judge/moment_contract.h has its own.
 //   rounding_excess       largest error of the probe's numbers against the frame in double, as a multiple of the
 //                         largest error of float arithmetic (compare/ladder/probe_errors.h). Sound: at most 1.
 //   address_error_texels  largest distance of the exact place where P (of a cube: each tap) is looked up from the texel
@@ -93,7 +94,18 @@ struct SoundLimit {
 };
 inline constexpr SoundLimit sound_limits[] = {
     // Steps are sums of floats in [0,1]. A dozen roundings of 2^-24 stay below this limit.
-    {"residual", 1e-6}, {"tap_residual", 1e-6}, {"contract", 0}, {"rounding_excess", 1}, {"cascade_choice_excess", 1}, {"placement_disagreements", 0},
+    {"residual", 1e-6},
+    {"tap_residual", 1e-6},
+    {"contract", 0},
+    {"rounding_excess", 1},
+    {"cascade_choice_excess", 1},
+    {"placement_disagreements", 0},
+    {"contract_store", 0},
+    {"contract_blur", 0},
+    {"contract_fetch", 0},
+    {"contract_lit", 0},
+    // Sums of doubles in [0, 1], over at most 1024 texels, and a formula that is exact but for 2^-64.
+    {"below_comparison", 1e-9},
 };
 
 // A number of a stored point that no sound program has. Points in which nothing faces the light have none.

@@ -99,7 +99,7 @@ class BiasCounts {
     softer,
     first_cause
   };
-  static constexpr size_t lists = first_cause + cause_count;
+  static constexpr size_t lists = first_cause + compared_cause_count;
   static List of_cause(Cause cause) { return static_cast<List>(first_cause + static_cast<size_t>(cause)); }
 
   // A receiver that two maps have a share in, as one of them counts it.

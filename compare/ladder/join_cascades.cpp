@@ -55,15 +55,18 @@ double median_of(Cascades cascades, const char* metric) {
 }  // namespace
 
 std::map<std::string, double> join_laws(Cascades cascades) {
+  // Of lookups in maps of moments there is no bias that law 1 requires.
+  const auto measured = [&](const char* metric) { return cascades.front().metrics.contains(metric); };
   std::map<std::string, double> joined{{"texel_m", median_of(cascades, "texel_m")}};
   for (const char* metric :
        {"map_range_m", "depth_quantum_m", "acne_free_bias_scene_law_depth", "acne_free_bias_scene_law_m"}) {
+    if (!measured(metric)) continue;
     double most = -infinity;
     for (const PointRecord::Cascade& cascade : cascades) raise(most, cascade.metrics.at(metric));
     joined[metric] = most;
   }
   for (const char* metric : {"acne_free_bias_law_depth", "acne_free_bias_law_m"})
-    joined[metric] = largest(cascades, metric, "counted");
+    if (measured(metric)) joined[metric] = largest(cascades, metric, "counted");
   for (const char* metric : {"counted_area_m2", "filter_area_m2", "displacement_area_m2", "aliasing_area_m2",
                              "acne_area_m2", "peter_panning_area_m2"})
     joined[metric] = sum_of(cascades, metric);
@@ -75,6 +78,8 @@ std::map<std::string, double> join_soundness(Cascades cascades) {
   for (const char* metric :
        {"rounding_excess", "address_error_texels", "reference_error_m", "map_error_quanta", "map_bits"})
     joined[metric] = largest(cascades, metric, "facing");
+  for (const char* metric : {"contract_store", "contract_blur", "contract_fetch", "contract_lit", "below_comparison"})
+    if (cascades.front().metrics.contains(metric)) joined[metric] = largest(cascades, metric, "facing");
   double facing = 0, broken = 0;
   for (const PointRecord::Cascade& cascade : cascades) {
     if (!(cascade.metrics.at("facing") > 0)) continue;
@@ -108,7 +113,10 @@ std::map<std::string, double> join_placements(Cascades cascades, std::span<const
 void keep_cascade_metrics(std::span<PointRecord::Cascade> cascades) {
   for (PointRecord::Cascade& cascade : cascades) {
     std::map<std::string, double> kept;
-    for (const char* metric : cascade_metrics) kept[metric] = cascade.metrics.at(metric);
+    for (const char* metric : cascade_metrics) {
+      const auto measured = cascade.metrics.find(metric);
+      kept[metric] = measured == cascade.metrics.end() ? not_a_number : measured->second;
+    }
     cascade.metrics = std::move(kept);
   }
 }

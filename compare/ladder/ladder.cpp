@@ -9,22 +9,18 @@
 #include "compare/results/quantities.h"
 
 namespace noonmark {
-namespace {
 
-// Like std::max, but it keeps a NaN: a residual that cannot be computed must not be taken for a residual of 0.
-double larger(double a, double b) {
+double larger_residual(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
 }
 
-// The cause that names a wrong pixel. Without a filter it is the cause of the step from which on the pixel stays wrong.
-// With a filter one pixel can have several causes, and the largest step gives the name.
 Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
   const float truth = ladder.truth()[i];
   if (ladder[Rung::shown][i] == truth) return Cause::none;
   if (!filtered && ladder[Rung::on_exact_map][i] == truth) return Cause::precision;
   Cause largest = Cause::none;
   float size = 0;
-  for (int c = static_cast<int>(Cause::filter); c < cause_count; ++c) {
+  for (size_t c = static_cast<size_t>(Cause::filter); c < ladder.built_in(); ++c) {
     const auto cause = static_cast<Cause>(c);
     if (!filtered && cause == Cause::precision) continue;
     if (std::abs(ladder[cause][i]) > size) {
@@ -35,12 +31,9 @@ Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
   return largest;
 }
 
-// Whether P itself lies inside the map. A cube map has no outside.
-bool inside(const LookupProbe& probe, size_t i, const MapDepths& map) {
+bool inside_of_map(const LookupProbe& probe, size_t i, const MapDepths& map) {
   return probe.cube_resolution > 0 || inside_map(LookupProbe::floored(probe.map_texels[i]), map.size());
 }
-
-}  // namespace
 
 void require_strip(const LookupEvidence& e, PixelRange strip) {
   if (e.taps.taps_per_receiver != e.probe.taps()) throw std::logic_error("the truth's taps are not the probe's");
@@ -53,11 +46,11 @@ Ladder climb(const LookupEvidence& e) {
   return ladder;
 }
 
-Ladder empty_ladder(int width, int height) {
+Ladder empty_ladder(int width, int height, int causes) {
   Ladder ladder;
   const Image<float> zero(width, height, 0);
   for (std::string_view name : rung_names) ladder.rungs.push_back({std::string(name), zero});
-  for (int c = 0; c < cause_count; ++c) ladder.causes.push_back({std::string(cause_name(static_cast<Cause>(c))), zero});
+  for (int c = 0; c < causes; ++c) ladder.causes.push_back({std::string(cause_name(static_cast<Cause>(c))), zero});
   ladder.cause = Image<uint8_t>(width, height, 0);
   ladder.flags = Image<uint8_t>(width, height, 0);
   ladder.doubt = Image<float>(width, height, 0);
@@ -115,7 +108,7 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
   Ladder& ladder = ladder_;
   const bool blended = e.probe.pattern.bilinear();
   const double whole = whole_weight(e.probe);
-  if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside(e.probe, i, e.exact_map))
+  if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside_of_map(e.probe, i, e.exact_map))
     ladder.flags[i] |= flag_outside;
 
   const float bias = e.bias.at(e.probe, i);
@@ -123,7 +116,7 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
   // The undecided parts of three steps: from R1 to the exact places, from there to the places looked up, and from
   // there to R4. They are signed.
   double before_exact = 0, before_moved = 0, before_r4 = 0;
-  std::array<double, cause_count> booked{};
+  std::array<double, compared_cause_count> booked{};
   const auto book = [&](const Tap& tap, bool lit, double weight) {
     if (tap.exact_lit) exact_lit += weight;
     if (tap.moved_lit) moved_lit += weight;
@@ -163,7 +156,7 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
   ladder.doubt[i] = share(unsure);
   set(Cause::precision, r[5] - r[4]);
   for (const CauseRow& row : cause_rows) {
-    if (row.effect == CauseEffect::either) continue;
+    if (row.effect == CauseEffect::either || is_of_moments(row)) continue;
     const float size = share(booked[static_cast<size_t>(*row.cause)]);
     set(*row.cause, row.effect == CauseEffect::darkens ? -size : size);
   }
@@ -173,14 +166,14 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
   for (int c = static_cast<int>(Cause::displacement); c <= static_cast<int>(Cause::coverage_light); ++c)
     classes += ladder[static_cast<Cause>(c)][i];
   classes += (before_moved + before_r4) / whole;
-  worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
-  worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
+  worst.steps = larger_residual(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
+  worst.taps = larger_residual(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
   ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, taps.size() > 1));
 }
 
 void Climb::join(const Part& part) {
-  ladder_.residual = larger(ladder_.residual, part.steps);
-  ladder_.tap_residual = larger(ladder_.tap_residual, part.taps);
+  ladder_.residual = larger_residual(ladder_.residual, part.steps);
+  ladder_.tap_residual = larger_residual(ladder_.tap_residual, part.taps);
 }
 
 namespace {
@@ -207,7 +200,7 @@ void mix(Ladder& ladder, const Ladder& other, size_t i, double share) {
   ladder.flags[i] |= other.flags[i];
   ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, true));
   const double change = static_cast<double>(ladder.shown()[i]) - static_cast<double>(ladder.soft_truth()[i]);
-  ladder.residual = larger(ladder.residual, std::abs(change - steps));
+  ladder.residual = larger_residual(ladder.residual, std::abs(change - steps));
 }
 
 }  // namespace
@@ -223,8 +216,8 @@ void join(Ladder& ladder, const Ladder& other, const Image<double>& share) {
     else if (share[i] > 0)
       mix(ladder, other, i, share[i]);
   }
-  ladder.residual = larger(ladder.residual, other.residual);
-  ladder.tap_residual = larger(ladder.tap_residual, other.tap_residual);
+  ladder.residual = larger_residual(ladder.residual, other.residual);
+  ladder.tap_residual = larger_residual(ladder.tap_residual, other.tap_residual);
 }
 
 void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {

@@ -51,6 +51,7 @@
 #include "technique/evidence.h"
 #include "technique/map_address.h"
 #include "technique/map_depths.h"
+#include "technique/moment_lookup.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -70,6 +71,7 @@ struct LookupEvidence {
   Bias bias;
   const Image<float>& r4;  // OpenGL's result on the exact map; climb() does not read it if a sampler blends the taps
   const Image<float>& r5;
+  const MomentLookup* moments = nullptr;  // null: the lookup compares depths
 };
 
 // Throws std::logic_error if the evidence does not hold the taps of these pixels.
@@ -92,9 +94,14 @@ struct Ladder {
     Image<float> step;  // signed change of visibility
   };
   std::vector<RungImage> rungs;
-  std::vector<CauseImage> causes;  // the first is "none", whose step is 0 everywhere
-  std::vector<RungCause> brought;  // describes causes[cause_count] and the following
-  Image<uint8_t> cause;            // an index into causes for each wrong pixel (shown() != truth()), 0 for a right one
+  // The first is "none", whose step is 0 everywhere; then those of Cause, of a lookup that compares depths without those of
+  // moments; then those that rungs on top brought.
+  std::vector<CauseImage> causes;
+  std::vector<RungCause> brought;  // describes the last of `causes`
+  size_t built_in() const { return causes.size() - brought.size(); }
+  // Whether it has an image of the row's cause; of a sum, of its parts.
+  bool books(const CauseRow& row) const { return !row.cause || static_cast<size_t>(*row.cause) < built_in(); }
+  Image<uint8_t> cause;  // an index into causes for each wrong pixel (shown() != truth()), 0 for a right one
   Image<uint8_t> flags;
   Image<float> doubt;  // weight of the undecided taps
   // The largest |(shown - R0) - sum of steps| and |(R4 - R2) - displacement - sum of tap causes| over the facing
@@ -142,8 +149,19 @@ Ladder climb(const LookupEvidence& evidence);
 
 // For strip by strip work, when the evidence holds the taps of one strip at a time: an empty ladder of the picture's
 // size, to which every strip adds its pixels. The result does not depend on the order or the size of the strips.
-Ladder empty_ladder(int width, int height);
+// causes: how many of Cause it has, compared_cause_count or cause_count.
+Ladder empty_ladder(int width, int height, int causes = compared_cause_count);
 void climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);
+
+// Like std::max, but it keeps a NaN: a residual that cannot be computed must not be taken for a residual of 0.
+double larger_residual(double a, double b);
+
+// The cause that names a wrong pixel. Without a filter it is the cause of the step from which on the pixel stays wrong.
+// With a filter one pixel can have several causes, and the largest step gives the name.
+Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered);
+
+// Whether P itself lies inside the map. A cube map has no outside.
+bool inside_of_map(const LookupProbe& probe, size_t i, const MapDepths& map);
 
 // Adds what another map shows to its receivers, in a ladder of the same size and rungs. share: the part that it has in each
 // receiver's result (ReceiverTruth::share). A receiver that this ladder does not have is taken as it is. For one that it

@@ -32,7 +32,7 @@ struct Over {
   uint64_t counted = 0;
   double law_depth = 0, law_m = 0, quantum_m = 0;
   double whole_area = 0;
-  std::array<double, cause_count> area{};
+  std::array<double, compared_cause_count> area{};
 };
 
 // The maxima of law 1 are computed on all cores, apart from the sums: under a point light each receiver evaluates the
@@ -67,7 +67,7 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
   for (size_t i = 0; i < in.ladder.flags.size(); ++i) {  // in the picture's order: the sums are the same on any machine
     if (!is_counted(in.ladder, i)) continue;
     over.whole_area += areas[i];
-    for (int c = 0; c < cause_count; ++c)
+    for (int c = 0; c < compared_cause_count; ++c)
       over.area[c] += areas[i] * std::abs(static_cast<double>(in.ladder[static_cast<Cause>(c)][i]));
   }
   return over;
@@ -161,19 +161,25 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
   const double quantum_there = in.frame.has_depth(TileDepth::perspective)
                                    ? measured(receivers.quantum_m)
                                    : quantum_m(in.frame, quantum, &MapTile::far_m);
-  return {{"texel_m", in.frame.uniform() ? in.frame.texel_m(glm::dvec3(0)) : median_texel_m(in)},
-          {"map_range_m", range_m},
-          {"depth_quantum_m", quantum_there},
-          {"acne_free_bias_law_depth", measured(receivers.law_depth)},
-          {"acne_free_bias_law_m", measured(receivers.law_m)},
-          {"acne_free_bias_scene_law_depth", faces.law_depth},
-          {"acne_free_bias_scene_law_m", faces.law_m},
-          {"counted_area_m2", measured(receivers.whole_area)},
-          {"filter_area_m2", area(Cause::filter)},
-          {"displacement_area_m2", area(Cause::displacement)},
-          {"aliasing_area_m2", area(Cause::aliasing_dark) + area(Cause::aliasing_light)},
-          {"acne_area_m2", area(Cause::acne)},
-          {"peter_panning_area_m2", area(Cause::peter_panning)}};
+  std::map<std::string, double> metrics = {
+      {"texel_m", in.frame.uniform() ? in.frame.texel_m(glm::dvec3(0)) : median_texel_m(in)},
+      {"map_range_m", range_m},
+      {"depth_quantum_m", quantum_there},
+      {"acne_free_bias_law_depth", measured(receivers.law_depth)},
+      {"acne_free_bias_law_m", measured(receivers.law_m)},
+      {"acne_free_bias_scene_law_depth", faces.law_depth},
+      {"acne_free_bias_scene_law_m", faces.law_m},
+      {"counted_area_m2", measured(receivers.whole_area)},
+      {"filter_area_m2", area(Cause::filter)},
+      {"displacement_area_m2", area(Cause::displacement)},
+      {"aliasing_area_m2", area(Cause::aliasing_dark) + area(Cause::aliasing_light)},
+      {"acne_area_m2", area(Cause::acne)},
+      {"peter_panning_area_m2", area(Cause::peter_panning)}};
+  if (in.reads_moments)
+    for (const char* required : {"acne_free_bias_law_depth", "acne_free_bias_law_m", "acne_free_bias_scene_law_depth",
+                                 "acne_free_bias_scene_law_m"})
+      metrics.erase(required);
+  return metrics;
 }
 
 }  // namespace noonmark

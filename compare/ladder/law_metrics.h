@@ -21,6 +21,7 @@ struct LawInput {
   const LightFrame& frame;
   DepthFormat format = DepthFormat::d24;
   const LookupProbe& probe;
+  bool reads_moments = false;  // law 1 is of a lookup that compares depths: the bias that it requires is then left out
 };
 
 // One step of the map's format in window depth. For 32-bit float it is the largest step in [0,1].

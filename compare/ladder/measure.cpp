@@ -154,8 +154,9 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"tap_residual", ladder.tap_residual},
   };
   for (const CauseRow& row : cause_rows)
-    metrics.emplace(row.name, sum_of(row, [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); }));
-  for (size_t c = cause_count; c < size.size(); ++c) metrics[ladder.causes[c].name] = share(size[c]);
+    if (ladder.books(row))
+      metrics.emplace(row.name, sum_of(row, [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); }));
+  for (size_t c = ladder.built_in(); c < size.size(); ++c) metrics[ladder.causes[c].name] = share(size[c]);
   return metrics;
 }
 

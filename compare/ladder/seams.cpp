@@ -30,7 +30,7 @@ Seam seam_of(const Ladder& here, const Ladder& next, const Image<uint8_t>& mask)
     std::array<double, seam_parts.size()> steps{};
     for (const CauseRow& row : cause_rows) {
       const size_t part = part_of(row);
-      if (!row.cause || part == steps.size()) continue;
+      if (!row.cause || !here.books(row) || part == steps.size()) continue;
       steps[part] += static_cast<double>(next[*row.cause][i]) - static_cast<double>(here[*row.cause][i]);
     }
     for (size_t k = 0; k < steps.size(); ++k) seam.parts[k] += std::abs(steps[k]);

@@ -45,7 +45,8 @@ LargestCause largest_cause(const Cascade& cascade) {
     double size = 0;
     for (const CauseRow& part : cause_rows)
       if (part.cause && (part.name == row.name || part.sum == row.name))
-        size += cascade.metrics.at(std::string(part.name));
+        if (const auto metric = cascade.metrics.find(std::string(part.name)); metric != cascade.metrics.end())
+          size += metric->second;
     all += size;
     if (size > largest.size) largest = {row.label, size, 0};
   }

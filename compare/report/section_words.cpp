@@ -156,6 +156,10 @@ std::string cause_text(const ReceiverSection& section) {
     case Cause::undecided:
       return "Float error can change the truth at a tap, so it is not known to which cause this error belongs.";
     case Cause::light_size:
+    case Cause::leak:  // a section is of a lookup that compares depths
+    case Cause::over_darkening:
+    case Cause::reduction:
+    case Cause::moment_precision:
     case Cause::none:
       break;
   }
@@ -178,7 +182,7 @@ std::string lower_first(std::string_view text) {
 std::string taps_text(const ReceiverSection& section) {
   std::string text = fmt::format("The lookup has {} taps", section.taps.size());
   std::string wrong;
-  for (int c = 1; c < cause_count; ++c) {
+  for (int c = 1; c < compared_cause_count; ++c) {
     const auto cause = static_cast<Cause>(c);
     const auto count = std::count_if(section.taps.begin(), section.taps.end(),
                                      [&](const SectionTap& tap) { return tap.cause == cause; });

@@ -15,7 +15,7 @@
 
 namespace noonmark {
 
-// The causes of a lookup that compares depths, in the order of their steps. They are the first of Ladder::causes.
+// In the order of their steps, first those of a lookup that compares depths. They are the first of Ladder::causes.
 enum class Cause : uint8_t {
   none,
   light_size,  // R1 - R0
@@ -28,11 +28,18 @@ enum class Cause : uint8_t {
   coverage_dark,
   coverage_light,
   undecided,  // at taps whose truth float error can change
-  precision,  // R5 - R4
+  precision,  // after R4: the format, the rasteriser, float arithmetic
+  // Of a lookup in a map of moments alone (compare/ladder/moment_climb.h).
+  leak,
+  over_darkening,
+  reduction,
+  moment_precision,
 };
-inline constexpr int cause_count = 12;
+inline constexpr int compared_cause_count = 12;  // of a lookup that compares depths
+inline constexpr int cause_count = 16;           // of a lookup in a map of moments, and of any
 
-// What a cause does to a pixel. A cause that only darkens, or only lightens, is booked tap by tap at R4.
+// What a cause does to a pixel. Of a lookup that compares depths, a cause that only darkens, or only lightens, is booked tap
+// by tap at R4.
 enum class CauseEffect : uint8_t { darkens, lightens, either };
 
 // Which part of the result a cause belongs to.
@@ -42,6 +49,9 @@ enum class CausePlace : uint8_t {
   doubt,      // the same, where the truth of a tap is not known
   device,     // after R4
 };
+
+// Whether only a lookup in a map of moments books the cause. The ladders of other lookups have no image and no metric of it.
+constexpr bool is_of_moments(Cause cause) { return static_cast<int>(cause) >= compared_cause_count; }
 
 struct CauseRow {
   // Empty: the sum of two causes of one kind that darken and lighten. It has a metric and a colour, and no image.
@@ -59,7 +69,7 @@ struct CauseRow {
 // In the order of the table of metrics. Warm colours mean falsely dark, cool ones falsely lit, greys and pinks neither. The
 // hues are Okabe and Ito's ("Color Universal Design", 2008) and two of Paul Tol's. They differ under the common
 // colour-vision deficiencies, on a white and on a near-black page.
-inline constexpr std::array<CauseRow, 13> cause_rows{{
+inline constexpr std::array<CauseRow, 17> cause_rows{{
     {Cause::light_size,
      "light_size",
      "Light size",
@@ -181,6 +191,48 @@ inline constexpr std::array<CauseRow, 13> cause_rows{{
      CausePlace::doubt,
      "",
      9},
+    {Cause::leak,
+     "leak",
+     "Leak (moments, too light)",
+     "Mean |change of visibility| because the moments of a map cannot tell several depths from one spread of depths: "
+     "light "
+     "where shadows of several casters overlap. Only lookups in a map of moments have it.",
+     {132, 0, 252},
+     CauseEffect::lightens,
+     CausePlace::technique,
+     "",
+     13},
+    {Cause::over_darkening,
+     "over_darkening",
+     "Over-darkening (moments, too dark)",
+     "Mean |change of visibility| because the moments of a map, or their floors, darken what the depths themselves "
+     "leave "
+     "lit: in lit creases and on steep surfaces. It is what acne becomes without a comparison of depths.",
+     {96, 60, 48},
+     CauseEffect::darkens,
+     CausePlace::technique,
+     "",
+     14},
+    {Cause::reduction,
+     "reduction",
+     "Light-bleed reduction",
+     "Mean |change of visibility| by lookup.reduction, which darkens the edges of shadows to remove leaks, and by "
+     "lookup.reduction_span.",
+     {108, 96, 84},
+     CauseEffect::either,
+     CausePlace::technique,
+     "",
+     15},
+    {Cause::moment_precision,
+     "moment_precision",
+     "Precision of the moments",
+     "Mean |change of visibility| because OpenGL stores, blurs and reads the moments of the exact map in the format of "
+     "map.moments and in float arithmetic, and not in exact numbers.",
+     {132, 24, 132},
+     CauseEffect::either,
+     CausePlace::device,
+     "",
+     16},
 }};
 
 // The row of a cause. Cause::none has none.
@@ -196,8 +248,11 @@ constexpr std::string_view cause_name(Cause cause) {
   return row ? row->name : "none";
 }
 
-// Whether its steps are booked tap by tap: it darkens, or it lightens, or it is the sum of two that do.
+// Whether it darkens, or lightens, or is the sum of two that do: what a lookup that compares depths books tap by tap.
 constexpr bool is_of_taps(const CauseRow& row) { return !row.cause || row.effect != CauseEffect::either; }
+
+// Whether only a lookup in a map of moments books the row's cause.
+constexpr bool is_of_moments(const CauseRow& row) { return row.cause && is_of_moments(*row.cause); }
 
 // What a row has of something that each cause has an amount of: of a sum that of its parts together.
 double sum_of(const CauseRow& row, const auto& amount) {

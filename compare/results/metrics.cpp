@@ -151,6 +151,42 @@ constexpr Metric measured_with_causes[] = {
      "technique's definition gives for the numbers read back (where a sampler blends taps: not within its rounding). "
      "Above 0 it is a defect.",
      false},
+    {"contract_store", "fraction",
+     "Of a map of moments: share of the texels that do not store what the lookup's definition gives for their depth, "
+     "within "
+     "the rounding of map.moments. Above 0 it is a defect.",
+     false, false, false, false, false, false, true},
+    {"contract_blur", "fraction",
+     "Of a map of moments: share of the sums of the blur that are not the sum of the texels that they read, within the "
+     "rounding of map.moments. Above 0 it is a defect.",
+     false, false, false, false, false, false, true},
+    {"contract_fetch", "fraction",
+     "Of a map of moments: share of the facing receivers that fetch other moments than the texels around them give, "
+     "within "
+     "the rounding of a sampler's weights. Above 0 it is a defect.",
+     false, false, false, false, false, false, true},
+    {"contract_lit", "fraction",
+     "Of a map of moments: share of the facing receivers whose result is not what the lookup's definition gives for "
+     "the "
+     "moments that they fetched, within the rounding of float arithmetic. Above 0 it is a defect.",
+     false, false, false, false, false, false, true},
+    {"below_comparison", "fraction",
+     "Of a map of moments: the largest amount by which the exact bound, without bias, floor or reduction, is darker "
+     "than the "
+     "comparison of the same depths (law 13). Above 1e-9 it is a defect.",
+     false, false, false, false, false, false, true},
+    {"reduction_best", "fraction",
+     "Of a map of moments: the lookup.reduction of least error against R1, on the exact map. Measured with a curve.",
+     true, false, false, false, false, false, true},
+    {"reduction_best_error", "fraction", "Of a map of moments: mean |R4 - R1| at reduction_best.", true, false, false,
+     false, false, false, true},
+    {"reduction_min", "fraction",
+     "Of a map of moments: the least lookup.reduction at which the leak is within curve.peter_panning_bound and what "
+     "the "
+     "reduction darkens within curve.acne_bound. Left out if no reduction is. Measured with a curve.",
+     true, false, false, false, false, false, true},
+    {"reduction_max", "fraction", "Of a map of moments: the largest such lookup.reduction, at most 0.99.", true, false,
+     false, false, false, false, true},
     {"rounding_excess", "",
      "Largest error of the numbers that the lookup computes (address, reference depth, N.L, and what bias and filter "
      "need) against the light's frame in double, as a multiple of the largest error that float arithmetic can make. "
@@ -271,8 +307,9 @@ constexpr Metric measured_with_causes[] = {
 // Each has a median, and the two ends of its interval. They come from measure/pass_times.h.
 constexpr std::pair<std::string_view, std::string_view> timed[] = {
     {"map", "the shadow map pass"},
+    {"prefilter", "the passes that store and blur a map of moments"},
     {"lookup", "the lookup pass over the picture"},
-    {"shadow", "the shadow map pass and the lookup pass together"}};
+    {"shadow", "all passes of map and lookup together"}};
 
 constexpr Metric from_frame_to_frame[] = {
     {"flicker", "fraction",
@@ -442,6 +479,7 @@ const MetricTable& table() {
     t.rows.assign(std::begin(before_causes), std::end(before_causes));
     for (const CauseRow& cause : cause_rows) {
       t.rows.push_back({cause.name, "fraction", cause.help, true});
+      t.rows.back().of_moments = is_of_moments(cause);
       for (const auto& [name, row] : beside_causes)
         if (name == cause.name) t.rows.push_back(row);
     }
@@ -462,6 +500,8 @@ const MetricTable& table() {
                         false});
       t.rows.push_back({text(stem + "_high_ms"), "ms",
                         text("The upper end of the interval of " + stem + "_ms: the second largest sample."), false});
+      if (name == "prefilter")
+        for (auto row = t.rows.end() - 3; row != t.rows.end(); ++row) row->of_moments = true;
     }
     for (std::string_view name : placed)
       for (const auto& [ending, what] :

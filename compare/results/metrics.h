@@ -17,7 +17,8 @@ struct Metric {
   bool of_frames = false;      // measured only of another renderer's frame (frames/judge.h)
   bool of_lights = false;      // measured only in a frame of several lights (measure/lights_frame.h)
   bool of_cascades = false;    // measured only with cascades.count above 1
-  bool optional() const { return of_placements || of_motion || of_frames || of_lights || of_cascades; }
+  bool of_moments = false;     // measured only of a lookup in a map of moments (lookup.kind)
+  bool optional() const { return of_placements || of_motion || of_frames || of_lights || of_cascades || of_moments; }
 };
 
 std::span<const Metric> metrics_table();

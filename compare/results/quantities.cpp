@@ -174,6 +174,9 @@ QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> p
 std::string why_no_curve(const PointRecord& point) {
   if (point.curve) return "";
   if (nothing_judged(point)) return "no pixel can be judged";
+  const auto lookup = point.settings.find("lookup.kind");
+  if (lookup != point.settings.end() && lookup->second != "compare")
+    return fmt::format("lookup.kind = {} has no verdicts of taps; sweep the bias instead", printable(lookup->second));
   std::string why;
   for (const BiasPart& part : bias_parts()) {
     const auto amount = point.settings.find("bias." + std::string(part.name));

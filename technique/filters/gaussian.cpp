@@ -2,6 +2,8 @@
 
 namespace noonmark {
 
-TapPattern gaussian_taps(const FilterSettings& f) { return linear_fetches(f.whole("size"), f["sigma_texels"]); }
+TapPattern gaussian_taps(const FilterSettings& f) {
+  return fetches_of(gaussian_weights(f.whole("size"), f["sigma_texels"]));
+}
 
 }  // namespace noonmark

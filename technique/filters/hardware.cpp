@@ -2,6 +2,6 @@
 
 namespace noonmark {
 
-TapPattern hardware_taps(const FilterSettings&) { return linear_fetches(1, 1); }
+TapPattern hardware_taps(const FilterSettings&) { return fetches_of({1.0}); }
 
 }  // namespace noonmark

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace noonmark {
 
@@ -18,18 +19,26 @@ int rotations(const FilterSettings& settings, int taps) {
   return settings["rotate"] != 0 ? std::min(64, most_listed_taps / taps) : 1;
 }
 
-TapPattern linear_fetches(int fetches, double sigma) {
-  TapPattern pattern;
+std::vector<double> equal_weights(int size) { return std::vector<double>(static_cast<size_t>(size), 1.0 / size); }
+
+std::vector<double> gaussian_weights(int size, double sigma) {
+  std::vector<double> weights;
   double sum = 0;
-  for (int i = 0; i < fetches; ++i) {
-    const double x = i - (fetches - 1) / 2.0;
-    pattern.kernel.push_back(std::exp(-x * x / (2 * sigma * sigma)));
-    sum += pattern.kernel.back();
+  for (int i = 0; i < size; ++i) {
+    const double x = i - (size - 1) / 2.0;
+    weights.push_back(std::exp(-x * x / (2 * sigma * sigma)));
+    sum += weights.back();
   }
-  for (double& g : pattern.kernel) g /= sum;
-  pattern.taps = (fetches + 1) * (fetches + 1);
-  pattern.blended_side = fetches + 1;
-  pattern.offsets = square_of_taps(fetches + 1, 1);
+  for (double& g : weights) g /= sum;
+  return weights;
+}
+
+TapPattern fetches_of(std::vector<double> kernel) {
+  TapPattern pattern;
+  pattern.blended_side = static_cast<int>(kernel.size()) + 1;
+  pattern.kernel = std::move(kernel);
+  pattern.taps = pattern.blended_side * pattern.blended_side;
+  pattern.offsets = square_of_taps(pattern.blended_side, 1);
   return pattern;
 }
 

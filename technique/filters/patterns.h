@@ -11,9 +11,12 @@ std::vector<glm::vec3> square_of_taps(int side, float step_texels);
 // The rotations of a pattern of so many taps: 64, or as many as the shader's table can hold. One if filter.rotate is off.
 int rotations(const FilterSettings& settings, int taps);
 
-// `fetches` x `fetches` linear fetches with a spacing of one texel. The weight of a fetch at the distance x is exp(-x^2
-// / (2 sigma^2)).
-TapPattern linear_fetches(int fetches, double sigma_texels);
+// Of a blur of `size` texels: equal weights, or those of a Gaussian.
+std::vector<double> equal_weights(int size);
+std::vector<double> gaussian_weights(int size, double sigma_texels);
+
+// Linear fetches with a spacing of one texel, of these weights along each axis.
+TapPattern fetches_of(std::vector<double> kernel);
 
 // Taps that a sampler blends with weights along each axis, over size + 1 texels. `weight` is the function <name>_weight
 // of the filter's formula.

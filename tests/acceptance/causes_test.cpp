@@ -201,7 +201,7 @@ TEST(StandingCube, HasTheSameCausesAsOneMeshAndAsTwo) {
       for (size_t i = 0; i < a.flags.size(); ++i) {
         if ((a.flags[i] | c.flags[i]) & flag_ambiguous) continue;
         wrong += a.cause[i] != 0;
-        for (int cause = 1; cause < cause_count; ++cause) {
+        for (int cause = 1; cause < compared_cause_count; ++cause) {
           differ_one += a.causes[cause].step[i] != b.causes[cause].step[i];
           differ_joined += a.causes[cause].step[i] != c.causes[cause].step[i];
         }

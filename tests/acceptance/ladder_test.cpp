@@ -97,7 +97,7 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
       ++facing;
       double all = 0, taps = 0;
       int classes = 0;
-      for (int c = 1; c < cause_count; ++c) {
+      for (int c = 1; c < compared_cause_count; ++c) {
         const double step = ladder.causes[c].step[i];
         all += step;
         const Cause cause = static_cast<Cause>(c);
@@ -344,12 +344,12 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
         const Image<float>&shown = ladder.shown(), &truth = ladder.truth();
         uint64_t wrong_receivers = 0;
         double wrong_taps = 0;
-        std::array<double, cause_count> booked{};
+        std::array<double, compared_cause_count> booked{};
         for (size_t i = 0; i < shown.size(); ++i) {
           if (!is_counted(ladder, i)) continue;
           wrong_receivers += shown[i] != truth[i];
           wrong_taps += std::abs(static_cast<double>(shown[i]) - truth[i]) * taps;
-          for (int c = 0; c < cause_count; ++c)
+          for (int c = 0; c < compared_cause_count; ++c)
             booked[c] += std::abs(static_cast<double>(ladder.causes[c].step[i])) * taps;
         }
         EXPECT_EQ(counts->wrong_receivers(x), wrong_receivers) << x;

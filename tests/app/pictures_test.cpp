@@ -46,12 +46,13 @@ class Pictures : public testing::Test {
     // In order: inside the map, on the repetition of (1, 1), at two corners, outside, and no receiver.
     probe.map_texels = Image<glm::vec2>(3, 2);
     probe.map_texels.pixels = {{0.5f, 0}, {-1, 3.5f}, {1, 0.9f}, {0, 1}, {2, 0}, {0, 0}};
-    probe.pattern = tap_pattern({});
+    probe.pattern = tap_pattern(FilterSettings());
     fill(stored, 2, 2, numbered(0.1f));
     fill(exact, 2, 2, numbered(0.2f));
     for (size_t n = 0; n < 6; ++n)
       fill(ladder.rungs[n].lit, 3, 2, [n](size_t i) { return static_cast<float>((n + i) % 2); });
-    for (size_t c = 0; c < cause_count; ++c) fill(ladder.causes[c].step, 3, 2, numbered(static_cast<float>(c)));
+    for (size_t c = 0; c < compared_cause_count; ++c)
+      fill(ladder.causes[c].step, 3, 2, numbered(static_cast<float>(c)));
     ladder.cause = ladder.flags = Image<uint8_t>(3, 2);
     ladder.cause.pixels = {0, 5, 6, 9, 3, 0};
     ladder.flags.pixels = {1, 3, 5, 7, 1, 0};
@@ -113,9 +114,9 @@ TEST_F(Pictures, LadderHoldsEveryRungAndWhatItWasMadeOf) {
   expect("depth.reference", probe.reference.pixels);
   expect("cause", {0, 5, 6, 9, 3, 0});
   expect("flags", {1, 3, 5, 7, 1, 0});
-  for (int c = 1; c < cause_count; ++c)
+  for (int c = 1; c < compared_cause_count; ++c)
     expect("step." + std::string(cause_name(static_cast<Cause>(c))), ladder.causes[static_cast<size_t>(c)].step.pixels);
-  EXPECT_EQ(image.channels.size(), 6 + 1 + 6 + 3 + 2 + cause_count - 1);
+  EXPECT_EQ(image.channels.size(), 6 + 1 + 6 + 3 + 2 + compared_cause_count - 1);
   EXPECT_EQ(image.spec.format, OIIO::TypeDesc::FLOAT);
 
   // The depths that the wrap mode gives for the texels above. The last pixel has no receiver.
@@ -365,7 +366,7 @@ TEST_F(Pictures, ShowARungOnTopAndItsCause) {
   Image<float> picture = ladder.shown();
   picture[0] = 0;
   const std::array<uint8_t, 3> leak{1, 2, 3};
-  add_rung(ladder, {"R6", picture, "leak", "Leak", "Light that leaks."});
+  add_rung(ladder, {"R6", picture, "seep", "Seep", "Light that leaks."});
   picture[2] = 1;
   add_rung(ladder, {"R7", picture, "penumbra", "Penumbra", "Its width.", leak});
   std::map<std::string, std::string> captions;
@@ -382,9 +383,9 @@ TEST_F(Pictures, ShowARungOnTopAndItsCause) {
 
   Measurement m = measurement();
   m.record.causes = ladder.brought;
-  m.record.metrics = {{"error", 0.5}, {"leak", 0.25}, {"penumbra", nan_value}};
+  m.record.metrics = {{"error", 0.5}, {"seep", 0.25}, {"penumbra", nan_value}};
   const nlohmann::json json = nlohmann::json::parse(point_json(m, ""));
-  EXPECT_EQ(json.at("metrics"), nlohmann::json({{"error", 0.5}, {"leak", 0.25}, {"penumbra", "nan"}}));
+  EXPECT_EQ(json.at("metrics"), nlohmann::json({{"error", 0.5}, {"seep", 0.25}, {"penumbra", "nan"}}));
   EXPECT_EQ(json.at("rungs"), nlohmann::json({"R0", "R1", "R2", "R3", "R4", "R5", "R6", "R7"}));
   EXPECT_EQ(json.at("rungs_on_top").at(1), nlohmann::json({{"name", "R7"},
                                                            {"cause", "penumbra"},
@@ -428,8 +429,8 @@ TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   EXPECT_EQ(json.at("settings").at("map.extent_m"), "auto");
   EXPECT_EQ(json.at("settings").at("bias.constant"), 0);
   EXPECT_EQ(json.at("settings").at("map.lit_beyond_far"), true);
-  ASSERT_EQ(json.at("causes").size(), cause_count);
-  for (int c = 0; c < cause_count; ++c)
+  ASSERT_EQ(json.at("causes").size(), compared_cause_count);
+  for (int c = 0; c < compared_cause_count; ++c)
     EXPECT_EQ(json.at("causes")[static_cast<size_t>(c)], std::string(cause_name(static_cast<Cause>(c))));
   EXPECT_EQ(json.at("worst"), nlohmann::json({{"x", 3}, {"y", 4}, {"error", "inf"}, {"cause", "acne"}}));
   EXPECT_FALSE(json.contains("part"));

@@ -119,7 +119,7 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
     if (part.formula.way && random() % 8 == 0) s.bias[part.name] = 3 * unit(random);
   if (random() % 2) s.bias.plane_cap = 0.01 * unit(random);
   // Every parameter within its range, and those whose range is too wide for a small map again.
-  for (const FilterParameter* p : filter_parameters()) {
+  for (const KindParameter* p : FilterTable::parameters()) {
     const bool real = p->type == ValueType::real;
     const double low = p->choices.empty() ? p->min : 0;
     const double high = p->type == ValueType::flag ? 1 : p->choices.empty() ? p->max : double(p->choices.size() - 1);

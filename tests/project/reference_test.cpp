@@ -18,6 +18,7 @@
 #include "frames/frame_keys.h"
 #include "scenes/builtin.h"
 #include "technique/filters.h"
+#include "technique/lookups.h"
 #include "technique/light_kind.h"
 #include "technique/settings.h"
 #include "tests/support/source_dir.h"
@@ -99,9 +100,20 @@ TableLines filters_table_lines() {
                       "|---|---|---|---|"};
   for (const Filter& filter : filters()) {
     std::string reads;
-    for (const FilterRead& read : filter.reads)
+    for (const KindRead<FilterSettings>& read : filter.reads)
       reads += fmt::format("{}`{}`", reads.empty() ? "" : ", ", read.parameter->setting);
     lines.push_back(fmt::format("| `{}` | {} | {} | {} |", filter.name, reads, cell(filter.help), cell(filter.law)));
+  }
+  return lines;
+}
+
+TableLines lookups_table_lines() {
+  TableLines lines = {"| lookup (`lookup.kind`) | its settings | what it is | what the laws say |", "|---|---|---|---|"};
+  for (const LookupKind& lookup : lookups()) {
+    std::string reads;
+    for (const auto& read : lookup.reads)
+      reads += fmt::format("{}`{}`", reads.empty() ? "" : ", ", read.parameter->setting);
+    lines.push_back(fmt::format("| `{}` | {} | {} | {} |", lookup.name, reads, cell(lookup.help), cell(lookup.law)));
   }
   return lines;
 }
@@ -219,6 +231,7 @@ TEST(ReferenceTables, PartsOfABiasAreThoseOfTheRows) {
 }
 TEST(ReferenceTables, FiltersAreThoseOfTheRows) {
   expect_from_rows("techniques", "filters", filters_table_lines(), nothing);
+  expect_from_rows("techniques", "lookups", lookups_table_lines(), nothing);
 }
 
 TEST(ReferenceTables, KeysOfAFrameAreThoseOfTheRows) {

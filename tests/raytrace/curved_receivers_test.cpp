@@ -140,7 +140,7 @@ TEST(Torus, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
       const Tally sum = tally(j);
       differ += sum.differ, dark += sum.dark, taps += sum.taps;
       const Judged::Causes without = j.causes(0), with = j.causes(2);
-      for (int c = 0; c < cause_count; ++c) small[c] += without[c], large[c] += with[c];
+      for (int c = 0; c < compared_cause_count; ++c) small[c] += without[c], large[c] += with[c];
       EXPECT_EQ(without[at(Cause::peter_panning)], 0u) << "without a bias only the grid can light a dark tap";
     });
     EXPECT_GT(dark, taps / 100) << "the torus must shade itself";

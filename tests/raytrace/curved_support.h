@@ -100,7 +100,7 @@ struct Judged {
     return taps[static_cast<size_t>(number)];
   }
 
-  using Causes = std::array<uint64_t, cause_count>;
+  using Causes = std::array<uint64_t, compared_cause_count>;
   // Counts the taps of the chosen counted receivers by their cause at this bias.
   Causes causes(double bias_m, const std::function<bool(size_t)>& chosen = nullptr) const {
     Causes sum{};

@@ -48,6 +48,8 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   double value = 0.1 + static_cast<double>(id);
   for (const Metric& row : metrics_table()) point.metrics[std::string(row.name)] = value /= 3;
   point.metrics["placement_disagreements"] = 0;
+  for (const char* stage : {"contract_store", "contract_blur", "contract_fetch", "contract_lit"})
+    point.metrics[stage] = 0;
   point.metrics["contract"] = 0;                                // a sound measurement (compare/judge/soundness.h)
   point.metrics["counted"] = 700000 - static_cast<double>(id);  // enough for a picture
   point.times = {{"map_ms", 1.25}, {"truth_ms", 1.0 / 3 + static_cast<double>(id)}, {"rays", 1e9 + 1}};

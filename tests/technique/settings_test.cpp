@@ -50,12 +50,26 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers without a unit.
-  const std::set<std::string_view> pure = {
-      "scene.animation",     "map.placements",     "map.extent_scale", "truth.standard_error",
-      "bias.polygon_factor", "bias.polygon_units", "view.up",          "motion.frame",
-      "motion.zoom",         "light.index",        "map.aspect",       "cascades.count",
-      "cascades.lambda",     "cascades.exponent",  "cascades.blend",   "cascades.bias_scales"};
-  const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "frames", "bias.unit"};
+  const std::set<std::string_view> pure = {"scene.animation",
+                                           "map.placements",
+                                           "map.extent_scale",
+                                           "truth.standard_error",
+                                           "bias.polygon_factor",
+                                           "bias.polygon_units",
+                                           "view.up",
+                                           "motion.frame",
+                                           "motion.zoom",
+                                           "light.index",
+                                           "map.aspect",
+                                           "cascades.count",
+                                           "cascades.lambda",
+                                           "cascades.exponent",
+                                           "cascades.blend",
+                                           "cascades.bias_scales",
+                                           "lookup.exponent",
+                                           "lookup.negative_exponent"};
+  const std::set<std::string_view> units = {"s",      "px",        "m",     "deg",     "texels",  "taps",
+                                            "frames", "bias.unit", "depth", "depth^2", "fraction"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name << " twice";
@@ -93,22 +107,24 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8, e9] = motion;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
-                                d20, d21, d22, d23] = s.map;
+                                d20, d21, d22, d23, d24] = s.map;
   [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12, i13] = s.cascades;
   [[maybe_unused]] const auto& [g1, g2] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
   // Unit, reference and plane_cap, and every parameter of a part.
   const int bias = 3 + static_cast<int>(bias_parameters().size());
   // The kind, and every parameter that a filter reads.
-  const int filter = 1 + static_cast<int>(filter_parameters().size());
+  const int filter = 1 + static_cast<int>(FilterTable::parameters().size());
+  const int lookup = 1 + static_cast<int>(LookupTable::parameters().size());
   EXPECT_EQ(rows, (std::map<std::string, int>{{"scene", 12},
                                               {"view", 11},
                                               {"motion", 9},
                                               {"light", 11},
-                                              {"map", 23},
+                                              {"map", 24},
                                               {"cascades", 13},
                                               {"bias", bias},
                                               {"filter", filter},
+                                              {"lookup", lookup},
                                               {"truth", 2},
                                               {"given", 1}}));
 }
@@ -137,7 +153,8 @@ TEST(SettingsTable, ChangesOneMemberEach) {
     if (row.type == ValueType::choice) other = before == row.choices[0] ? row.choices[1] : row.choices[0];
     if (row.type == ValueType::flag) other = before == "true" ? "false" : "true";
     if (row.type == ValueType::text) other = "other";
-    if (row.name == "truth.standard_error" || row.name == "cascades.blend") other = "0.25";  // ranges that end below 1
+    if (row.name == "truth.standard_error" || row.name == "cascades.blend" || row.name == "lookup.reduction")
+      other = "0.25";  // ranges that end below 1
     ASSERT_NE(other, before) << row.name;
     Settings settings;
     row.set(settings, other);

@@ -146,9 +146,9 @@ TEST(TapPattern, VogelsTapsFillADiskEvenly) {
 // At the ends of every parameter's range, alone and with the rotation.
 TEST(TapPattern, FitsIntoTheShadersTable) {
   for (const Filter& row : filters())
-    for (const FilterRead& read : row.reads)
+    for (const KindRead<FilterSettings>& read : row.reads)
       for (const bool rotate : {false, true}) {
-        const FilterParameter& p = *read.parameter;
+        const KindParameter& p = *read.parameter;
         const double last = p.type == ValueType::flag ? 1 : p.choices.empty() ? p.max : double(p.choices.size() - 1);
         for (const double value : {p.min, last}) {
           FilterSettings settings(std::string(row.name), {{p.name(), value}});
@@ -171,7 +171,7 @@ TEST(TapPattern, WeightsSumToOneWhereverPLies) {
     const std::string kind(row.name);
     for (int size : {1, 3, 5, 7}) {
       const FilterSettings settings = filter(kind, size);
-      const auto refused = [&](const FilterRead& read) {
+      const auto refused = [&](const KindRead<FilterSettings>& read) {
         return read.why_refused && !read.why_refused(settings).empty();
       };
       if (std::any_of(row.reads.begin(), row.reads.end(), refused)) continue;

@@ -34,7 +34,7 @@ glm::dvec3 advised_point(const Settings& settings, const LightFrame& frame, cons
 }
 
 double reach_of(const Settings& settings, double texel_m) {
-  const TapPattern pattern = tap_pattern(settings.filter);
+  const TapPattern pattern = tap_pattern(settings);
   if (!pattern.in_world) return pattern.reach_texels();
   double longest_m = 0;
   for (const glm::vec3& offset : pattern.offsets) longest_m = std::max<double>(longest_m, glm::length(offset));

@@ -238,17 +238,17 @@ TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
 
 TEST(Bounds, TheCauseOfARungCanBeBounded) {
   Bound leak;
-  leak.metric = "leak";
+  leak.metric = "seep";
   leak.max = 0.2;
   std::vector<PointRecord> points = {sample_point(0)};
   EXPECT_THROW(evaluate_bounds(points, std::span(&leak, 1), command_of), Error) << "no point has it";
-  points[0].causes = {{"leak", "Leak", "Light that leaks.", {}, "R6"}};
-  points[0].metrics["leak"] = 0.25;
+  points[0].causes = {{"seep", "Seep", "Light that leaks.", {}, "R6"}};
+  points[0].metrics["seep"] = 0.25;
   const BoundResult broken = evaluate_bounds(points, std::span(&leak, 1), command_of).at(0);
   expect(broken, false, 0.25, 0);
   EXPECT_EQ(describe(broken, &points[0]).find("worst pixel"), std::string::npos) << "none of the leak is known";
-  points[0].worst_of.push_back({"leak", 7, 8, 0.75});
-  EXPECT_NE(describe(broken, &points[0]).find("worst pixel by leak: x = 7, y = 8 (row 0 on top), leak 75%"),
+  points[0].worst_of.push_back({"seep", 7, 8, 0.75});
+  EXPECT_NE(describe(broken, &points[0]).find("worst pixel by seep: x = 7, y = 8 (row 0 on top), seep 75%"),
             std::string::npos)
       << describe(broken, &points[0]);
   Bound error = at_most(0);
@@ -452,7 +452,7 @@ TEST(Bounds, APatternIsJudgedForEachMeasuredMetric) {
   EXPECT_TRUE(results[0].metric == "aliasing" && results[0].held);
   EXPECT_TRUE(results[1].metric == "aliasing_dark" && !results[1].held);
   for (const BoundResult& none : judged("*_ms")) EXPECT_FALSE(none.held) << "none of them was measured";
-  EXPECT_EQ(judged("*_ms").size(), 9u);  // map, lookup and both, each with the ends of its interval
+  EXPECT_EQ(judged("*_ms").size(), 12u);  // map, lookup and both, each with the ends of its interval
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ constexpr Cause booked[] = {Cause::aliasing_dark, Cause::aliasing_light, Cause::
 struct Counts {
   uint64_t receivers = 0, wrong_receivers = 0;
   double wrong_taps = 0;  // counts of taps, or weights that are binary fractions, so sums are exact
-  std::array<double, cause_count> caused{};
+  std::array<double, compared_cause_count> caused{};
   bool operator==(const Counts&) const = default;
 };
 

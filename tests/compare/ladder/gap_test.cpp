@@ -114,8 +114,8 @@ TEST(Measure, AMovedCasterReachesAnywhere) {
   p.probe.n_dot_l[0] = 0.6f;
   p.receivers.position[0] = {0, 0, -4};
   const glm::dvec3 light(0, 0, -4);
-  EXPECT_TRUE(
-      std::isfinite(panning_reach_m({p.ladder, p.receivers, {{p.frame, p.probe, p.bias, p.edge}}, p.occluder}, 0, light)));
+  EXPECT_TRUE(std::isfinite(
+      panning_reach_m({p.ladder, p.receivers, {{p.frame, p.probe, p.bias, p.edge}}, p.occluder}, 0, light)));
   EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, {{p.frame, p.probe, p.bias, p.edge}}, p.occluder, true}, 0, light),
             std::numeric_limits<double>::infinity());
 }

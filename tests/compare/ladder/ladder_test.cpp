@@ -97,7 +97,7 @@ TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
     EXPECT_LT(ladder.tap_residual, sum_rounding);
     for (size_t i = 0; i < s.r4.size(); ++i) {
       double all = 0, classes = 0;
-      for (int c = 0; c < cause_count; ++c) all += step(ladder, static_cast<Cause>(c), i);
+      for (int c = 0; c < compared_cause_count; ++c) all += step(ladder, static_cast<Cause>(c), i);
       for (Cause cause : tap_classes) classes += step(ladder, cause, i);
       if (!s.truth.facing[i]) {
         ASSERT_EQ(ladder.flags[i], 0);
@@ -108,7 +108,7 @@ TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
       }
       const std::vector<naive::Tap> taps = naive::taps_of(s, s.exact, i);
       double r2 = 0, moved = 0, r3 = 0, whole = 0, doubted = 0;
-      std::array<double, cause_count> expected{};
+      std::array<double, compared_cause_count> expected{};
       for (const naive::Tap& tap : taps) {
         r2 += tap.exact_lit * tap.weight;
         moved += tap.moved_lit * tap.weight;
@@ -188,7 +188,7 @@ TEST_P(Climb, NamesEveryWrongPixelAndOnlyThose) {
       if (!wrong) continue;
       ASSERT_NE(cause, Cause::light_size);  // the class says why R5 is not R1
       // No other cause is larger. Of equal ones, the first is named.
-      for (int c = static_cast<int>(Cause::filter); c < cause_count; ++c) {
+      for (int c = static_cast<int>(Cause::filter); c < compared_cause_count; ++c) {
         const double other = std::abs(step(ladder, static_cast<Cause>(c), i)), own = std::abs(step(ladder, cause, i));
         if (s.taps.taps_per_receiver > 1) {
           ASSERT_TRUE(c < static_cast<int>(cause) ? other < own : other <= own);
@@ -451,8 +451,10 @@ TEST(Causes, HaveNamesAllDifferentAndAColourEach) {
 
 // The metric, the image of the ladder and the colour are those of the row.
 TEST(Causes, AreOneRowEach) {
-  const Ladder ladder = empty_ladder(1, 1);
+  const Ladder ladder = empty_ladder(1, 1, cause_count), compared = empty_ladder(1, 1);
   for (const CauseRow& row : cause_rows) {
+    EXPECT_EQ(compared.books(row), !is_of_moments(row)) << row.name;
+    EXPECT_TRUE(ladder.books(row)) << row.name;
     EXPECT_EQ(find_metric(row.name).help, row.help);
     EXPECT_EQ(find_metric(row.name).unit, "fraction");
     if (row.cause) {
@@ -464,6 +466,7 @@ TEST(Causes, AreOneRowEach) {
     EXPECT_EQ((std::array{color->r, color->g, color->b}), row.color);
   }
   EXPECT_EQ(ladder.causes.size(), cause_count);
+  EXPECT_EQ(compared.causes.size(), compared_cause_count);
 }
 
 // A sum is of one cause that darkens and one that lightens, and a cause is part of one sum at most.

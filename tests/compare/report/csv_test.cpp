@@ -112,11 +112,11 @@ TEST(Csv, HoldsEverySettingMetricAndQuantity) {
 
 TEST(Csv, HasAColumnForTheCauseOfARung) {
   Results results = sample();
-  results.points[1].causes = {{"leak", "Leak", "Light that leaks.", {}, "R6"}};
-  results.points[1].metrics["leak"] = 0.25;
+  results.points[1].causes = {{"seep", "Seep", "Light that leaks.", {}, "R6"}};
+  results.points[1].metrics["seep"] = 0.25;
   const std::vector<Row> rows = parse(to_csv(results));
-  EXPECT_EQ(rows[1][column(rows[0], "leak")], "");
-  EXPECT_EQ(rows[2][column(rows[0], "leak")], "0.25");
+  EXPECT_EQ(rows[1][column(rows[0], "seep")], "");
+  EXPECT_EQ(rows[2][column(rows[0], "seep")], "0.25");
 }
 
 TEST(Csv, GuardsAPlaceAndLeavesNumbersAlone) {

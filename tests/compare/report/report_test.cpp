@@ -373,20 +373,20 @@ TEST(Report, ShowsTheCauseOfARung) {
   Results results = sample_results();
   const std::string without = render_report(results, sample_picture);
   for (PointRecord& point : results.points) {
-    point.causes = {{"leak", "Leak <of light>", "Light that leaks.", {1, 2, 255}, "R6"}};
-    point.metrics["leak"] = 0.5 + 0.001 * static_cast<double>(point.id);
+    point.causes = {{"seep", "Leak <of light>", "Light that leaks.", {1, 2, 255}, "R6"}};
+    point.metrics["seep"] = 0.5 + 0.001 * static_cast<double>(point.id);
   }
   const std::string page = render_report(results, sample_picture);
-  for (const char* text : {"--c-leak:#0102ff", ".c-leak{", "<i class=\"c-leak\" style", "Leak &lt;of light&gt;",
-                           "Light that leaks.", "<code>leak</code>", "mean |R6 − R1|",
-                           "R6, a picture on top of the ladder", "title=\"Light that leaks.\"", "\"name\":\"leak\""}) {
+  for (const char* text : {"--c-seep:#0102ff", ".c-seep{", "<i class=\"c-seep\" style", "Leak &lt;of light&gt;",
+                           "Light that leaks.", "<code>seep</code>", "mean |R6 − R1|",
+                           "R6, a picture on top of the ladder", "title=\"Light that leaks.\"", "\"name\":\"seep\""}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
     EXPECT_EQ(without.find(text), std::string::npos) << text;
   }
   EXPECT_NE(without.find("mean |R5 − R1|"), std::string::npos);
   std::vector<const PointRecord*> points;
   for (const PointRecord& point : results.points) points.push_back(&point);
-  EXPECT_EQ(cause_shares(points).at(0).name, "leak");
+  EXPECT_EQ(cause_shares(points).at(0).name, "seep");
 }
 
 TEST(CauseColors, AreDistinctAndNamed) {

@@ -235,8 +235,8 @@ TEST_F(Store, ViewAgreesOnAnEmptyWindow) {
 // A cause that a rung on top of R5 brought comes back with the points that have its metric.
 TEST_F(Store, KeepsTheCausesOfRungs) {
   PointRecord point = sample_point(1);
-  point.causes = {{"leak", "Leak", "Light that leaks.", {1, 2, 255}, "R6"}, {"a_penumbra", "Width", "x", {}, "R7"}};
-  point.metrics["leak"] = 0.25;
+  point.causes = {{"seep", "Seep", "Light that leaks.", {1, 2, 255}, "R6"}, {"a_penumbra", "Width", "x", {}, "R7"}};
+  point.metrics["seep"] = 0.25;
   point.metrics["a_penumbra"] = nan_value;
   {
     ResultStore store = fresh();
@@ -248,16 +248,16 @@ TEST_F(Store, KeepsTheCausesOfRungs) {
   ASSERT_EQ(results.points.at(0).causes.size(), 2u);
   const RungCause& leak = results.points[0].causes[0];
   EXPECT_EQ(std::tie(leak.name, leak.label, leak.help, leak.rung),
-            std::make_tuple("leak", "Leak", "Light that leaks.", "R6"));
+            std::make_tuple("seep", "Seep", "Light that leaks.", "R6"));
   EXPECT_EQ(leak.color, (std::array<uint8_t, 3>{1, 2, 255}));
   EXPECT_EQ(results.points[0].causes[1].name, "a_penumbra") << "not in the order of the rungs";
-  EXPECT_EQ(results.points[0].metrics.at("leak"), 0.25);
+  EXPECT_EQ(results.points[0].metrics.at("seep"), 0.25);
   EXPECT_TRUE(results.points.at(1).causes.empty());
   EXPECT_EQ(judged_rung(results.points[0]), "R7");
   EXPECT_EQ(judged_rung(results.points[1]), "R5");
 
   sqlite::Database db(path, sqlite::Database::Mode::existing);
-  db.execute("UPDATE info SET value = '{}' WHERE key = 'cause.leak'");
+  db.execute("UPDATE info SET value = '{}' WHERE key = 'cause.seep'");
   seal_info(db);
   EXPECT_EQ(kind_thrown([&] { ResultStore::open(path).load(); }), static_cast<int>(ErrorKind::file));
 }

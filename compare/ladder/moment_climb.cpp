@@ -1,0 +1,168 @@
+#include "compare/ladder/moment_climb.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compare/ladder/lasting_steps.h"
+#include "compare/ladder/receiver_taps.h"
+
+namespace noonmark {
+namespace {
+
+// The depths that a linear fetch blends at a receiver, with their weights. A sampler that clamps to the border takes its
+// value for each of the four texels outside the map, whatever a blur there would hold. So near the border the weights are
+// not those of the taps.
+void blended_depths(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, std::vector<double>& depths,
+                    std::vector<double>& weights) {
+  depths.clear(), weights.clear();
+  const TapPattern& pattern = e.probe.pattern;
+  const int side = pattern.blended_side, size = side - 1, before = (side - 2) / 2;
+  const glm::ivec2 map = e.exact_map.size(), first = e.probe.texel(i, 0);
+  const glm::ivec2 corner = first + before;  // the lower left of the four texels
+  if (inside_map(corner, map) && inside_map(corner + 1, map)) {
+    for (size_t t = 0; t < taps.size(); ++t) {
+      const Tap tap = taps[t];
+      depths.push_back(static_cast<double>(tap.depth)), weights.push_back(tap.weight);
+    }
+    return;
+  }
+  const glm::vec2 at = e.probe.map_texels[i] - 0.5f;
+  const glm::dvec2 s = glm::dvec2(at) - glm::dvec2(glm::floor(at));
+  for (const int y : {0, 1})
+    for (const int x : {0, 1}) {
+      const double share = (x ? s.x : 1 - s.x) * (y ? s.y : 1 - s.y);
+      const glm::ivec2 middle = wrapped(corner + glm::ivec2(x, y), map, e.map.wrap);
+      if (middle.x < 0) {
+        depths.push_back(static_cast<double>(border_depth)), weights.push_back(share);
+        continue;
+      }
+      for (int v = 0; v < size; ++v)
+        for (int u = 0; u < size; ++u) {
+          const glm::ivec2 texel = wrapped(middle + glm::ivec2(u, v) - size / 2, map, e.map.wrap);
+          depths.push_back(static_cast<double>(texel.x < 0 ? border_depth : e.exact_map.at(texel)));
+          weights.push_back(share * pattern.kernel[static_cast<size_t>(u)] * pattern.kernel[static_cast<size_t>(v)]);
+        }
+    }
+}
+
+}  // namespace
+
+MomentClimb::MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder)
+    : e_(evidence), ladder_(ladder) {
+  for (size_t i = strip.first; i < strip.end; ++i)
+    ladder.flags[i] = static_cast<uint8_t>((evidence.truth.facing[i] ? flag_facing : 0) |
+                                           (evidence.truth.ambiguous[i] ? flag_ambiguous : 0));
+}
+
+MomentClimb::Bounds MomentClimb::bounds_of(size_t i, const ReceiverTaps& taps, Part& part) const {
+  const LookupEvidence& e = e_;
+  const float reference = e.probe.reference[i];
+  if (!e.probe.asks(i)) return {};
+  if (reference > 1.0f && e.map.lit_beyond_far) return {1, 1, 1};
+  const float biased = reference - e.bias.at(e.probe, i);  // as the shader computes it
+  blended_depths(e, i, taps, part.depths, part.weights);
+  // One depth for all: the bound is the comparison, and most receivers of a lit floor at right angles to the light are such.
+  const auto bare_depth = static_cast<double>(reference);
+  Bounds bounds;
+  bounds.bare = e.moments->bare(part.depths, part.weights, bare_depth);
+  bounds.with_floors = e.moments->exact(part.depths, part.weights, static_cast<double>(biased));
+  bounds.shown = e.moments->reduced(bounds.with_floors);
+  double compared = 0;
+  for (size_t t = 0; t < part.depths.size(); ++t)
+    if (part.depths[t] >= bare_depth) compared += part.weights[t];
+  part.below_comparison = larger_residual(part.below_comparison, compared - bounds.bare);
+  return bounds;
+}
+
+void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
+  const LookupEvidence& e = e_;
+  Ladder& ladder = ladder_;
+  if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside_of_map(e.probe, i, e.exact_map))
+    ladder.flags[i] |= flag_outside;
+
+  // As shares of the sum of the weights in the same order, so that lit taps alone are exactly 1.
+  double exact_lit = 0, moved_lit = 0, texel_lit = 0, unsure = 0, uncovered = 0, whole = 0;
+  double before_exact = 0, before_moved = 0;  // the undecided parts, as of Climb
+  for (size_t t = 0; t < taps.size(); ++t) {
+    const Tap tap = taps[t];
+    whole += tap.weight;
+    if (tap.exact_lit) exact_lit += tap.weight;
+    if (tap.moved_lit) moved_lit += tap.weight;
+    if (tap.texel_lit) texel_lit += tap.weight;
+    if (!tap.covered) uncovered += tap.weight;
+    if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
+    unsure += tap.weight;
+    const auto step = [&](bool from, bool to) { return tap.weight * (static_cast<int>(to) - static_cast<int>(from)); };
+    if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
+    if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
+  }
+  for (double* sum : {&exact_lit, &moved_lit, &texel_lit, &unsure, &uncovered, &before_exact, &before_moved})
+    *sum /= whole;
+  if (unsure > 0) ladder.flags[i] |= flag_undecided;
+  const Bounds bounds = bounds_of(i, taps, worst);
+
+  const auto number = [](double value) { return static_cast<float>(value); };
+  const float r[std::size(rung_names)] = {e.truth.soft[i],   number(e.truth.lit[i]), number(exact_lit),
+                                          number(texel_lit), number(bounds.shown),   e.r5[i]};
+  for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
+
+  if (is_counted(ladder, i))
+    worst.reductions.add({static_cast<double>(e.truth.lit[i]), moved_lit, texel_lit, bounds.bare, bounds.with_floors});
+
+  // From the taps at the places looked up to R4.
+  constexpr size_t steps = 4;
+  std::array<double, steps> parts{};
+  lasting_steps(std::array{moved_lit, texel_lit, bounds.bare, bounds.with_floors, bounds.shown}, parts);
+  const double change = bounds.shown - moved_lit;
+  double left_uncovered = std::min(uncovered, std::abs(change));
+  double left_unsure = std::min(unsure, std::abs(change) - left_uncovered);
+  const double coverage = std::copysign(left_uncovered, change), undecided = std::copysign(left_unsure, change);
+  for (double& part : parts) {
+    const auto take = [&](double& left) {
+      const double taken = std::min(left, std::abs(part));
+      left -= taken;
+      part -= std::copysign(taken, change);
+    };
+    take(left_uncovered);
+    take(left_unsure);
+  }
+
+  const auto set = [&](Cause cause, double value) { ladder[cause][i] = number(value); };
+  for (Ladder::CauseImage& cause : ladder.causes) cause.step[i] = 0;
+  set(Cause::light_size, static_cast<double>(r[1]) - r[0]);
+  set(Cause::filter, static_cast<double>(r[2]) - r[1] - before_exact);
+  set(Cause::displacement, moved_lit - exact_lit - before_moved);
+  set(Cause::undecided, before_exact + before_moved + undecided);
+  const auto book = [&](double part, Cause darker, Cause lighter) {
+    Image<float>& image = ladder[part < 0 ? darker : lighter];
+    image[i] = number(static_cast<double>(image[i]) + part);
+  };
+  book(coverage, Cause::coverage_dark, Cause::coverage_light);
+  book(parts[0], Cause::aliasing_dark, Cause::aliasing_light);
+  book(parts[1], Cause::over_darkening, Cause::leak);
+  book(parts[2], Cause::over_darkening, Cause::peter_panning);
+  book(parts[3], Cause::reduction, Cause::reduction);
+  set(Cause::moment_precision, static_cast<double>(e.r4[i]) - bounds.shown);
+  set(Cause::precision, static_cast<double>(r[5]) - e.r4[i]);
+  ladder.doubt[i] = number(unsure);
+
+  double all = 0, classes = before_moved + undecided;
+  for (size_t c = 0; c < ladder.built_in(); ++c) all += ladder.causes[c].step[i];
+  for (const Cause cause :
+       {Cause::displacement, Cause::aliasing_dark, Cause::aliasing_light, Cause::peter_panning, Cause::coverage_dark,
+        Cause::coverage_light, Cause::leak, Cause::over_darkening, Cause::reduction})
+    classes += ladder[cause][i];
+  worst.steps = larger_residual(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
+  worst.taps = larger_residual(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
+  ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, true));
+}
+
+void MomentClimb::join(const Part& part) {
+  ladder_.residual = larger_residual(ladder_.residual, part.steps);
+  ladder_.tap_residual = larger_residual(ladder_.tap_residual, part.taps);
+  below_comparison_ = larger_residual(below_comparison_, part.below_comparison);
+  reductions_.add(part.reductions);
+}
+
+}  // namespace noonmark

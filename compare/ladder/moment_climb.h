@@ -1,0 +1,58 @@
+// The ladder of a lookup in a map of moments (technique/lookups.h). It has no verdicts of taps, so its causes are not booked
+// tap by tap.
+//
+// Rungs: R0, R1, R2 and R3 as of any lookup: the kernel of the blur and of the linear fetch is a pattern of weighted taps. R4
+// is exact: the lookup's formula on the depths of the exact map, without rounding (MomentLookup::exact), reduced. R5 is
+// OpenGL's. Between R3 and R4 lie two numbers that are no rungs: the bare bound, without any bias, floor or reduction, and
+// the bound with bias and floors.
+//
+// With D the taps at the places looked up (D = R2 unless the lookup is moved), the change R4 - D is parted into lasting steps
+// (compare/ladder/lasting_steps.h) over D, R3, bare, with floors, R4. So no cause stands on a pixel that is right:
+//   aliasing          to R3
+//   leak              to the bare bound, if it lightens; over_darkening, if it darkens
+//   peter_panning     to the bound with bias and floors, if it lightens; over_darkening, if it darkens
+//   reduction         to R4
+// Before they are booked, coverage takes as much as the weight of the taps that lie outside the map, beyond far or before
+// near, and undecided as much as the weight of the taps whose truth float error can change, both from the first step on.
+// moment_precision is what OpenGL makes of the exact map, minus R4; precision is R5 minus that.
+#pragma once
+#include "compare/ladder/ladder.h"
+#include "compare/ladder/reduction_window.h"
+
+namespace noonmark {
+
+class ReceiverTaps;
+
+// Climbs a strip, as a judge of read_taps (compare/ladder/receiver_taps.h). The evidence has moments; its r4 is OpenGL's
+// result on the exact map. The ladder has all of Cause.
+class MomentClimb {
+ public:
+  struct Part {
+    double steps = 0, taps = 0;  // the largest residuals of the ladder
+    // The largest amount by which the bare bound is darker than the comparison of the same depths (law 13).
+    double below_comparison = 0;
+    std::vector<double> depths;  // of the taps of one receiver
+    std::vector<double> weights;
+    ReductionWindow reductions;  // of the counted receivers
+  };
+  MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);  // both must outlive this
+  void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
+  void join(const Part& part);
+  void end_batch() const {}
+  double below_comparison() const { return below_comparison_; }
+  // Of the counted receivers, for another lookup.reduction.
+  const ReductionWindow& reductions() const { return reductions_; }
+
+ private:
+  struct Bounds {
+    double bare = 0, with_floors = 0, shown = 0;  // shown: R4
+  };
+  Bounds bounds_of(size_t i, const ReceiverTaps& taps, Part& part) const;
+
+  const LookupEvidence& e_;
+  Ladder& ladder_;
+  double below_comparison_ = 0;
+  ReductionWindow reductions_;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,145 @@
+// Maps of moments: what a lookup reads that compares no depths (technique/lookups.h). Two passes of a blur over what each
+// texel of the shadow map stores.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "base/error.h"
+#include "gl/lookup_parts.h"
+#include "gl/renderer_impl.h"
+
+namespace noonmark::gl {
+namespace {
+
+constexpr size_t widest_blur = 31;  // shaders/prefilter/blur.frag
+
+GLenum texture_format(MomentFormat format, int channels) {
+  switch (format) {
+    case MomentFormat::f32:
+      return channels == 2 ? GL_RG32F : GL_RGBA32F;
+    case MomentFormat::f16:
+      return channels == 2 ? GL_RG16F : GL_RGBA16F;
+    case MomentFormat::u16:
+      return channels == 2 ? GL_RG16 : GL_RGBA16;
+  }
+  throw std::logic_error("a format of moments that OpenGL has no texture for");
+}
+
+// shaders/prefilter/blur.frag uses these numbers.
+static_assert(static_cast<int>(Wrap::repeat) == 0 && static_cast<int>(Wrap::clamp_to_edge) == 1 &&
+              static_cast<int>(Wrap::clamp_to_border) == 2);
+
+}  // namespace
+
+const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& map, const Technique& technique,
+                                                              double* time_ms) {
+  ShadowMap::Impl& m = *map.impl_;
+  const MomentLookup& lookup = technique.moments.value();
+  if (m.cube) throw Error(ErrorKind::defect, "a map of moments of a cube");
+  const std::string key = lookup.key();
+  if (!m.moments.empty() && m.moments.front().key == key && !time_ms) return m.moments;
+  m.moments.clear();
+  const GLenum format = texture_format(lookup.format(), lookup.kind().channels);
+  const std::span<const double> kernel = lookup.kernel();
+  if (kernel.size() > widest_blur)
+    throw std::logic_error("a blur of more texels than shaders/prefilter/blur.frag takes");
+  const glm::vec4 border = lookup.stored(1.0f);
+  for (const TiledMaps& array : m.arrays) {
+    MomentTextures made{key, {}};
+    for (Texture& texture : made.passes) {
+      texture = make_array(format, array.size);
+      check_memory("a map of moments", array.size.x, array.size.y);
+    }
+    m.moments.push_back(std::move(made));
+  }
+  Program& store =
+      programs.get({"shaders/screen.vert", "shaders/prefilter/store.frag"}, moment_slots(programs, technique));
+  set_lookup_uniforms(store, technique);
+  Program& blur = programs.get({"shaders/screen.vert", "shaders/prefilter/blur.frag"});
+  blur.set("blur_size", static_cast<int>(kernel.size()));
+  for (size_t k = 0; k < kernel.size(); ++k)
+    blur.set(fmt::format("kernel[{}]", k).c_str(), static_cast<float>(kernel[k]));
+  blur.set("wrap", static_cast<int>(m.wrap));
+  blur.set("border", border);
+  run(time_ms, [&] {
+    for (size_t n = 0; n < m.arrays.size(); ++n)
+      for (int layer = 0; layer < m.arrays[n].size.z; ++layer) {
+        const glm::ivec2 size(m.arrays[n].size);
+        const std::array<Texture, 3>& passes = m.moments[n].passes;
+        draw_into_colour_layer(passes[0].id(), layer, size);
+        glBindTextureUnit(2, m.arrays[n].texture.id());
+        store.set("layer", layer);
+        draw_screen(store);
+        blur.set("layer", layer);
+        for (size_t pass = 0; pass < 2; ++pass) {
+          draw_into_colour_layer(passes[pass + 1].id(), layer, size);
+          glBindTextureUnit(2, passes[pass].id());
+          blur.set("along", pass == 0 ? glm::ivec2(1, 0) : glm::ivec2(0, 1));
+          draw_screen(blur);
+        }
+      }
+  });
+  detach(1);
+  glBindTextureUnit(2, 0);
+  for (const MomentTextures& made : m.moments) {
+    const GLuint last = made.passes.back().id();
+    glTextureParameteri(last, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(last, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(last, GL_TEXTURE_WRAP_S, gl_wrap(m.wrap));
+    glTextureParameteri(last, GL_TEXTURE_WRAP_T, gl_wrap(m.wrap));
+    glTextureParameterfv(last, GL_TEXTURE_BORDER_COLOR, &border.x);
+  }
+  context->check("the passes over a map of moments");
+  return m.moments;
+}
+
+double Renderer::time_moments(const ShadowMap& map, const Technique& technique) {
+  impl_->context->make_current();
+  double time_ms = 0;
+  impl_->moments_of(map, technique, &time_ms);
+  return time_ms;
+}
+
+MomentEvidence Renderer::read_moments(const ShadowMap& map, std::span<const Technique> techniques,
+                                      const TexelSet& texels, size_t which) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  const Technique& technique = techniques[which];
+  const ShadowMap::Impl::Place place = map.impl_->places[which];
+  const MomentTextures& textures = r.moments_of(map, technique, nullptr)[place.array];
+  const glm::ivec2 size = map.size(static_cast<int>(which));
+  MomentEvidence evidence;
+  const std::array<std::vector<glm::vec4>*, 3> read = {&evidence.stored, &evidence.blurred_along_u, &evidence.blurred};
+  constexpr int band = 256;  // rows that are read at a time
+  std::vector<glm::vec4> rows;
+  for (size_t pass = 0; pass < read.size(); ++pass) {
+    read[pass]->resize(texels.count());
+    for (int first = 0; first < size.y; first += band) {
+      const int count = std::min(band, size.y - first);
+      rows.resize(static_cast<size_t>(size.x) * static_cast<size_t>(count));
+      glGetTextureSubImage(textures.passes[pass].id(), 0, 0, first, place.layer, size.x, count, 1, GL_RGBA, GL_FLOAT,
+                           static_cast<GLsizei>(rows.size() * sizeof(glm::vec4)), rows.data());
+      for (int row = 0; row < count; ++row)
+        texels.each_in_row(first + row, [&](int x, size_t index) {
+          (*read[pass])[index] = rows[static_cast<size_t>(row) * static_cast<size_t>(size.x) + static_cast<size_t>(x)];
+        });
+    }
+  }
+
+  Program& fetch =
+      r.programs.get({"shaders/screen.vert", "shaders/fetch_moments.frag"}, lookup_slots(r.programs, technique));
+  r.set_receiver_uniforms(fetch, technique);
+  fetch.set("moments_layer", place.layer);
+  glBindTextureUnit(3, textures.passes.back().id());
+  const int width = r.position_image.width, height = r.position_image.height;
+  r.require(r.fetched, GL_RGBA32F, width, height);
+  r.draw_into({r.fetched.texture.id()}, 0, width, height);
+  r.draw_screen(fetch);
+  r.detach(1);
+  glBindTextureUnit(3, 0);
+  evidence.fetched = read_back<glm::vec4>(r.fetched, GL_RGBA, GL_FLOAT);
+  r.context->check("read_moments");
+  return evidence;
+}
+
+}  // namespace noonmark::gl

@@ -1,0 +1,185 @@
+#include "technique/lookups.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "technique/filters/patterns.h"
+#include "technique/lookup_formulas.h"
+
+namespace noonmark {
+namespace {
+
+// The parameters.
+
+constexpr KindParameter v_min{.setting = "lookup.v_min",
+                              .unit = "depth^2",
+                              .max = 1,
+                              .initial = 1e-7,
+                              .help = "least variance of the depths; a larger one lifts shadows off their casters."};
+
+constexpr KindParameter variance_floor{
+    .setting = "lookup.floor",
+    .unit = "depth",
+    .max = 1,
+    .help =
+        "s: the least variance is (s c W)^2, with the exponent c and the warped depth W of the receiver. So it is "
+        "about a "
+        "distance in the depth from -1 to 1; a larger one lifts shadows off their casters."};
+
+constexpr KindParameter exponent{
+    .setting = "lookup.exponent", .unit = "", .min = 0.01, .max = 88, .initial = 40, .help = "c of the warp e^(c z)."};
+
+constexpr KindParameter negative_exponent{.setting = "lookup.negative_exponent",
+                                          .unit = "",
+                                          .min = 0.01,
+                                          .max = 88,
+                                          .initial = 5,
+                                          .help = "c of the second warp, -e^(-c z)."};
+
+constexpr KindParameter moment_bias{.setting = "lookup.moment_bias",
+                                    .unit = "fraction",
+                                    .max = 1,
+                                    .initial = 3e-7,
+                                    .help =
+                                        "how much of a fixed distribution is mixed into the moments, so that rounding "
+                                        "leaves them possible; 3e-7 for 32 bits, 6e-5 for 16."};
+
+constexpr std::string_view moment_forms[] = {"plain", "2017", "2015", "plain_01"};
+constexpr KindParameter moments{.setting = "lookup.moments",
+                                .unit = "",
+                                .type = ValueType::choice,
+                                .help =
+                                    "how the four moments are stored. plain: of the depth from -1 to 1; plain_01: of "
+                                    "the depth from 0 to 1; 2017: of the "
+                                    "depth from -1 to 1, transformed for 16 bits (Peters et al. 2017); 2015: of the "
+                                    "depth from 0 to 1, transformed for 16 "
+                                    "bits (Peters, Klein 2015).",
+                                .choices = moment_forms};
+
+constexpr KindParameter reduction{
+    .setting = "lookup.reduction",
+    .unit = "fraction",
+    .max = 0.99,
+    .help =
+        "light-bleed reduction r: the lit fraction p becomes (p − r) / (1 − r), at least 0. It removes every leak up "
+        "to r and darkens the edges of shadows."};
+
+constexpr KindParameter reduction_span{
+    .setting = "lookup.reduction_span",
+    .unit = "fraction",
+    .max = 1,
+    .help =
+        "the lit fraction p becomes (p − r) / span instead, at most 1, as three.js does with 0.3 and 0.65; 0: 1 − r."};
+
+// e^(2 c) is the square of the largest warped depth.
+template <const KindParameter& of>
+std::string beyond_float(const LookupSettings& settings) {
+  const double most = 44.36;
+  if (settings[of.name()] <= most) return "";
+  return fmt::format("{} = {}: above {} the squares of lookup.kind = {} overflow 32-bit floats", of.setting,
+                     settings[of.name()], most, settings.kind);
+}
+
+bool always(const LookupSettings&) { return true; }
+bool within_one(const LookupSettings& settings) { return moment_forms[settings.whole("moments")] != "plain"; }
+
+#define MOMENT_FORMULAS(name)                                                                                  \
+  MomentFormulas {                                                                                             \
+    in_float::name##_moments, in_float::name##_lit, name##_truth, in_bounds::name##_lit, in_counts::name##_lit \
+  }
+
+std::vector<LookupKind> make_lookups() {
+  return {
+      {.name = "compare", .help = "each tap of the filter compares depths", .law = "laws 1 to 8"},
+      {.name = "vsm",
+       .help = "variance shadow map (Donnelly, Lauritzen 2006): from the blurred depth and its square, Chebyshev's "
+               "bound of "
+               "how much of the depths is behind the receiver",
+       .law = "never darker than the comparison (law 13); leak at most (a / (a + 2b))² (law 15); no bias on planes "
+              "(law 17)",
+       .reads = {{&v_min}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(vsm),
+       .channels = 2,
+       .within_one = always},
+      {.name = "esm",
+       .help = "exponential shadow map (Annen et al. 2008, Salvi 2008): from the blurred e^(c z) of the depth z from 0 "
+               "to 1, "
+               "Markov's bound",
+       .law = "never darker than the comparison (law 13); a lit gap of ln 2 / c at a contact (law 19)",
+       .reads = {{&exponent}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(esm),
+       .channels = 2,
+       .warp_power = 1},
+      {.name = "evsm2",
+       .help = "exponential variance shadow map with one warp (Lauritzen, McCool 2008): Chebyshev's bound of e^(c z), "
+               "with z "
+               "from -1 to 1",
+       .law = "never darker than the comparison (law 13); leak at most 1 / (2 e^(c b) − 1)² (law 15)",
+       .reads = {{&exponent, beyond_float<exponent>}, {&variance_floor}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(evsm2),
+       .channels = 2,
+       .warp_power = 2},
+      {.name = "evsm4",
+       .help = "exponential variance shadow map with two warps, e^(c z) and −e^(−c z); the lesser of both bounds holds",
+       .law = "never darker than the comparison (law 13); darkens lit slopes by up to a fifth (law 17)",
+       .reads = {{&exponent, beyond_float<exponent>},
+                 {&negative_exponent, beyond_float<negative_exponent>},
+                 {&variance_floor},
+                 {&reduction},
+                 {&reduction_span}},
+       .moments = MOMENT_FORMULAS(evsm4),
+       .channels = 4,
+       .warp_power = 2},
+      {.name = "msm",
+       .help =
+           "moment shadow map (Peters, Klein 2015): from four blurred moments, the sharp bound over all distributions "
+           "(Hamburger's problem)",
+       .law = "never darker than the comparison (law 13); leak at most 1 / (2 (1 + 2b/a)² − 1)² (law 15); lit planes "
+              "need a "
+              "bias of one standard deviation (law 17)",
+       .reads = {{&moment_bias}, {&moments}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(msm),
+       .channels = 4,
+       .within_one = within_one},
+      {.name = "msm_hausdorff",
+       .help = "moment shadow map over the distributions within the map's range (Hausdorff's problem)",
+       .law = "never darker than the comparison (law 13), nor lighter than msm",
+       .reads = {{&moment_bias}, {&moments}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(msm_hausdorff),
+       .channels = 4,
+       .within_one = within_one},
+  };
+}
+
+#undef MOMENT_FORMULAS
+
+}  // namespace
+
+std::span<const LookupKind> lookups() {
+  static const std::vector<LookupKind> all = make_lookups();
+  return all;
+}
+
+const LookupKind& find_lookup(std::string_view name) {
+  for (const LookupKind& lookup : lookups())
+    if (lookup.name == name) return lookup;
+  throw std::logic_error("there is no lookup '" + std::string(name) + "'");
+}
+
+std::span<const KindParameter* const> LookupTable::parameters() {
+  static const std::vector<const KindParameter*> all = parameters_of(lookups());
+  return all;
+}
+
+TapPattern tap_pattern(const Settings& settings) {
+  if (!reads_moments(settings)) return tap_pattern(settings.filter);
+  return fetches_of(find_filter(settings.filter.kind).blur(settings.filter));
+}
+
+const BiasPart* curve_part(const Settings& settings) {
+  return reads_moments(settings) ? nullptr : curve_part(settings.bias);
+}
+
+}  // namespace noonmark

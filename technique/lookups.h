@@ -1,0 +1,63 @@
+// How a lookup answers from what it reads in the map. A lookup that compares depths is the row `compare`. The others read
+// moments of the depth, which a pass over the map stores and blurs before the lookup. Each of them is one file in
+// technique/lookups/ and one row of the table in lookups.cpp: the formulas of what a texel stores and of the lit fraction,
+// which the shader and the host compile. The settings lookup.<name> and the uniforms are made from the rows.
+//
+//   for (const LookupKind& lookup : lookups()) print(lookup.name, lookup.help);
+//   TapPattern pattern = tap_pattern(settings);      // of the filter, or of the blur and the fetch of a map of moments
+#pragma once
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "technique/bias.h"
+#include "technique/filters.h"
+#include "technique/lookup_parameters.h"
+#include "technique/lookup_truth.h"
+#include "technique/settings.h"
+#include "technique/tap_pattern.h"
+
+namespace noonmark {
+
+// The formulas of one file, in each type of number that asks for them (technique/lookup_formulas.h).
+struct MomentFormulas {
+  glm::vec4 (*moments)(float depth, in_float::LookupParameters);
+  float (*lit)(glm::vec4 moments, float depth, in_float::LookupParameters);
+  // From the depths themselves (technique/lookup_truth.h).
+  LookupTruth truth;
+  Bounded (*bounded_lit)(in_bounds::vec4 moments, Bounded depth, in_bounds::LookupParameters);
+  Counted (*counted_lit)(in_counts::vec4 moments, Counted depth, in_counts::LookupParameters);
+};
+
+struct LookupKind {
+  std::string_view name;  // a choice of lookup.kind
+  std::string_view help;
+  std::string_view law;  // what the laws say of it, for the table in docs/reference/techniques.md
+  std::vector<KindRead<LookupSettings>> reads = {};
+  // Of a lookup in a map of moments; empty: it compares depths.
+  std::optional<MomentFormulas> moments = {};
+  int channels = 0;  // numbers that a texel stores: 2 or 4
+  // It stores exponentials, which OpenGL need not round as the host does: at most e^(warp_power c) of the exponent c. 0: none.
+  int warp_power = 0;
+  // Whether all that it stores lies in [0, 1], so that map.moments = 16 can hold it; null: never.
+  bool (*within_one)(const LookupSettings&) = nullptr;
+
+  bool reads_moments() const { return moments.has_value(); }
+};
+
+std::span<const LookupKind> lookups();
+
+// Throws std::logic_error if no row has that name.
+const LookupKind& find_lookup(std::string_view name);
+
+inline bool reads_moments(const Settings& settings) { return find_lookup(settings.lookup.kind).reads_moments(); }
+
+// The texels that a lookup reads: the taps of the filter; of a map of moments the texels of the blur around the four that the
+// fetch blends.
+TapPattern tap_pattern(const Settings& settings);
+
+// The part of the bias whose curve is exact in one pass: none of a lookup in a map of moments, which has no verdicts of taps.
+const BiasPart* curve_part(const Settings& settings);
+
+}  // namespace noonmark

@@ -1,0 +1,277 @@
+// Lookups in maps of moments, measured: the ladder against an independent one, its causes, and what OpenGL made of each stage.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "compare/ladder/measure.h"
+#include "technique/lookups.h"
+#include "technique/map_address.h"
+#include "technique/setting_rules.h"
+#include "tests/support/measured.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+// The map's edge crosses the picture, so that lookups are inside, at the border, and outside.
+Settings vsm(const std::vector<Assignment>& more = {}) {
+  return with(more, with({{"lookup.kind", "vsm"},
+                          {"filter.kind", "box"},
+                          {"filter.size", "5"},
+                          {"map.resolution", "128"},
+                          {"map.extent_m", "6"}},
+                         small("cube-room", 200, 120)));
+}
+
+// The bench must outlive what is read of the measurement's maps.
+Measurement of_moments(Workbench& bench, const Settings& settings) { return bench.measure(settings, std::nullopt); }
+
+class MomentCase : public testing::TestWithParam<SceneCase> {
+ protected:
+  Settings settings() const { return with(GetParam().settings, vsm({{"scene.name", GetParam().scene}})); }
+};
+
+TEST_P(MomentCase, HasASoundLadderWhoseCausesStandOnWrongPixelsOnly) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement m = of_moments(bench, settings());
+  for (const char* stage : {"contract", "contract_store", "contract_blur", "contract_fetch", "contract_lit"})
+    EXPECT_EQ(metric(m, stage), 0) << stage;
+  EXPECT_LE(metric(m, "below_comparison"), 1e-9);
+  EXPECT_LE(metric(m, "residual"), rounding_of_steps);
+  EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
+  EXPECT_LE(metric(m, "rounding_excess"), 1);
+  EXPECT_EQ(metric(m, "acne"), 0);
+  const Ladder& ladder = m.ladder;
+  ASSERT_EQ(ladder.causes.size(), static_cast<size_t>(cause_count));
+  size_t wrong = 0, right = 0;
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    if (!is_counted(ladder, i)) continue;
+    // What lies between the taps at the places looked up and R4 has one sign and sums to it: nothing cancels.
+    double sum = 0, size = 0;
+    for (const Cause cause : {Cause::aliasing_dark, Cause::aliasing_light, Cause::peter_panning, Cause::coverage_dark,
+                              Cause::coverage_light, Cause::leak, Cause::over_darkening, Cause::reduction}) {
+      const double step = ladder[cause][i];
+      sum += step, size += std::abs(step);
+      const CauseEffect effect = find_cause(cause)->effect;
+      if (effect == CauseEffect::darkens) {
+        EXPECT_LE(step, 0) << cause_name(cause) << " " << i;
+      } else if (effect == CauseEffect::lightens) {
+        EXPECT_GE(step, 0) << cause_name(cause) << " " << i;
+      }
+    }
+    EXPECT_NEAR(std::abs(sum), size, 1e-6) << i;
+    const double change =
+        static_cast<double>(ladder[Rung::on_exact_map][i]) - ladder[Rung::filtered][i] - ladder[Cause::displacement][i];
+    EXPECT_LE(size, std::abs(change) + 1e-6 + ladder.doubt[i]) << i;
+    (std::abs(change) < 1e-7 ? right : wrong) += 1;
+    // A leak stands where the depths themselves are darker than the result, over-darkening where they are lighter.
+    if (ladder[Cause::leak][i] > 0) {
+      EXPECT_LT(ladder[Rung::snapped][i], 1) << i;
+    }
+    if (ladder[Cause::over_darkening][i] < 0) {
+      EXPECT_GT(ladder[Rung::snapped][i], 0) << i;
+    }
+  }
+  EXPECT_GT(wrong, 100u);
+  EXPECT_GT(right, 50u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , MomentCase,
+    testing::Values(
+        SceneCase{"Vsm", "cube-room", {}}, SceneCase{"VsmReduced", "cube-room", {{"lookup.reduction", "0.2"}}},
+        SceneCase{"VsmAsThreeReduces",
+                  "cube-room",
+                  {{"lookup.reduction", "0.3"}, {"lookup.reduction_span", "0.65"}, {"map.moments", "16f"}}},
+        SceneCase{"VsmFloor", "cube-room", {{"lookup.v_min", "1e-4"}, {"bias.constant", "0.001"}}},
+        SceneCase{"VsmUnblurred", "cube-room", {{"filter.kind", "none"}, {"map.moments", "16"}}},
+        SceneCase{"VsmGaussian", "cube-room", {{"filter.kind", "gaussian"}, {"filter.size", "7"}}},
+        SceneCase{"VsmRepeated", "cube-room", {{"map.wrap", "repeat"}}},
+        SceneCase{"VsmClamped", "cube-room", {{"map.wrap", "clamp_to_edge"}, {"map.format", "16"}}},
+        SceneCase{"VsmOffset", "cube-room", {{"bias.normal_offset", "0.05"}}},
+        SceneCase{"VsmSpot", "spot-room", {{"map.extent_m", "auto"}}},
+        SceneCase{"Esm", "cube-room", {{"lookup.kind", "esm"}}},
+        SceneCase{"EsmHalf", "cube-room", {{"lookup.kind", "esm"}, {"lookup.exponent", "11"}, {"map.moments", "16f"}}},
+        SceneCase{"Evsm2", "pillars", {{"lookup.kind", "evsm2"}, {"map.extent_m", "auto"}}},
+        SceneCase{"Evsm4", "pillars", {{"lookup.kind", "evsm4"}, {"lookup.floor", "1e-4"}, {"map.extent_m", "auto"}}},
+        SceneCase{"Msm", "cube-room", {{"lookup.kind", "msm"}}},
+        SceneCase{"MsmOf2017",
+                  "cube-room",
+                  {{"lookup.kind", "msm"},
+                   {"lookup.moments", "2017"},
+                   {"lookup.moment_bias", "6e-5"},
+                   {"map.moments", "16"}}},
+        SceneCase{
+            "MsmOf2015", "cube-room", {{"lookup.kind", "msm"}, {"lookup.moments", "2015"}, {"map.moments", "16"}}},
+        SceneCase{"MsmHausdorff", "cube-room", {{"lookup.kind", "msm_hausdorff"}}}),
+    [](const auto& test) { return test.param.name; });
+
+// R4 from the exact map, blurred and blended as OpenGL defines it, in double and texel by texel.
+class BlurredMap {
+ public:
+  BlurredMap(const MeasuredMap& map, const Settings& s)
+      : depth_(map.exact), wrap_(s.map.wrap), size_(s.filter.whole("size")) {}
+
+  // (mean, mean of the squares) of a texel, as the sampler finds it.
+  glm::dvec2 at(glm::ivec2 texel) const {
+    const glm::ivec2 read = wrapped(texel, depth_.size(), wrap_);
+    return read.x < 0 ? glm::dvec2(1) : blurred(read);
+  }
+  glm::dvec2 fetched(glm::vec2 map_texels) const {
+    const glm::vec2 at_centre = map_texels - 0.5f;
+    const glm::ivec2 corner(glm::floor(at_centre));
+    const glm::dvec2 s = glm::dvec2(at_centre) - glm::dvec2(corner);
+    return glm::mix(glm::mix(at(corner), at(corner + glm::ivec2(1, 0)), s.x),
+                    glm::mix(at(corner + glm::ivec2(0, 1)), at(corner + 1), s.x), s.y);
+  }
+
+ private:
+  glm::dvec2 blurred(glm::ivec2 middle) const {
+    glm::dvec2 sum(0);
+    for (int v = -size_ / 2; v <= size_ / 2; ++v)
+      for (int u = -size_ / 2; u <= size_ / 2; ++u) {
+        const glm::ivec2 read = wrapped(middle + glm::ivec2(u, v), depth_.size(), wrap_);
+        const double depth = read.x < 0 ? 1 : static_cast<double>(depth_.at(read));
+        sum += glm::dvec2(depth, depth * depth);
+      }
+    return sum / static_cast<double>(size_ * size_);
+  }
+
+  const MapDepths& depth_;
+  Wrap wrap_;
+  int size_;
+};
+
+TEST(MomentLadder, IsThatOfTheBlurredMapAlsoAcrossItsBorder) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const char* wrap : {"clamp_to_border", "clamp_to_edge", "repeat"}) {
+    const Settings s = vsm({{"map.wrap", wrap}, {"map.lit_beyond_far", "false"}});
+    const Measurement m = of_moments(bench, s);
+    const BlurredMap map(m.maps.front(), s);
+    size_t compared = 0, at_border = 0;
+    for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
+      if (!(m.ladder.flags[i] & flag_facing)) continue;
+      const LookupProbe& probe = m.maps.front().probe;
+      const glm::dvec2 b = map.fetched(probe.map_texels[i]);
+      const double d = static_cast<double>(probe.reference[i]), variance = std::max(b.y - b.x * b.x, 1e-7);
+      const double lit = d <= b.x ? 1 : variance / (variance + (d - b.x) * (d - b.x));
+      // The variance from moments in double has 2^-53 of a square; a float keeps 2^-24 of the result.
+      const double gap = std::max(std::abs(d - b.x), 1e-9);
+      EXPECT_NEAR(m.ladder[Rung::on_exact_map][i], lit, 1e-6 + 1e-15 / (gap * gap)) << wrap << " " << i;
+      ++compared;
+      const glm::vec2 edge = glm::min(probe.map_texels[i], 128.0f - probe.map_texels[i]);
+      at_border += std::abs(std::min(edge.x, edge.y)) < 1;
+    }
+    EXPECT_GT(compared, 5000u);
+    EXPECT_GT(at_border, 30u) << wrap;
+  }
+}
+
+// Light-bleed reduction is arithmetic on the result, so it needs no other lookup.
+TEST(MomentLadder, ReducesAfterTheLookup) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement whole = of_moments(bench, vsm());
+  const Measurement reduced = of_moments(bench, vsm({{"lookup.reduction", "0.25"}}));
+  for (size_t i = 0; i < whole.ladder.flags.size(); ++i) {
+    const float shown = whole.ladder.shown()[i];
+    EXPECT_EQ(reduced.ladder.shown()[i], std::clamp((shown - 0.25f) / 0.75f, 0.0f, 1.0f)) << i;
+  }
+  EXPECT_LT(metric(reduced, "leak"), metric(whole, "leak"));
+  EXPECT_GT(metric(reduced, "reduction"), 0);
+  EXPECT_EQ(metric(whole, "reduction"), 0);
+}
+
+// A floor lights what is near its caster, as a bias does.
+TEST(MomentLadder, BooksWhatAFloorLiftsAsPeterPanning) {
+  Workbench bench(gl::DebugMode::fatal);
+  EXPECT_EQ(metric(of_moments(bench, vsm({{"lookup.v_min", "0"}})), "peter_panning"), 0);
+  const double low = metric(of_moments(bench, vsm({{"lookup.v_min", "1e-3"}})), "peter_panning");
+  EXPECT_GT(low, 1e-5);
+  EXPECT_GT(metric(of_moments(bench, vsm({{"lookup.v_min", "1e-2"}})), "peter_panning"), 2 * low);
+}
+
+// Where the map ends its border is lit, whatever casts a shadow there.
+TEST(MomentLadder, BooksWhatLiesOutsideTheMapAsCoverage) {
+  Workbench bench(gl::DebugMode::fatal);
+  EXPECT_GT(metric(of_moments(bench, vsm({{"map.extent_m", "2"}})), "coverage_light"), 0.005);
+}
+
+// llvmpipe divides and rounds as the host does: without exponentials the lookup is the host's arithmetic, bit for bit.
+class MomentFormula : public testing::TestWithParam<const char*> {};
+TEST_P(MomentFormula, IsLitAsTheHostComputesFromTheSameMoments) {
+  Workbench bench(gl::DebugMode::fatal);
+  if (!bench.device().software) GTEST_SKIP() << "a GPU may divide with an error";
+  const Settings s = vsm({{"lookup.kind", GetParam()}});
+  const Measurement m = of_moments(bench, s);
+  const Technique technique(m.scene, s);
+  gl::Renderer renderer(gl::DebugMode::fatal);
+  renderer.load_scene(m.scene);
+  renderer.load_receivers(m.receivers, m.camera.eye_m);
+  const gl::ShadowMap map = renderer.render_map(technique);
+  const MomentEvidence moments = renderer.read_moments(map, {&technique, 1}, *m.maps.front().exact.texels);
+  const Image<float> lit = renderer.lookup(map, technique);
+  size_t partly = 0;
+  for (size_t i = 0; i < lit.size(); ++i) {
+    const LookupProbe& probe = m.maps.front().probe;
+    if (!(m.ladder.flags[i] & flag_facing) || probe.reference[i] > 1) continue;
+    EXPECT_EQ(lit[i], technique.moments->lit(moments.fetched[i], probe.reference[i])) << i;
+    partly += lit[i] > 0.1f && lit[i] < 0.9f;
+  }
+  EXPECT_GT(partly, 100u);
+}
+INSTANTIATE_TEST_SUITE_P(, MomentFormula, testing::Values("vsm", "msm", "msm_hausdorff"),
+                         [](const auto& test) { return std::string(test.param); });
+
+// Cascades, and a motion: the lookup is another, and all else is as of any lookup.
+TEST(MomentLadder, HasCascadesAndFlickers) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement cascades = of_moments(bench, with({{"lookup.kind", "vsm"},
+                                                       {"filter.kind", "box"},
+                                                       {"cascades.count", "3"},
+                                                       {"cascades.blend", "0.2"},
+                                                       {"map.resolution", "128"},
+                                                       {"map.fit", "sphere"}},
+                                                      small("pillars", 200, 120)));
+  for (const char* stage : {"contract_store", "contract_blur", "contract_fetch", "contract_lit"})
+    EXPECT_EQ(metric(cascades, stage), 0) << stage;
+  EXPECT_LE(metric(cascades, "below_comparison"), 1e-9);
+  EXPECT_LE(metric(cascades, "residual"), rounding_of_steps);
+  EXPECT_GT(metric(cascades, "over_darkening") + metric(cascades, "leak"), 0);
+  EXPECT_EQ(cascades.record.cascades.size(), 3u);
+
+  const Measurement moved =
+      of_moments(bench, vsm({{"motion.move_m", "0.1,0,0"}, {"map.fit", "view"}, {"map.extent_m", "auto"}}));
+  EXPECT_GT(metric(moved, "flicker"), 0);
+}
+
+TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {
+  const auto why = [](const std::vector<Assignment>& more) {
+    try {
+      validate(vsm(more), LightKind::directional);
+    } catch (const SettingConflict& conflict) {
+      return conflict.setting() + ": " + conflict.what();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(why({}), "");
+  for (const auto& [settings, says] : std::vector<std::pair<std::vector<Assignment>, std::string>>{
+           {{{"filter.kind", "poisson"}},
+            "lookup.kind: lookup.kind = vsm reads a map that is blurred before the lookup"},
+           {{{"filter.kind", "hardware"}}, "take filter.kind none, box or gaussian"},
+           {{{"filter.step_texels", "2"}}, "set filter.step_texels = 1"},
+           {{{"bias.reference", "receiver_plane"}}, "set bias.reference = own_depth"},
+           {{{"bias.polygon_units", "4"}}, "bias.polygon_units moves the casters"},
+           {{{"map.placements", "4"}}, "set map.placements = 1"},
+           {{{"lookup.kind", "evsm2"}, {"map.moments", "16"}}, "map.moments = 16 holds numbers from 0 to 1"},
+           {{{"lookup.kind", "msm"}, {"map.moments", "16"}}, "with lookup.moments = plain"},
+           {{{"lookup.kind", "evsm4"}, {"map.moments", "16f"}}, "so it goes up to 5.545"},
+           {{{"lookup.kind", "esm"}, {"map.moments", "16f"}}, "so it goes up to 11.09"},
+           {{{"lookup.kind", "evsm2"}, {"lookup.exponent", "50"}}, "above 44.36"}})
+    EXPECT_NE(why(settings).find(says), std::string::npos) << why(settings);
+  EXPECT_THROW(validate(vsm(), LightKind::point), SettingConflict);
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

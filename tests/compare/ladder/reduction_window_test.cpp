@@ -1,0 +1,80 @@
+// What another lookup.reduction would give, against its definition at many values.
+#include "compare/ladder/reduction_window.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace noonmark {
+namespace {
+
+ReductionWindow random_window(unsigned seed, int count) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> share(0, 1);
+  ReductionWindow window;
+  for (int i = 0; i < count; ++i) {
+    const double truth = random() % 2 == 0 ? 0 : 1, from = random() % 3 == 0 ? share(random) : truth;
+    const double texels = std::clamp(from + 0.2 * (share(random) - 0.5), 0.0, 1.0);
+    const double bare = random() % 4 == 0 ? texels : texels + (1 - texels) * share(random) * share(random);
+    const double bound = random() % 4 == 0 ? std::min(1.0, bare + 0.05) : bare;
+    window.add({truth, from, texels, bare, bound});
+  }
+  return window;
+}
+
+TEST(ReductionWindow, FindsTheLeastErrorOfAll) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
+    const ReductionWindow window = random_window(seed, 400);
+    const ReductionWindow::Best best = window.best();
+    EXPECT_GE(best.reduction, 0);
+    EXPECT_LE(best.reduction, most_reduction);
+    EXPECT_DOUBLE_EQ(window.at(best.reduction).error, best.error);
+    for (int i = 0; i <= 990; ++i) EXPECT_GE(window.at(i / 1000.0).error, best.error - 1e-12) << seed << " " << i;
+  }
+}
+
+TEST(ReductionWindow, HoldsBothBoundsAndNoWiderOneDoes) {
+  int windows = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const ReductionWindow window = random_window(seed, 300);
+    const double leak = window.at(0.1).leak, darkened = window.at(0.3).reduction;
+    ASSERT_GT(leak, 0);
+    const auto usable = window.usable(leak, darkened);
+    ASSERT_TRUE(usable) << seed;
+    ++windows;
+    EXPECT_LE(window.at(usable->low).leak, leak);
+    EXPECT_LE(window.at(usable->high).reduction, darkened);
+    EXPECT_NEAR(usable->low, 0.1, 1e-8) << "the leak falls at every reduction here";
+    EXPECT_NEAR(usable->high, 0.3, 1e-8);
+    EXPECT_FALSE(window.usable(window.at(0.5).leak, window.at(0.2).reduction)) << "the ends would cross";
+  }
+  EXPECT_EQ(windows, 12);
+}
+
+// One receiver in full shadow, with a leak of a quarter: it is gone from a reduction of a quarter on, and nothing is darkened.
+TEST(ReductionWindow, RemovesALeakOfPFromP) {
+  ReductionWindow window;
+  window.add({0, 0, 0, 0.25, 0.25});
+  EXPECT_DOUBLE_EQ(window.at(0).leak, 0.25);
+  EXPECT_DOUBLE_EQ(window.at(0.1).leak, (0.25 - 0.1) / 0.9);
+  EXPECT_EQ(window.at(0.25).leak, 0);
+  EXPECT_EQ(window.at(0.9).reduction, 0);
+  EXPECT_DOUBLE_EQ(window.best().reduction, 0.25);
+  const auto usable = window.usable(0, 0);
+  ASSERT_TRUE(usable);
+  EXPECT_NEAR(usable->low, 0.25, 1e-8);
+  EXPECT_EQ(usable->high, most_reduction);
+}
+
+TEST(ReductionWindow, SaysNothingOfNoReceiver) {
+  const ReductionWindow window;
+  EXPECT_TRUE(std::isnan(window.at(0).error));
+  EXPECT_TRUE(std::isnan(window.best().error));
+  EXPECT_FALSE(window.usable(1, 1));
+  EXPECT_EQ(reduction_metrics(window, 1, 1).count("reduction_min"), 0u);
+}
+
+}  // namespace
+}  // namespace noonmark
