@@ -16,11 +16,11 @@ constexpr size_t widest_blur = 31;  // shaders/prefilter/blur.frag
 GLenum texture_format(MomentFormat format, int channels) {
   switch (format) {
     case MomentFormat::f32:
-      return channels == 2 ? GL_RG32F : GL_RGBA32F;
+      return channels == 1 ? GL_R32F : channels == 2 ? GL_RG32F : GL_RGBA32F;
     case MomentFormat::f16:
-      return channels == 2 ? GL_RG16F : GL_RGBA16F;
+      return channels == 1 ? GL_R16F : channels == 2 ? GL_RG16F : GL_RGBA16F;
     case MomentFormat::u16:
-      return channels == 2 ? GL_RG16 : GL_RGBA16;
+      return channels == 1 ? GL_R16 : channels == 2 ? GL_RG16 : GL_RGBA16;
   }
   throw std::logic_error("a format of moments that OpenGL has no texture for");
 }

@@ -110,7 +110,7 @@ std::vector<LookupKind> make_lookups() {
        .law = "never darker than the comparison (law 13); a lit gap of ln 2 / c at a contact (law 19)",
        .reads = {{&exponent}, {&reduction}, {&reduction_span}},
        .moments = MOMENT_FORMULAS(esm),
-       .channels = 2,
+       .channels = 1,
        .warp_power = 1},
       {.name = "evsm2",
        .help = "exponential variance shadow map with one warp (Lauritzen, McCool 2008): Chebyshev's bound of e^(c z), "

@@ -37,7 +37,7 @@ struct LookupKind {
   std::vector<KindRead<LookupSettings>> reads = {};
   // Of a lookup in a map of moments; empty: it compares depths.
   std::optional<MomentFormulas> moments = {};
-  int channels = 0;  // numbers that a texel stores: 2 or 4
+  int channels = 0;  // numbers that a texel stores: 1, 2 or 4
   // It stores exponentials, which OpenGL need not round as the host does: at most e^(warp_power c) of the exponent c. 0: none.
   int warp_power = 0;
   // Whether all that it stores lies in [0, 1], so that map.moments = 16 can hold it; null: never.

@@ -120,7 +120,7 @@ std::string without_size_of_light(const Settings& s, LightKind kind) {
 // A part of the compared depth is in this unit, also the one that a curve would vary; and so is the cap.
 std::string without_part_in_unit(const Settings& s, LightKind) {
   const bool capped = s.bias.plane_cap && tap_reference(s.bias.reference).reads_cap;
-  return capped || curve_part(s) ? "" : "without a part of the bias in that unit";
+  return capped || curve_part(s.bias) ? "" : "without a part of the bias in that unit";
 }
 std::string without_capped_plane(const Settings& s, LightKind) {
   return tap_reference(s.bias.reference).reads_cap ? "" : "with bias.reference = " + s.bias.reference;

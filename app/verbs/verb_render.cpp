@@ -153,6 +153,13 @@ void print_ladder(const Measurement& m, const char* clock) {
   // Up to 1 the map is fine enough for the camera.
   for (const char* name : {"perspective_aliasing", "perspective_aliasing_p95"})
     if (!(value(name) <= 1)) fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), "texel widths for a pixel's");
+  if (m.record.metrics.contains("reduction_best")) {
+    fmt::print("  lookup.reduction of least error: {:.4g}", value("reduction_best"));
+    if (m.record.metrics.contains("reduction_min"))
+      fmt::print("; within the bounds from {:.4g} to {:.4g}\n", value("reduction_min"), value("reduction_max"));
+    else
+      fmt::print("; none is within the bounds of leak and darkening\n");
+  }
   for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
     if (!m.record.metrics.contains(name)) continue;
     const MedianInterval time = interval_of(m.record, name);

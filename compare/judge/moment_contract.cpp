@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 namespace noonmark {
@@ -197,7 +196,7 @@ MomentContractCounts check_moments(const LookupEvidence& e, const MapDepths& map
 
 std::map<std::string, double> moment_contract_metrics(const MomentContractCounts& c) {
   const auto share = [](uint64_t broken, uint64_t of) {
-    return of == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(broken) / static_cast<double>(of);
+    return of == 0 ? 0 : static_cast<double>(broken) / static_cast<double>(of);
   };
   return {{"contract_store", share(c.stored, c.texels)},
           {"contract_blur", share(c.blurred, c.sums)},

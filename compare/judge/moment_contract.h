@@ -33,7 +33,7 @@ struct MomentContractCounts {
 MomentContractCounts check_moments(const LookupEvidence& evidence, const MapDepths& map, const MomentEvidence& moments,
                                    const Image<float>& result);
 
-// contract_store, contract_blur, contract_fetch, contract_lit: shares. NaN where nothing was checked.
+// contract_store, contract_blur, contract_fetch, contract_lit: shares; 0 where nothing was checked.
 std::map<std::string, double> moment_contract_metrics(const MomentContractCounts& counts);
 
 }  // namespace noonmark

@@ -143,8 +143,11 @@ void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) cons
   book(parts[1], Cause::over_darkening, Cause::leak);
   book(parts[2], Cause::over_darkening, Cause::peter_panning);
   book(parts[3], Cause::reduction, Cause::reduction);
-  set(Cause::moment_precision, static_cast<double>(e.r4[i]) - bounds.shown);
-  set(Cause::precision, static_cast<double>(r[5]) - e.r4[i]);
+  // What OpenGL makes of the exact map, and of its own: the same rounding often turns both the same way.
+  std::array<double, 2> device{};
+  lasting_steps(std::array{bounds.shown, static_cast<double>(e.r4[i]), static_cast<double>(e.r5[i])}, device);
+  set(Cause::moment_precision, device[0]);
+  set(Cause::precision, device[1]);
   ladder.doubt[i] = number(unsure);
 
   double all = 0, classes = before_moved + undecided;

@@ -14,7 +14,7 @@
 //   reduction         to R4
 // Before they are booked, coverage takes as much as the weight of the taps that lie outside the map, beyond far or before
 // near, and undecided as much as the weight of the taps whose truth float error can change, both from the first step on.
-// moment_precision is what OpenGL makes of the exact map, minus R4; precision is R5 minus that.
+// moment_precision and precision are the lasting steps from R4 to what OpenGL makes of the exact map, and from there to R5.
 #pragma once
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/reduction_window.h"

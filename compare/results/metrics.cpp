@@ -56,7 +56,7 @@ constexpr std::pair<std::string_view, Metric> beside_causes[] = {
 constexpr Metric measured_with_causes[] = {
     {"peter_panning_gap_m", "m",
      "Largest width of a lit gap between an occluder and its shadow, along the light's trace on the surface (at a "
-     "corner it is wider than along the wall).",
+     "corner it is wider than along the wall). Of a map of moments: where Peter Panning lights by a half or more.",
      true},
     {"edge_displacement_texels", "texels",
      "Largest distance from an aliased tap to the true shadow edge, across the light's rays, in texels there.", true},
@@ -170,23 +170,25 @@ constexpr Metric measured_with_causes[] = {
      "the "
      "moments that they fetched, within the rounding of float arithmetic. Above 0 it is a defect.",
      false, false, false, false, false, false, true},
-    {"below_comparison", "fraction",
+    {"below_comparison", "",
      "Of a map of moments: the largest amount by which the exact bound, without bias, floor or reduction, is darker "
      "than the "
      "comparison of the same depths (law 13). Above 1e-9 it is a defect.",
      false, false, false, false, false, false, true},
-    {"reduction_best", "fraction",
-     "Of a map of moments: the lookup.reduction of least error against R1, on the exact map. Measured with a curve.",
+    {"reduction_best", "",
+     "Of a map of moments: the lookup.reduction of least error against R1, on the exact map. Measured with a curve, "
+     "but not with "
+     "lookup.reduction_span or a blend band of cascades.",
      true, false, false, false, false, false, true},
     {"reduction_best_error", "fraction", "Of a map of moments: mean |R4 - R1| at reduction_best.", true, false, false,
      false, false, false, true},
-    {"reduction_min", "fraction",
+    {"reduction_min", "",
      "Of a map of moments: the least lookup.reduction at which the leak is within curve.peter_panning_bound and what "
      "the "
      "reduction darkens within curve.acne_bound. Left out if no reduction is. Measured with a curve.",
      true, false, false, false, false, false, true},
-    {"reduction_max", "fraction", "Of a map of moments: the largest such lookup.reduction, at most 0.99.", true, false,
-     false, false, false, false, true},
+    {"reduction_max", "", "Of a map of moments: the largest such lookup.reduction, at most 0.99.", true, false, false,
+     false, false, false, true},
     {"rounding_excess", "",
      "Largest error of the numbers that the lookup computes (address, reference depth, N.L, and what bias and filter "
      "need) against the light's frame in double, as a multiple of the largest error that float arithmetic can make. "

@@ -176,7 +176,10 @@ std::string why_no_curve(const PointRecord& point) {
   if (nothing_judged(point)) return "no pixel can be judged";
   const auto lookup = point.settings.find("lookup.kind");
   if (lookup != point.settings.end() && lookup->second != "compare")
-    return fmt::format("lookup.kind = {} has no verdicts of taps; sweep the bias instead", printable(lookup->second));
+    return fmt::format(
+        "lookup.kind = {} compares no depths, so no curve over the bias is exact in one pass; sweep the bias, or read "
+        "reduction_min and reduction_max",
+        printable(lookup->second));
   std::string why;
   for (const BiasPart& part : bias_parts()) {
     const auto amount = point.settings.find("bias." + std::string(part.name));
