@@ -136,7 +136,7 @@ TEST(Csv, OnlyMeasuredTimesAndAnotherKindOfMachineChangeIt) {
   for (PointRecord& point : slow.points) {
     for (auto& [name, value] : point.times) value *= 3;
     point.machine = {"another host", "another processor", "another driver", "another tracer", "another day"};
-    for (const char* pass : {"map", "lookup", "shadow"})
+    for (const char* pass : {"map", "prefilter", "lookup", "shadow"})
       for (const char* of : {"_ms", "_low_ms", "_high_ms"}) point.metrics[std::string(pass) + of] *= 3;
   }
   const std::vector<Row> a = parse(to_csv(sample())), b = parse(to_csv(slow));
