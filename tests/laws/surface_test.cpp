@@ -119,7 +119,8 @@ TEST(Law11, CausesDoNotDependOnHowASurfaceIsCut) {
           bool same = true;
           // At an ambiguous receiver either verdict may be found.
           if ((built.flags[i] | m.ladder.flags[i]) & flag_ambiguous) continue;
-          for (int c = 0; c < compared_cause_count - 1; ++c) same &= built.causes[c].step[i] == m.ladder.causes[c].step[i];
+          for (int c = 0; c < compared_cause_count - 1; ++c)
+            same &= built.causes[c].step[i] == m.ladder.causes[c].step[i];
           differ += !same;
           raster += built.causes[compared_cause_count - 1].step[i] != m.ladder.causes[compared_cause_count - 1].step[i];
         }

@@ -85,7 +85,8 @@ TEST_F(CommandLine, AnOptionThatIsASettingNamesSet) {
   told({"render", "--map.resolution=512"}, "'--set map.resolution=512'");
   told({"run", "x.toml", "--resolution"}, "'--set map.resolution=VALUE'");
   told({"run", "x.toml", "--size", "3"}, "'--set filter.size=3'");
-  told({"run", "x.toml", "--kind", "box"}, "'--set light.kind=box' or '--set filter.kind=box' or '--set lookup.kind=box'");
+  told({"run", "x.toml", "--kind", "box"},
+       "'--set light.kind=box' or '--set filter.kind=box' or '--set lookup.kind=box'");
   EXPECT_EQ(run({"report", "out", "--resolution", "512"}), 2);
   EXPECT_FALSE(says("--set")) << "report has no such option: " << output_;
 }
