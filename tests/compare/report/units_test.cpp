@@ -26,7 +26,11 @@ TEST(ReportUnits, ShowResidualsPlainly) {
 }
 
 TEST(ReportUnits, FollowTheMetricsTable) {
-  const std::set<std::string_view> plain = {"residual",
+  const std::set<std::string_view> plain = {"below_comparison",
+                                            "reduction_best",
+                                            "reduction_min",
+                                            "reduction_max",
+                                            "residual",
                                             "tap_residual",
                                             "rounding_excess",
                                             "cascade_choice_excess",
