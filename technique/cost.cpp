@@ -70,7 +70,8 @@ int weight_operations(const Filter& filter, int size) {
 int moment_operations(const LookupKind& kind, const LookupSettings& settings) {
   Counter counter;
   const auto number = [&] { return counter.number(); };
-  const in_counts::LookupParameters parameters{number(), number(), number(), number(), number(), 0};
+  const in_counts::LookupParameters parameters{number(), number(), number(),
+                                               number(), number(), settings.whole("moments")};
   Counted lit = kind.moments->counted_lit({number(), number(), number(), number()}, number(), parameters);
   if (settings["reduction"] != 0 || settings["reduction_span"] != 0)
     lit = clamp((lit - number()) * number(), Counted(0.0), Counted(1.0));

@@ -21,31 +21,16 @@
 
 namespace noonmark::in_float {
 #include "lookup_declarations.inc"
-vec4 three_vsm_add_depth(vec4 sums, real depth);
-vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
-vec4 three_vsm_spread(vec4 sums, real taps);
 }  // namespace noonmark::in_float
 namespace noonmark::in_double {
 #include "lookup_declarations.inc"
-vec4 three_vsm_add_depth(vec4 sums, real depth);
-vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
-vec4 three_vsm_spread(vec4 sums, real taps);
 }  // namespace noonmark::in_double
 namespace noonmark::in_extended {
 #include "lookup_declarations.inc"
-vec4 three_vsm_add_depth(vec4 sums, real depth);
-vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
-vec4 three_vsm_spread(vec4 sums, real taps);
 }  // namespace noonmark::in_extended
 namespace noonmark::in_bounds {
 #include "lookup_declarations.inc"
-vec4 three_vsm_add_depth(vec4 sums, real depth);
-vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
-vec4 three_vsm_spread(vec4 sums, real taps);
 }  // namespace noonmark::in_bounds
 namespace noonmark::in_counts {
 #include "lookup_declarations.inc"
-vec4 three_vsm_add_depth(vec4 sums, real depth);
-vec4 three_vsm_add_stored(vec4 sums, vec4 stored);
-vec4 three_vsm_spread(vec4 sums, real taps);
 }  // namespace noonmark::in_counts

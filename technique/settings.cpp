@@ -90,47 +90,6 @@ Setting bias_row(const BiasParameter& parameter) {
   return row;
 }
 
-// The row of one parameter of a table of kinds, such as the filters. It is idle with a kind that does not read it. member:
-// Settings& -> the settings of the table's group.
-template <class Rows, class Member>
-Setting kind_row(const Rows& rows, const KindParameter& parameter, Member of) {
-  std::vector<std::string_view> readers;
-  for (const auto& row : rows)
-    if (find_read(row, parameter)) readers.push_back(row.name);
-  const std::string help = fmt::format("{}: {}", fmt::join(readers, ", "), parameter.help);
-  const auto member = [&parameter, of](Settings& s) -> double& { return of(s)[parameter.name()]; };
-  const auto bare = [&] {
-    switch (parameter.type) {
-      case ValueType::integer:
-        return integer(parameter.setting, parameter.unit, parameter.min, parameter.max, help, member);
-      case ValueType::real:
-        return real(parameter.setting, parameter.unit, parameter.min, parameter.max, help, member);
-      case ValueType::flag:
-        return flag(parameter.setting, help, member);
-      case ValueType::choice:
-        return choice(parameter.setting, {parameter.choices.begin(), parameter.choices.end()}, help, member);
-      default:
-        throw std::logic_error("a parameter of a kind that is no number, flag or choice");
-    }
-  };
-  const auto read_by = [rows, &parameter, of](const Settings& s) {
-    const auto& values = of(const_cast<Settings&>(s));
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& one) { return one.name == values.kind; });
-    return std::pair(row == rows.end() ? nullptr : find_read(*row, parameter), &values);
-  };
-  const std::string kind = std::string(parameter.setting.substr(0, parameter.setting.find('.'))) + ".kind";
-  return bare()
-      .idle([read_by, kind](const Settings& s, LightKind) {
-        const auto [read, values] = read_by(s);
-        if (!read) return fmt::format("with {} = {}", kind, values->kind);
-        return read->why_idle ? read->why_idle(*values) : "";
-      })
-      .refused([read_by](const Settings& s, std::optional<LightKind>) {
-        const auto [read, values] = read_by(s);
-        return read && read->why_refused ? read->why_refused(*values) : "";
-      });
-}
-
 // The stages that read the settings of this group, except for rows with stages of their own.
 Stages stages_of_group(std::string_view group) {
   if (group == "scene") return {Stage::scene};

@@ -15,22 +15,12 @@
 namespace noonmark::acceptance {
 namespace {
 
-// The map's edge crosses the picture, so that lookups are inside, at the border, and outside.
-Settings vsm(const std::vector<Assignment>& more = {}) {
-  return with(more, with({{"lookup.kind", "vsm"},
-                          {"filter.kind", "box"},
-                          {"filter.size", "5"},
-                          {"map.resolution", "128"},
-                          {"map.extent_m", "6"}},
-                         small("cube-room", 200, 120)));
-}
-
 // The bench must outlive what is read of the measurement's maps.
 Measurement of_moments(Workbench& bench, const Settings& settings) { return bench.measure(settings, std::nullopt); }
 
 class MomentCase : public testing::TestWithParam<SceneCase> {
  protected:
-  Settings settings() const { return with(GetParam().settings, vsm({{"scene.name", GetParam().scene}})); }
+  Settings settings() const { return with(GetParam().settings, with_moments({{"scene.name", GetParam().scene}})); }
 };
 
 TEST_P(MomentCase, HasASoundLadderWhoseCausesStandOnWrongPixelsOnly) {
@@ -147,7 +137,7 @@ class BlurredMap {
 TEST(MomentLadder, IsThatOfTheBlurredMapAlsoAcrossItsBorder) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* wrap : {"clamp_to_border", "clamp_to_edge", "repeat"}) {
-    const Settings s = vsm({{"map.wrap", wrap}, {"map.lit_beyond_far", "false"}});
+    const Settings s = with_moments({{"map.wrap", wrap}, {"map.lit_beyond_far", "false"}});
     const Measurement m = of_moments(bench, s);
     const BlurredMap map(m.maps.front(), s);
     size_t compared = 0, at_border = 0;
@@ -172,8 +162,8 @@ TEST(MomentLadder, IsThatOfTheBlurredMapAlsoAcrossItsBorder) {
 // Light-bleed reduction is arithmetic on the result, so it needs no other lookup.
 TEST(MomentLadder, ReducesAfterTheLookup) {
   Workbench bench(gl::DebugMode::fatal);
-  const Measurement whole = of_moments(bench, vsm());
-  const Measurement reduced = of_moments(bench, vsm({{"lookup.reduction", "0.25"}}));
+  const Measurement whole = of_moments(bench, with_moments());
+  const Measurement reduced = of_moments(bench, with_moments({{"lookup.reduction", "0.25"}}));
   for (size_t i = 0; i < whole.ladder.flags.size(); ++i) {
     const float shown = whole.ladder.shown()[i];
     EXPECT_EQ(reduced.ladder.shown()[i], std::clamp((shown - 0.25f) / 0.75f, 0.0f, 1.0f)) << i;
@@ -186,16 +176,16 @@ TEST(MomentLadder, ReducesAfterTheLookup) {
 // A floor lights what is near its caster, as a bias does.
 TEST(MomentLadder, BooksWhatAFloorLiftsAsPeterPanning) {
   Workbench bench(gl::DebugMode::fatal);
-  EXPECT_EQ(metric(of_moments(bench, vsm({{"lookup.v_min", "0"}})), "peter_panning"), 0);
-  const double low = metric(of_moments(bench, vsm({{"lookup.v_min", "1e-3"}})), "peter_panning");
+  EXPECT_EQ(metric(of_moments(bench, with_moments({{"lookup.v_min", "0"}})), "peter_panning"), 0);
+  const double low = metric(of_moments(bench, with_moments({{"lookup.v_min", "1e-3"}})), "peter_panning");
   EXPECT_GT(low, 1e-5);
-  EXPECT_GT(metric(of_moments(bench, vsm({{"lookup.v_min", "1e-2"}})), "peter_panning"), 2 * low);
+  EXPECT_GT(metric(of_moments(bench, with_moments({{"lookup.v_min", "1e-2"}})), "peter_panning"), 2 * low);
 }
 
 // Where the map ends its border is lit, whatever casts a shadow there.
 TEST(MomentLadder, BooksWhatLiesOutsideTheMapAsCoverage) {
   Workbench bench(gl::DebugMode::fatal);
-  EXPECT_GT(metric(of_moments(bench, vsm({{"map.extent_m", "2"}})), "coverage_light"), 0.005);
+  EXPECT_GT(metric(of_moments(bench, with_moments({{"map.extent_m", "2"}})), "coverage_light"), 0.005);
 }
 
 // llvmpipe divides and rounds as the host does: without exponentials the lookup is the host's arithmetic, bit for bit.
@@ -203,7 +193,7 @@ class MomentFormula : public testing::TestWithParam<const char*> {};
 TEST_P(MomentFormula, IsLitAsTheHostComputesFromTheSameMoments) {
   Workbench bench(gl::DebugMode::fatal);
   if (!bench.device().software) GTEST_SKIP() << "a GPU may divide with an error";
-  const Settings s = vsm({{"lookup.kind", GetParam()}});
+  const Settings s = with_moments({{"lookup.kind", GetParam()}});
   const Measurement m = of_moments(bench, s);
   const Technique technique(m.scene, s);
   gl::Renderer renderer(gl::DebugMode::fatal);
@@ -242,14 +232,14 @@ TEST(MomentLadder, HasCascadesAndFlickers) {
   EXPECT_EQ(cascades.record.cascades.size(), 3u);
 
   const Measurement moved =
-      of_moments(bench, vsm({{"motion.move_m", "0.1,0,0"}, {"map.fit", "view"}, {"map.extent_m", "auto"}}));
+      of_moments(bench, with_moments({{"motion.move_m", "0.1,0,0"}, {"map.fit", "view"}, {"map.extent_m", "auto"}}));
   EXPECT_GT(metric(moved, "flicker"), 0);
 }
 
 TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {
   const auto why = [](const std::vector<Assignment>& more) {
     try {
-      validate(vsm(more), LightKind::directional);
+      validate(with_moments(more), LightKind::directional);
     } catch (const SettingConflict& conflict) {
       return conflict.setting() + ": " + conflict.what();
     }
@@ -270,7 +260,7 @@ TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {
            {{{"lookup.kind", "esm"}, {"map.moments", "16f"}}, "so it goes up to 11.09"},
            {{{"lookup.kind", "evsm2"}, {"lookup.exponent", "50"}}, "above 44.36"}})
     EXPECT_NE(why(settings).find(says), std::string::npos) << why(settings);
-  EXPECT_THROW(validate(vsm(), LightKind::point), SettingConflict);
+  EXPECT_THROW(validate(with_moments(), LightKind::point), SettingConflict);
 }
 
 }  // namespace

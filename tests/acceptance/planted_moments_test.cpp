@@ -5,20 +5,12 @@
 namespace noonmark::planted {
 namespace {
 
+using acceptance::with_moments;
+
 const char* const vsm_file = "technique/lookups/vsm.glsl";
 const char* const blur = "shaders/prefilter/blur.frag";
 const char* const fetch = "shaders/filter/moments.glsl";
 const char* const chebyshev = "technique/lookups/shared/chebyshev.glsl";
-
-// The map's edge crosses the picture.
-Settings moments(std::initializer_list<acceptance::Assignment> more = {}) {
-  return with(more, with({{"lookup.kind", "vsm"},
-                          {"filter.kind", "box"},
-                          {"filter.size", "5"},
-                          {"map.resolution", "128"},
-                          {"map.extent_m", "6"}},
-                         small("cube-room", 200, 120)));
-}
 
 // Every other stage.
 std::vector<const char*> all_but(std::string_view found) {
@@ -31,66 +23,66 @@ std::vector<const char*> all_but(std::string_view found) {
 std::vector<Planted> defects() {
   std::vector<Planted> all;
   all.push_back({"MomentsWithAnotherSecondOne",
-                 moments(),
+                 with_moments(),
                  {.shaders = patched(vsm_file, "square = depth * depth", "square = depth * (depth * real(0.99))")},
                  {{"contract_store", 0, 0.9}},
                  all_but("contract_store")});
   all.push_back({"MomentsInAnotherOrder",
-                 moments({{"lookup.kind", "msm"}}),
+                 with_moments({{"lookup.kind", "msm"}}),
                  {.shaders = patched("technique/lookups/shared/power_moments.glsl", "vec4(z, square, cube, fourth)",
                                      "vec4(z, square, fourth, cube)")},
                  {{"contract_store", 0, 0.5}},
                  all_but("contract_store")});
   all.push_back({"MomentsOfAWarpOfHalfTheExponent",  // depth on [0, 1]
-                 moments({{"lookup.kind", "evsm2"}}),
+                 with_moments({{"lookup.kind", "evsm2"}}),
                  {.shaders = patched("technique/lookups/shared/warp.glsl", "real(2) * depth - real(1)", "depth")},
                  {{"contract_store", 0, 0.9}},
                  {"contract_blur", "contract_fetch"}});
   all.push_back(
       {"MomentsBlurredAlongOneAxisTwice",
-       moments(),
+       with_moments(),
        {.shaders = patched(blur, "(k - blur_size / 2) * along", "(k - blur_size / 2) * ivec2(along.x + along.y, 0)")},
        {{"contract_blur", 0, 0.01}},
        all_but("contract_blur")});
   all.push_back({"MomentsOfAKernelThatSumsToMore",
-                 moments(),
+                 with_moments(),
                  {.shaders = patched(blur, "kernel[k] * moments_at", "1.001 * kernel[k] * moments_at")},
                  {{"contract_blur", 0, 0.9}},
                  all_but("contract_blur")});
   all.push_back({"MomentsOfADarkBorder",
-                 moments(),
+                 with_moments(),
                  {.shaders = patched(blur, "return border;", "return border - 1.0;")},
                  {{"contract_blur", 0, 0.001}},
                  all_but("contract_blur")});
   all.push_back({"MomentsOfAWrappedBorder",
-                 moments({{"map.wrap", "repeat"}}),
+                 with_moments({{"map.wrap", "repeat"}}),
                  {.shaders = patched(blur, "(texel % size + size) % size", "clamp(texel, ivec2(0), size - 1)")},
                  {{"contract_blur", 0, 0.001}},
                  all_but("contract_blur")});
   all.push_back(
       {"MomentsFetchedHalfATexelOff",
-       moments(),
+       with_moments(),
        {.shaders = patched(fetch, "receiver.map_texels / map_size", "(receiver.map_texels + 0.5) / map_size")},
        {{"contract_fetch", 0, 0.01}},
        all_but("contract_fetch")});
   all.push_back({"MomentsComparedTheOtherWay",
-                 moments(),
+                 with_moments(),
                  {.shaders = patched(chebyshev, "where_less(mean, depth, share", "where_less(depth, mean, share")},
                  {{"contract_lit", 0, 0.01}},
                  all_but("contract_lit")});
   all.push_back({"MomentsWithAFloorOnTop",
-                 moments({{"lookup.v_min", "1e-5"}}),
+                 with_moments({{"lookup.v_min", "1e-5"}}),
                  {.shaders = patched(vsm_file, "max(variance, p.v_min)", "variance + p.v_min")},
                  {{"contract_lit", 0, 0.001}},
                  all_but("contract_lit")});
   all.push_back({"MomentsBiasedTwice",
-                 moments({{"bias.constant", "0.005"}}),
+                 with_moments({{"bias.constant", "0.005"}}),
                  {.shaders = patched(fetch, "biased_depth(receiver.reference, bias)",
                                      "biased_depth(receiver.reference, 2.0 * bias)")},
                  {{"contract_lit", 0, 0.001}},
                  all_but("contract_lit")});
   all.push_back({"MomentsOfAnotherMap",
-                 moments(),
+                 with_moments(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.extent_m *= 1.02; }},
                  {{"map_error_quanta", 4, 100}},
                  all_but("")});

@@ -33,6 +33,16 @@ inline Settings small(const std::string& scene, int width = 400, int height = 24
       {{"scene.name", scene}, {"view.width_px", std::to_string(width)}, {"view.height_px", std::to_string(height)}});
 }
 
+// A variance map whose edge crosses the picture, so that lookups are inside, at the border, and outside.
+inline Settings with_moments(const std::vector<Assignment>& more = {}) {
+  return with(more, with({{"lookup.kind", "vsm"},
+                          {"filter.kind", "box"},
+                          {"filter.size", "5"},
+                          {"map.resolution", "128"},
+                          {"map.extent_m", "6"}},
+                         small("cube-room", 200, 120)));
+}
+
 // Steps are sums of at most a dozen floats in [0,1], each rounded to 2^-24.
 inline constexpr double rounding_of_steps = 1e-6;
 
