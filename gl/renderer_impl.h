@@ -46,7 +46,7 @@ struct ShadowMap::Impl {
   };
   std::vector<Place> places{};            // of each flat map
   std::weak_ptr<SpareMaps> spares{};      // where the arrays go in the end
-  std::vector<MomentTextures> moments{};  // of each array, for the last lookup that read moments
+  std::vector<MomentTextures> moments{};  // one for each array: those of the last lookup that read moments
 
   // Flat maps of these sizes, which are empty yet.
   Impl(std::shared_ptr<EglContext> owner, const std::shared_ptr<SpareMaps>& ends_in, Wrap mode,

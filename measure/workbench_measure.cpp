@@ -433,7 +433,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     ReductionWindow reductions;
     for (OneMap& map : maps) reductions.add(std::exchange(map.climbed.reductions, {}));
     m.record.metrics.merge(
-        reduction_metrics(reductions, curve_options->peter_panning_bound, curve_options->acne_bound));
+        reduction_metrics(std::move(reductions), curve_options->peter_panning_bound, curve_options->acne_bound));
   }
   add_maps(m.record, maps, *kept.drawn.value(), truth, metrics);
   m.record.cascades = std::move(cascades);

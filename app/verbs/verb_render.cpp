@@ -136,7 +136,7 @@ void print_ladder(const Measurement& m, const char* clock) {
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
         !metric.of_frames && !metric.of_motion && !metric.of_lights &&  // printed otherwise
-        m.record.metrics.contains(std::string(metric.name))) {          // those of cascades are not there for one map
+        m.record.metrics.contains(std::string(metric.name))) {  // a point with one map has no metrics of cascades
       const double share = m.record.metrics.at(std::string(metric.name));
       if (!std::isnan(share)) fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * share);
     }

@@ -19,9 +19,8 @@ namespace {
 // occluder and so no distance to it.
 bool in_gap(const Ladder& ladder, size_t i) {
   // A bound from moments lifts nearly all of a shadow a little; a gap is where it looks lit.
-  const bool of_moments = ladder.built_in() == static_cast<size_t>(cause_count);
   const float lifted = ladder[Cause::peter_panning][i];
-  return is_counted(ladder, i) && (of_moments ? lifted >= 0.5f : lifted != 0) && ladder.truth()[i] == 0;
+  return is_counted(ladder, i) && (ladder.of_moments() ? lifted >= 0.5f : lifted != 0) && ladder.truth()[i] == 0;
 }
 
 // The gap along a receiver that lies in one: the light's way from P to the occluder, projected onto the surface. An
@@ -50,8 +49,8 @@ double bias_m(const MapTile& tile, double bias, double depth_m) {
 double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
   const auto& [frame, probe, bias, edge_distance] = in.map_of(i);
   // A variance floor has no such reach.
-  const bool of_moments = in.ladder.built_in() == static_cast<size_t>(cause_count);
-  if (bias.polygon_offset() || in.casters_moved || of_moments) return std::numeric_limits<double>::infinity();
+  if (bias.polygon_offset() || in.casters_moved || in.ladder.of_moments())
+    return std::numeric_limits<double>::infinity();
   const double cosine = std::clamp(static_cast<double>(probe.n_dot_l[i]), 0.0, 1.0);
   const MapTile tile = frame.tile_at(light);
   const double w = tile.texel_m(light);

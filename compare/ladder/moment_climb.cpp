@@ -62,7 +62,6 @@ MomentClimb::Bounds MomentClimb::bounds_of(size_t i, const ReceiverTaps& taps, P
   if (reference > 1.0f && e.map.lit_beyond_far) return {1, 1, 1};
   const float biased = reference - e.bias.at(e.probe, i);  // as the shader computes it
   blended_depths(e, i, taps, part.depths, part.weights);
-  // One depth for all: the bound is the comparison, and most receivers of a lit floor at right angles to the light are such.
   const auto bare_depth = static_cast<double>(reference);
   Bounds bounds;
   bounds.bare = e.moments->bare(part.depths, part.weights, bare_depth);
@@ -107,8 +106,10 @@ void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) cons
                                           number(texel_lit), number(bounds.shown),   e.r5[i]};
   for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
 
-  if (is_counted(ladder, i))
-    worst.reductions.add({static_cast<double>(e.truth.lit[i]), moved_lit, texel_lit, bounds.bare, bounds.with_floors});
+  // What a cascade shows at a seam for comparison alone is no result.
+  if (is_counted(ladder, i) && e.truth.share_of(i) > 0)
+    worst.reductions.add(
+        {i, static_cast<double>(e.truth.lit[i]), moved_lit, texel_lit, bounds.bare, bounds.with_floors});
 
   // From the taps at the places looked up to R4.
   constexpr size_t steps = 4;

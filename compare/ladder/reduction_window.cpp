@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "compare/ladder/lasting_steps.h"
 #include "compare/ladder/numbers.h"
@@ -27,6 +28,11 @@ double first_that(double low, double high, const Holds& holds) {
 }
 
 }  // namespace
+
+void ReductionWindow::sort() {
+  std::sort(receivers_.begin(), receivers_.end(),
+            [](const Receiver& a, const Receiver& b) { return a.pixel < b.pixel; });
+}
 
 ReductionWindow::At ReductionWindow::at(double reduction) const {
   // The same partition on any machine, so that the sums are too.
@@ -74,7 +80,9 @@ ReductionWindow::Best ReductionWindow::best() const {
     bends.push_back({r.bound, 1, -loss});  // from here on the error is the truth itself
   }
   if (receivers_.empty()) return {not_a_number, not_a_number};
-  std::sort(bends.begin(), bends.end(), [](const Bend& a, const Bend& b) { return a.r < b.r; });
+  std::sort(bends.begin(), bends.end(), [](const Bend& a, const Bend& b) {
+    return std::tie(a.r, a.constant, a.slope) < std::tie(b.r, b.constant, b.slope);  // one order on any machine
+  });
   Best best{0, constant + slope};
   for (const Bend& bend : bends) {
     if (bend.r > most_reduction) break;
@@ -97,8 +105,8 @@ std::optional<ReductionWindow::Window> ReductionWindow::usable(double leak_bound
   return low <= high ? std::optional(Window{low, high}) : std::nullopt;
 }
 
-std::map<std::string, double> reduction_metrics(const ReductionWindow& window, double leak_bound,
-                                                double darkening_bound) {
+std::map<std::string, double> reduction_metrics(ReductionWindow window, double leak_bound, double darkening_bound) {
+  window.sort();
   const ReductionWindow::Best best = window.best();
   std::map<std::string, double> metrics = {{"reduction_best", best.reduction}, {"reduction_best_error", best.error}};
   if (const auto usable = window.usable(leak_bound, darkening_bound))

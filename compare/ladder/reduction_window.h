@@ -2,7 +2,7 @@
 // of each receiver. All numbers are those of R4, on the exact map.
 //
 //   ReductionWindow window;
-//   window.add({.truth = 0, .from = 0, .texels = 0, .bare = 0.1, .bound = 0.1});     // each counted receiver, once
+//   window.add({.pixel = 7, .truth = 0, .from = 0, .texels = 0, .bare = 0.1, .bound = 0.1});  // each counted receiver, once
 //   std::optional<Window> usable = window.usable(0.001, 0.01);
 //   double r = window.best().reduction;
 #pragma once
@@ -16,16 +16,19 @@ namespace noonmark {
 
 class ReductionWindow {
  public:
-  // Of one receiver: R1; the taps at the places looked up, and at the centres of their texels; the bound without and with
+  // Of one receiver: its pixel, by which the sums are ordered; R1; the taps at the places looked up, and at the centres of their texels; the bound without and with
   // bias and floors (compare/ladder/moment_climb.h). All in [0, 1].
   struct Receiver {
+    size_t pixel = 0;
     double truth = 0, from = 0, texels = 0, bare = 0, bound = 0;
   };
   void add(const Receiver& receiver) { receivers_.push_back(receiver); }
   void add(const ReductionWindow& more) {
     receivers_.insert(receivers_.end(), more.receivers_.begin(), more.receivers_.end());
   }
-  size_t receivers() const { return receivers_.size(); }
+  const std::vector<Receiver>& all() const { return receivers_; }
+  // Puts the receivers in the order of their pixels. Threads add them in any order, and the last bit of a sum depends on it.
+  void sort();
 
   // Means over the receivers, at this reduction (0 ... 0.99): |R4 - R1|; the leak and what the reduction darkens, as the
   // ladder books them.
@@ -56,9 +59,8 @@ class ReductionWindow {
 // The largest reduction that a setting can have.
 inline constexpr double most_reduction = 0.99;
 
-// reduction_best, reduction_best_error, reduction_min, reduction_max: fractions. Of no receiver NaN; the window is left out if
+// Of the window in the order of its pixels: reduction_best, reduction_best_error, reduction_min, reduction_max: fractions. Of no receiver NaN; the window is left out if
 // there is none.
-std::map<std::string, double> reduction_metrics(const ReductionWindow& window, double leak_bound,
-                                                double darkening_bound);
+std::map<std::string, double> reduction_metrics(ReductionWindow window, double leak_bound, double darkening_bound);
 
 }  // namespace noonmark

@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"texels", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 4096\n"},
         // Too large to be kept on the device (most_kept_map_bytes).
         Case{"large_map", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 8192\n"},
-        // Arrays of maps: drawn, exact and tie maps of all cascades are kept; and one that is not.
+        // Cascades: the arrays of their drawn, exact and tie maps are kept, or are too large for that.
         Case{"cascades",
              "scene = \"street\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
              "2048\nfit "

@@ -13,7 +13,7 @@ using Quad = long double;  // of 113 bits where the compiler has no __float128
 
 inline Quad abs_of(Quad x) { return x < 0 ? -x : x; }
 
-// Newton's method from the root in long double: one step doubles its 64 bits.
+// The root in long double has 64 correct bits. One step of Newton's method doubles them.
 inline Quad root_of(Quad x) {
   if (!(x > 0)) return 0;
   Quad root = std::sqrt(static_cast<long double>(x));
