@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "scenes/shapes.h"
 #include "tests/support/measured.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -175,8 +176,8 @@ Scene standing_cube(bool joined) {
 }
 
 TEST(StandingCube, HasTheSameCausesAsOneMeshAndAsTwo) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "noonmark-standing-cube";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
   const std::string two = write_gltf(standing_cube(false), folder, "two", false);
   const std::string one = write_gltf(standing_cube(false), folder, "one", true);
   const std::string joined = write_gltf(standing_cube(true), folder, "joined", true);
@@ -215,7 +216,6 @@ TEST(StandingCube, HasTheSameCausesAsOneMeshAndAsTwo) {
     }
   }
   EXPECT_GT(all_wrong, 10000u) << "there must be something to compare";
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "compare/judge/no_flicker.h"
 #include "tests/support/measured.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -221,8 +222,8 @@ void write_moving_camera(const std::string& folder, bool moves_mesh) {
 
 TEST(Motion, FollowsTheCameraOfAnAnimation) {
   Workbench bench(gl::DebugMode::fatal);
-  const std::string folder = std::filesystem::path(testing::TempDir()) / "moving-camera";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.path();
   write_moving_camera(folder, false);
   Settings settings = with({{"scene.time_s", "0.5"},
                             {"motion.time_s", "0.25"},
@@ -284,8 +285,8 @@ void write_room(const std::string& folder) {
 // the next frame sees every point that stays in the picture.
 TEST(Motion, SeesThroughTheBacksOfSingleSidedFaces) {
   Workbench bench(gl::DebugMode::fatal);
-  const std::string folder = std::filesystem::path(testing::TempDir()) / "single-sided-room";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::string folder = temporary.path();
   write_room(folder);
   const Settings settings = with({{"view.eye_m", "1,5,9"},
                                   {"view.target_m", "0,1,0"},

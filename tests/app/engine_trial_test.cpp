@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "tests/app/engine_case.h"
 #include "tests/support/source_dir.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noonmark {
 namespace {
@@ -32,8 +33,6 @@ std::string refusal(const std::function<void()>& call) {
 class EngineTrials : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = testing::TempDir() + "engine-trials";
-    std::filesystem::remove_all(folder_);
     make_folder(folder_ + "/modules/three");
     for (const char* name : {"PATH", "NODE_MODULES", "CHROMIUM"})
       if (const char* value = std::getenv(name)) before_[name] = value;
@@ -41,7 +40,6 @@ class EngineTrials : public testing::Test {
   void TearDown() override {
     for (const char* name : {"PATH", "NODE_MODULES", "CHROMIUM"})
       before_.contains(name) ? setenv(name, before_[name].c_str(), 1) : unsetenv(name);
-    std::filesystem::remove_all(folder_);
   }
   // A program in the folder that is the whole PATH.
   void install(const std::string& name) {
@@ -49,7 +47,9 @@ class EngineTrials : public testing::Test {
     std::filesystem::permissions(folder_ + "/" + name, std::filesystem::perms::owner_all);
   }
 
-  std::string folder_;
+  // One for each test: CTest runs them side by side.
+  TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.path().string();
   std::map<std::string, std::string> before_;
 };
 

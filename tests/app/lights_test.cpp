@@ -182,7 +182,7 @@ TEST(LightsFrame, WeighsEachLightByItsShareOfThePixelsLight) {
 }
 
 struct LightsRun : testing::Test {
-  test::TemporaryFolder temporary;
+  TemporaryFolder temporary;
   std::string folder = temporary.path().string();
   std::string path = folder + "/x.toml";
   SweepOutcome run(const std::string& toml) {

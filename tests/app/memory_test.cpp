@@ -16,7 +16,7 @@ namespace {
 constexpr uint64_t MiB = 1 << 20;
 
 TEST(AvailableMemory, IsTheLeastOfTheMachinesAndTheGroups) {
-  const test::TemporaryFolder root;
+  const TemporaryFolder root;
   const auto available = [&] { return available_memory(root.path().string()); };
   EXPECT_EQ(available().bytes, UINT64_MAX) << "no limit is known here";
 
@@ -44,7 +44,7 @@ TEST(AvailableMemory, IsTheLeastOfTheMachinesAndTheGroups) {
 }
 
 TEST(AvailableMemory, KnowsGroupsOfVersionOneAndInsideContainers) {
-  const test::TemporaryFolder root;
+  const TemporaryFolder root;
   const auto available = [&] { return available_memory(root.path().string()); };
   root.write("proc/meminfo", "MemAvailable:    8192 kB\n");
   root.write("proc/self/cgroup", "9:name=systemd:/x\n4:cpu,memory:/docker/1234\n2:cpuacct:/y\n");

@@ -30,7 +30,7 @@ class RecommendAbout : public testing::Test {
     upright["nodes"][0]["translation"] = {0, 3, 0};
     return folder_.write("square.gltf", upright.dump());
   }
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(RecommendAbout, AModelWithoutAGroundIsSaidFirst) {

@@ -103,7 +103,7 @@ std::string seen(Workbench& bench, const std::string& path) {
 }
 
 TEST(SceneIdentity, SeesWhateverInTheFileChangesAMeasurement) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   Workbench bench(gl::DebugMode::off);
   for (const json& document : {rich_scene(lens, spot), rich_scene(plan, sun)}) {
     const std::string first = folder.write("scene.gltf", document.dump());
@@ -137,7 +137,7 @@ TEST(SceneIdentity, SeesWhateverInTheFileChangesAMeasurement) {
 
 // Scenes are loaded one after the other while a sweep runs. Meanwhile somebody may edit a file.
 TEST(SceneIdentity, NoticesAFileThatIsEditedDuringTheSweep) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   json document = rich_scene(lens, spot);
   const Settings first = small(folder.write("a.gltf", document.dump()), 48, 32),
                  second = small(folder.write("b.gltf", document.dump()), 48, 32);
@@ -165,7 +165,7 @@ TEST(SceneIdentity, NoticesAFileThatIsEditedDuringTheSweep) {
 }
 
 TEST(SceneIdentity, DoesNotSeeNames) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   json document = rich_scene(lens, spot);
   const std::string digest = scene_digest(load_gltf(folder.write("scene.gltf", document.dump())));
   const json flat = document.flatten();

@@ -6,25 +6,26 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noonmark {
 namespace {
 
 TEST(ChildProcess, GivesItsCodeAndBothStreams) {
-  const std::string log = testing::TempDir() + "child.log";
+  const TemporaryFolder folder;
+  const std::string log = folder.file("child.log");
   EXPECT_EQ(run_program({"/bin/sh", "-c", "echo out; echo err >&2; read line || exit 7"}, log), 7)
       << "its input is empty";
   EXPECT_EQ(read_file(log), "out\nerr\n");
   EXPECT_EQ(run_program({"/bin/sh", "-c", "kill -TERM $$"}, log), -15);
   EXPECT_EQ(read_file(log), "") << "the log is begun anew";
-  std::filesystem::remove(log);
 }
 
 TEST(ChildProcess, WhatCannotBeStartedIsAnError) {
-  const std::string log = testing::TempDir() + "child.log";
+  const TemporaryFolder folder;
+  const std::string log = folder.file("child.log");
   EXPECT_THROW(run_program({"/no/such/program"}, log), Error);
   EXPECT_THROW(run_program({"/bin/sh"}, "/no/such/folder/log"), Error);
-  std::filesystem::remove(log);
 }
 
 TEST(ChildProcess, ProgramsAreFoundInThePath) {

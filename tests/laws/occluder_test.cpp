@@ -104,7 +104,7 @@ RC_GTEST_PROP(Law8, ALoneBoxHasAcneOnly, ()) {
     document["accessors"][0]["min"][axis] = least;
     document["accessors"][0]["max"][axis] = most;
   }
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   Settings settings = any_settings(folder.write("box.gltf", document.dump()));
   settings.light.position_m = glm::dvec3(real(-5, 5), real(2, 6), real(-5, 5));
   settings.light.target_m = glm::dvec3(0);

@@ -1,41 +1,20 @@
 // Points in which every member has a value, for the tests of the code that stores and writes them.
 #pragma once
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include "compare/results/metrics.h"
 #include "compare/results/records.h"
 #include "technique/settings.h"
+#include "tests/support/temporary_folder.h"
 
 namespace noonmark {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf_value = std::numeric_limits<double>::infinity();
-
-// A new folder that is removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "noonmark-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error("mkdtemp failed");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Points with different ids differ in every number.
 inline PointRecord sample_point(int64_t id, bool with_curve = true) {
