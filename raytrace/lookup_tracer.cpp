@@ -159,7 +159,7 @@ class TapTracing {
         surface_(l_.traced.embree, l_.traced.adjacency, l_.view, l_.light->silhouettes(), cells_),
         among_taps_(l_.view, l_.light->silhouettes(), probe, l_.bias),
         listed_(!l_.by_rays() && among_taps_.applies()),
-        square_(listed_ && probe.taps() > 1 ? probe.pattern.square_side : 0),
+        square_(listed_ && probe.taps() > 1 ? probe.pattern.texel_side() : 0),
         parallel_(l_.view.rays().have_one_direction()),
         texel_m_(parallel_ ? frame().texel_m({}) : 0) {
     result_.taps.assign(strip.size() * static_cast<size_t>(probe.taps()), 0);

@@ -74,7 +74,7 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
         Outside& outside = outside_rows.local();
         // Neighbouring pixels mostly ask for the same texels.
         std::vector<glm::ivec2> before(static_cast<size_t>(probe.taps()), glm::ivec2(std::numeric_limits<int>::min()));
-        const bool square = probe.cube_resolution == 0 && probe.pattern.square_side > 0;
+        const bool square = probe.cube_resolution == 0 && probe.pattern.texel_side() > 0;
         std::vector<glm::ivec2> side, side_before;
         for (size_t i = range.begin(); i != range.end(); ++i) {
           if (!facing[i]) continue;

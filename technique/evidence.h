@@ -72,12 +72,12 @@ struct LookupProbe {
     return floored(at + glm::vec2(o));
   }
 
-  // Of a square of taps (TapPattern::square_side): the column and the row that tap t of each row and column reads, for t
+  // Of a square of taps (TapPattern::texel_side()): the column and the row that tap t of each row and column reads, for t
   // from 0 on. Flat maps.
   void square_at(glm::vec2 at, size_t i, std::vector<glm::ivec2>& column_row) const {
-    column_row.resize(static_cast<size_t>(pattern.square_side));
-    for (int t = 0; t < pattern.square_side; ++t)
-      column_row[static_cast<size_t>(t)] = texel_at(at, i, t * (pattern.square_side + 1));
+    const int side = pattern.texel_side();
+    column_row.resize(static_cast<size_t>(side));
+    for (int t = 0; t < side; ++t) column_row[static_cast<size_t>(t)] = texel_at(at, i, t * (side + 1));
   }
 
   // The tile of the map (technique/map_tile.h) that a tap reads.

@@ -64,12 +64,12 @@ Bounded MomentLookup::bounded_lit(glm::vec4 m, float depth) const {
   return kind_->moments->bounded_lit({exact(m.x), exact(m.y), exact(m.z), exact(m.w)}, exact(depth), bounded);
 }
 
-double MomentLookup::exact(std::span<const double> depths, std::span<const double> weights, double receiver) const {
-  return static_cast<double>(kind_->moments->truth(depths, weights, receiver, exact_));
+double MomentLookup::exact(TruthInDouble& depths, double receiver) const {
+  return depths.lit(kind_->moments->truth, receiver, exact_);
 }
 
-double MomentLookup::bare(std::span<const double> depths, std::span<const double> weights, double receiver) const {
-  return static_cast<double>(kind_->moments->truth(depths, weights, receiver, bare_));
+double MomentLookup::bare(TruthInDouble& depths, double receiver) const {
+  return depths.lit(kind_->moments->truth, receiver, bare_);
 }
 
 double MomentLookup::reduced(double lit) const { return std::clamp((lit - reduction_) / span_, 0.0, 1.0); }

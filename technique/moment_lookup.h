@@ -36,12 +36,12 @@ class MomentLookup {
   // The lit fraction of these moments and this depth, with a bound of the error of a shader's float arithmetic.
   Bounded bounded_lit(glm::vec4 moments, float depth) const;
 
-  // The lit fraction from the depths of the texels with their weights (sum 1), before lookup.reduction: the number that the
-  // formula has on moments that are not rounded (technique/lookup_truth.h). receiver: its biased window depth.
-  double exact(std::span<const double> depths, std::span<const double> weights, double receiver) const;
+  // The lit fraction from the depths of the texels, before lookup.reduction: the number that the formula has on moments that
+  // are not rounded (technique/lookup_truth.h). receiver: its biased window depth.
+  double exact(TruthInDouble& depths, double receiver) const;
   // The same without the parameters that lift or darken the bound: variance floors and the bias of the moments. By law 13 it
   // is never below the share of the depths that are not before the receiver.
-  double bare(std::span<const double> depths, std::span<const double> weights, double receiver) const;
+  double bare(TruthInDouble& depths, double receiver) const;
 
   // After light-bleed reduction: (lit - r) / span, clamped to [0, 1]; span is 1 - r unless lookup.reduction_span gives it.
   double reduced(double lit) const;

@@ -37,7 +37,7 @@ void PlacedProbe::list(size_t pixel, int column, int side, int row, PlacedTaps& 
                        positions_[static_cast<size_t>(row + i)][pixel].y);
     taps.x[static_cast<size_t>(i)] = at.x;
     taps.y[static_cast<size_t>(i)] = at.y;
-    const int square = probe_.pattern.square_side;
+    const int square = probe_.pattern.texel_side();
     if (square > 0) probe_.square_at(at, pixel, taps.square);
     for (int t = 0; t < count; ++t) {
       const glm::ivec2 texel = square > 0 ? glm::ivec2(taps.square[static_cast<size_t>(t % square)].x,

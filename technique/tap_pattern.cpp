@@ -7,18 +7,11 @@
 
 namespace noonmark {
 
-double TapPattern::weight(int tap, glm::dvec2 fraction) const {
-  if (!bilinear()) return 1.0 / taps;
-  if (axis_weight) {
-    const int size = blended_side - 1;
-    return axis_weight(tap % blended_side, fraction.x, size) * axis_weight(tap / blended_side, fraction.y, size);
-  }
-  const int fetches = static_cast<int>(kernel.size()), side = fetches + 1;
-  const auto along = [&](int i, double f) {
-    return (i < fetches ? kernel[static_cast<size_t>(i)] * (1 - f) : 0) +
-           (i > 0 ? kernel[static_cast<size_t>(i) - 1] * f : 0);
-  };
-  return along(tap % side, fraction.x) * along(tap / side, fraction.y);
+double TapPattern::along_axis(int texel, double fraction) const {
+  if (axis_weight) return axis_weight(texel, fraction, blended_side - 1);
+  const int fetches = blended_side - 1;
+  return (texel < fetches ? kernel[static_cast<size_t>(texel)] * (1 - fraction) : 0) +
+         (texel > 0 ? kernel[static_cast<size_t>(texel) - 1] * fraction : 0);
 }
 
 int TapPattern::fetches() const {

@@ -39,9 +39,17 @@ struct TapPattern {
 
   glm::vec3 offset(int variant, int tap) const { return offsets[static_cast<size_t>(variant * taps + tap)]; }
 
+  // The taps along the side of a square of texels, bilinear or not; 0: the taps are no such square.
+  int texel_side() const { return bilinear() ? blended_side : square_side; }
+
   // Weight of a bilinear tap. fraction: the position of P between the centres of the texels to its lower left and upper
   // right.
-  double weight(int tap, glm::dvec2 fraction) const;
+  double weight(int tap, glm::dvec2 fraction) const {
+    if (!bilinear()) return 1.0 / taps;
+    return along_axis(tap % blended_side, fraction.x) * along_axis(tap / blended_side, fraction.y);
+  }
+  // Of its column or of its row alone. fraction: along that axis.
+  double along_axis(int texel, double fraction) const;
 
   // Texture instructions for one receiver: one for each tap, or one for each 2 x 2 texels that a sampler blends.
   int fetches() const;

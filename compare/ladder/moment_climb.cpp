@@ -22,8 +22,7 @@ void blended_depths(const LookupEvidence& e, size_t i, const ReceiverTaps& taps,
   const glm::ivec2 corner = first + before;  // the lower left of the four texels
   if (inside_map(corner, map) && inside_map(corner + 1, map)) {
     for (size_t t = 0; t < taps.size(); ++t) {
-      const Tap tap = taps[t];
-      depths.push_back(static_cast<double>(tap.depth)), weights.push_back(tap.weight);
+      depths.push_back(static_cast<double>(taps.depth_in(e.exact_map, t))), weights.push_back(taps.weight(t));
     }
     return;
   }
@@ -64,8 +63,9 @@ MomentClimb::Bounds MomentClimb::bounds_of(size_t i, const ReceiverTaps& taps, P
   blended_depths(e, i, taps, part.depths, part.weights);
   const auto bare_depth = static_cast<double>(reference);
   Bounds bounds;
-  bounds.bare = e.moments->bare(part.depths, part.weights, bare_depth);
-  bounds.with_floors = e.moments->exact(part.depths, part.weights, static_cast<double>(biased));
+  part.truth.set(part.depths, part.weights);
+  bounds.bare = e.moments->bare(part.truth, bare_depth);
+  bounds.with_floors = e.moments->exact(part.truth, static_cast<double>(biased));
   bounds.shown = e.moments->reduced(bounds.with_floors);
   double compared = 0;
   for (size_t t = 0; t < part.depths.size(); ++t)
@@ -82,17 +82,19 @@ void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) cons
 
   // As shares of the sum of the weights in the same order, so that lit taps alone are exactly 1.
   double exact_lit = 0, moved_lit = 0, texel_lit = 0, unsure = 0, uncovered = 0, whole = 0;
-  double before_exact = 0, before_moved = 0;  // the undecided parts, as of Climb
-  for (size_t t = 0; t < taps.size(); ++t) {
+  double before_exact = 0, before_moved = 0;                // the undecided parts, as of Climb
+  const size_t count = taps.one_truth() ? 1 : taps.size();  // one stands for all of them then
+  for (size_t t = 0; t < count; ++t) {
     const Tap tap = taps[t];
-    whole += tap.weight;
-    if (tap.exact_lit) exact_lit += tap.weight;
-    if (tap.moved_lit) moved_lit += tap.weight;
-    if (tap.texel_lit) texel_lit += tap.weight;
-    if (!tap.covered) uncovered += tap.weight;
+    const double weight = taps.one_truth() ? 1 : tap.weight;
+    whole += weight;
+    if (tap.exact_lit) exact_lit += weight;
+    if (tap.moved_lit) moved_lit += weight;
+    if (tap.texel_lit) texel_lit += weight;
+    if (!tap.covered) uncovered += weight;
     if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
-    unsure += tap.weight;
-    const auto step = [&](bool from, bool to) { return tap.weight * (static_cast<int>(to) - static_cast<int>(from)); };
+    unsure += weight;
+    const auto step = [&](bool from, bool to) { return weight * (static_cast<int>(to) - static_cast<int>(from)); };
     if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
     if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
   }

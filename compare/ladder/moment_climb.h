@@ -33,6 +33,7 @@ class MomentClimb {
     double below_comparison = 0;
     std::vector<double> depths;  // of the taps of one receiver
     std::vector<double> weights;
+    TruthInDouble truth;
     ReductionWindow reductions;  // of the counted receivers
   };
   MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);  // both must outlive this

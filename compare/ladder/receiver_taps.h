@@ -29,6 +29,7 @@ class ReceiverTaps {
             size_t i) {
     const auto count = static_cast<size_t>(truth.taps_per_receiver);
     map_ = &map;
+    format_ = settings.format;
     size_ = count;
     reference_ = probe.reference[i];
     asks_ = probe.asks(i);
@@ -36,10 +37,13 @@ class ReceiverTaps {
     blended_ = probe.pattern.bilinear();
     const uint8_t* const bits = &truth.taps[(i - truth.first) * count];
     const bool on_one_side = list_texels(probe, settings, i);
-    by_depth_ = asks_ && !blended_ && !probe.tap_reference->plane;
+    const bool plane = probe.tap_reference->plane;
+    by_depth_ = asks_ && !blended_ && !plane;
     // Beyond far no tap is covered, wherever it reads.
-    alike_ = by_depth_ && (on_one_side || reference_ > 1.0f) && std::equal(bits + 1, bits + count, bits);
-    if (alike_) {
+    one_truth_ = asks_ && !plane && (on_one_side || reference_ > 1.0f) && std::equal(bits + 1, bits + count, bits);
+    alike_ = one_truth_ && !blended_;
+    list_weights(probe, i);
+    if (one_truth_) {
       same_ = tap_of(probe, bits[0], settings, map.size(), i, 0, read_by(probe, i, 0));
       return;
     }
@@ -52,18 +56,14 @@ class ReceiverTaps {
 
   size_t size() const { return size_; }
   // A tap as it reads the exact map.
-  Tap operator[](size_t t) const {
-    if (!alike_) return taps_[t];
-    Tap tap = same_;
-    tap.depth = depth_in(*map_, t);
-    return tap;
-  }
+  Tap operator[](size_t t) const { return one_truth_ ? at_depth(depth_in(*map_, t), format_, t) : taps_[t]; }
   // The same tap as it reads another map at the same texels.
   Tap on(const MapDepths& map, DepthFormat format, size_t t) const { return at_depth(depth_in(map, t), format, t); }
   // The same tap if it reads this depth.
   Tap at_depth(float depth, DepthFormat format, size_t t) const {
-    Tap tap = alike_ ? same_ : taps_[t];
+    Tap tap = one_truth_ ? same_ : taps_[t];
     if (!asks_) return tap;
+    if (one_truth_) tap.weight = weight(t);
     tap.depth = depth;
     tap.always_lit = lit_beyond_far_ || compares_clamped(blended_, format, tap.depth);
     return tap;
@@ -72,6 +72,14 @@ class ReceiverTaps {
   // True if nothing but the depth that a tap reads decides whether it is lit, and each tap weighs 1: neither a plane, nor a
   // sampler.
   bool by_depth() const { return by_depth_; }
+  // True if the truth of all taps is the same, and they differ only in the depth that they read and in their weight.
+  bool one_truth() const { return one_truth_; }
+  // As whole_weight() counts: a share of the blend, or 1.
+  double weight(size_t t) const {
+    if (!blended_) return 1;
+    const size_t side = weight_u_.size();
+    return weight_u_[t % side] * weight_v_[t / side];
+  }
   // True if the taps differ in that depth only, so that they are judged together.
   bool alike() const { return alike_; }
   // Of tap t: the depth that it reads in a map with the same texels.
@@ -107,7 +115,7 @@ class ReceiverTaps {
     index_.clear();
     runs_.clear();
     beside_ = 0;
-    if (probe.cube_resolution == 0 && probe.pattern.square_side > 0) {
+    if (probe.cube_resolution == 0 && probe.pattern.texel_side() > 0) {
       probe.square_at(probe.map_texels[i], i, square_);
       if (inside_map(square_.front(), map_size) && inside_map(square_.back(), map_size)) {
         for (const glm::ivec2 row : square_) texels.indexes(row.y, square_, index_);
@@ -139,6 +147,16 @@ class ReceiverTaps {
         runs_.push_back({index, 1});
     }
   }
+  void list_weights(const LookupProbe& probe, size_t i) {
+    weight_u_.clear(), weight_v_.clear();
+    if (!blended_) return;
+    const glm::vec2 at = probe.map_texels[i] - 0.5f;
+    const glm::dvec2 fraction = glm::dvec2(at) - glm::dvec2(glm::floor(at));
+    for (int t = 0; t < probe.pattern.blended_side; ++t) {
+      weight_u_.push_back(probe.pattern.along_axis(t, fraction.x));
+      weight_v_.push_back(probe.pattern.along_axis(t, fraction.y));
+    }
+  }
   TapRead read_by(const LookupProbe& probe, size_t i, int tap) const {
     TapRead read;
     if (probe.cube_resolution == 0) read.position = probe.map_texels[i];
@@ -149,13 +167,15 @@ class ReceiverTaps {
 
   const MapDepths* map_ = nullptr;  // the exact map
   size_t size_ = 0;
-  std::vector<uint32_t> index_;  // TexelSet::index of the texel that a tap reads
-  std::vector<Run> runs_;        // the same, without the taps that read the border
-  size_t beside_ = 0;            // the taps that read the border
-  std::vector<Tap> taps_;        // empty if the taps differ in nothing but their depth
-  Tap same_;                     // each of them then, but for its depth
+  std::vector<uint32_t> index_;              // TexelSet::index of the texel that a tap reads
+  std::vector<Run> runs_;                    // the same, without the taps that read the border
+  size_t beside_ = 0;                        // the taps that read the border
+  std::vector<Tap> taps_;                    // not of one_truth()
+  Tap same_;                                 // each of them then, but for its depth and its weight
+  std::vector<double> weight_u_, weight_v_;  // of the columns and rows of a blended square
+  DepthFormat format_ = DepthFormat::d32f;   // of the exact map
   float reference_ = 0;
-  bool asks_ = true, lit_beyond_far_ = false, blended_ = false, by_depth_ = false, alike_ = false;
+  bool asks_ = true, lit_beyond_far_ = false, blended_ = false, by_depth_ = false, one_truth_ = false, alike_ = false;
   std::vector<glm::ivec2> square_;  // its memory is used again
 };
 
