@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -23,6 +24,7 @@
 #include "compare/results/metrics.h"
 #include "measure/pass_times.h"
 #include "scenes/library.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -137,6 +139,12 @@ RunInfo SweepRun::info() {
   info.triangles = scene.triangles.size();
   info.scene_notes = survey_.scenes.notes();
   info.sweep_notes = survey_.idle.dead_sweeps();
+  const auto stores_half_floats = [&](int64_t id) {
+    const Settings& settings = point_at(id);
+    return settings.map.moments == MomentFormat::f16 && reads_moments(settings);
+  };
+  if (std::any_of(wanted_.begin(), wanted_.end(), stores_half_floats))
+    info.gl_half_floats = gl::text_of(bench_.half_rounding());
   info.engines = experiment_engines(bench_, experiment_, planned_);
   return info;
 }

@@ -48,12 +48,13 @@ int examine_machine() {
   }
   const bool room = can_measure;
   try {
-    const gl::Renderer renderer(gl::DebugMode::off);
+    gl::Renderer renderer(gl::DebugMode::off);
     const gl::DeviceInfo& device = renderer.info();
     fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
     fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform,
                device.software ? "software" : "hardware", device.max_map_resolution);
-    fmt::print("          times by {}\n", gl::text_of(device.times));
+    fmt::print("          times by {}; half floats are rounded {}\n", gl::text_of(device.times),
+               gl::text_of(renderer.half_rounding()));
   } catch (const Error& error) {
     fmt::print("OpenGL    NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "base/error.h"
 #include "gl/egl_context.h"
 #include "scenes/receivers.h"
 #include "tests/gl/fixture.h"
@@ -21,6 +22,35 @@ TEST_F(GlTest, InfoNamesAUsableDevice) {
   EXPECT_EQ(info.software, info.renderer.find("llvmpipe") != std::string::npos);
   EXPECT_EQ(info.software, info.times == TimeSource::process_cpu)
       << "the timer queries of a software renderer are wrong";
+}
+
+// Drivers that round in another way, as shaders that round before they store.
+TEST(GlHalfFloats, RoundingIsToldFromWhatIsStored) {
+  const auto rounding = [](const std::string& bits) {
+    const std::string text = R"(#version 450 core
+layout(binding = 2) uniform sampler2D floats;
+layout(location = 0) out float written;
+void main() {
+  uint b = floatBitsToUint(texelFetch(floats, ivec2(gl_FragCoord.xy), 0).r);
+  written = uintBitsToFloat()" + bits + ");\n}\n";
+    Renderer renderer(DebugMode::fatal, {{"shaders/prefilter/copy.frag", text}});
+    const HalfRounding found = renderer.half_rounding();
+    EXPECT_EQ(renderer.half_rounding(), found);
+    return found;
+  };
+  const std::string down = "b & ~0x1fffu", even = "(b + 0xfffu + ((b >> 13) & 1u)) & ~0x1fffu",
+                    away = "(b + 0x1000u) & ~0x1fffu", up = "(b + 0x1fffu) & ~0x1fffu";
+  EXPECT_EQ(rounding(down), HalfRounding::toward_zero);
+  EXPECT_EQ(rounding(even), HalfRounding::to_nearest);
+  EXPECT_EQ(rounding(away), HalfRounding::to_nearest);
+  EXPECT_EQ(rounding(up), HalfRounding::other);
+  EXPECT_THROW(rounding("(b + 0x4000u) & ~0x1fffu"), Error);
+}
+
+// Mesa truncates (measured with 22.3.6; llvmpipe's shader compiler packs half floats so).
+TEST_F(GlTest, LlvmpipeTruncatesHalfFloats) {
+  if (renderer.info().renderer.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "another device";
+  EXPECT_EQ(renderer.half_rounding(), HalfRounding::toward_zero);
 }
 
 // Two renderers at once, and one after the other. EGL gives every context of a device the same display.
