@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scenes/camera_frame.h"
+#include "scenes/filtered.h"
 #include "scenes/foliage.h"
 #include "scenes/lab.h"
 #include "scenes/library.h"
@@ -259,6 +260,16 @@ constexpr BuiltinScene scenes[] = {
      street},
     {"hills-walk", "80 m of hills with posts under a low sun: every slope at every distance, so one bias fits none",
      hills_walk},
+    {"layers",
+     "plates one above the other: where filtered maps leak (scene.plates, scene.gap_m, scene.step_m, scene.offset_m)",
+     layers,
+     {"scene.plates", "scene.gap_m", "scene.step_m", "scene.offset_m"}},
+    {"crease",
+     "a floor square to the light and a face that rises from it (scene.theta_deg): lit, and dark in filtered maps",
+     crease,
+     {"scene.theta_deg"}},
+    {"stairs", "an open stair over a floor: many layers within one blur, so that filtered maps leak through all of it",
+     stairs},
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ struct BuiltinScene {
   std::string_view name;
   std::string_view provokes;  // what the scene is made to show
   Scene (*make)(const SceneSettings&);
-  std::array<std::string_view, 3> reads{};  // the settings that `make` reads, "scene.theta_deg"; unused ones are ""
+  std::array<std::string_view, 4> reads{};  // the settings that `make` reads, "scene.theta_deg"; unused ones are ""
 };
 
 std::span<const BuiltinScene> builtin_scenes();

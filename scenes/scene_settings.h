@@ -21,6 +21,10 @@ struct SceneSettings {
                                    // how far it is turned about the vertical
   double thickness_m = 0.1;        // wall, plate
   double height_m = 0.5;           // plate: of its lit face above the floor
+  int plates = 2;                  // layers: how many plates lie one above the other
+  double gap_m = 1;                // layers: from the floor to the lit face of the lowest plate
+  double step_m = 1;               // layers: from the lit face of a plate to that of the next one above
+  double offset_m = 0.25;          // layers: from an edge of an upper plate to that of the next one above
   MeshForm mesh = MeshForm::as_built;     // the same surface in other triangles
   bool masks = true;                      // alpha masks of a file's materials are cut out (scenes/alpha_mask.h)
   bool floor = false;                     // a square under the scene (scenes/floor.h)
@@ -68,9 +72,10 @@ struct ViewSettings {
   std::optional<glm::dvec3> target_m;  // empty: the scene's
   std::optional<glm::dvec3> up;        // of the picture, any length but 0; empty: the scene's
   ViewProjection projection = ViewProjection::automatic;
-  std::optional<double> fov_deg;   // perspective: whole vertical angle; empty: the scene's
-  std::optional<double> height_m;  // orthographic: of the world that the picture shows; empty: as scenes/camera_fit.h says
-  std::optional<double> near_m;        // along the view; empty: the scene's, or fitted (scenes/camera_fit.h)
+  std::optional<double> fov_deg;  // perspective: whole vertical angle; empty: the scene's
+  std::optional<double>
+      height_m;  // orthographic: of the world that the picture shows; empty: as scenes/camera_fit.h says
+  std::optional<double> near_m;  // along the view; empty: the scene's, or fitted (scenes/camera_fit.h)
   std::optional<double> far_m;
   bool fit_depths = false;  // near and far fitted, also where the scene's file gives them
   MotionSettings motion;

@@ -120,7 +120,8 @@ Setting light_kind_row() {
 std::vector<Setting> make_table() {
   std::vector<Setting> table = {
       text("scene.name", "A built-in scene, or the path of a .gltf or .glb file.", MEMBER(scene.name)),
-      real("scene.theta_deg", "deg", 0, 89.9, "plane: the angle between its normal and the light.",
+      real("scene.theta_deg", "deg", 0, 89.9,
+           "plane: the angle between its normal and the light; crease: the same of the face that rises.",
            MEMBER(scene.theta_deg))
           .idle(only_in_scenes_with("scene.theta_deg")),
       real("scene.phi_deg", "deg", -360, 360,
@@ -132,6 +133,18 @@ std::vector<Setting> make_table() {
           .idle(only_in_scenes_with("scene.thickness_m")),
       real("scene.height_m", "m", 0, 100, "plate: height of its lit face above the floor.", MEMBER(scene.height_m))
           .idle(only_in_scenes_with("scene.height_m")),
+      integer("scene.plates", "", 1, 16, "layers: how many plates lie one above the other.", MEMBER(scene.plates))
+          .idle(only_in_scenes_with("scene.plates")),
+      real("scene.gap_m", "m", 1e-3, 100, "layers: from the floor to the lit face of the lowest plate.",
+           MEMBER(scene.gap_m))
+          .idle(only_in_scenes_with("scene.gap_m")),
+      real("scene.step_m", "m", 1e-3, 100, "layers: from the lit face of a plate to that of the next one above.",
+           MEMBER(scene.step_m))
+          .idle(only_in_scenes_with("scene.step_m")),
+      real("scene.offset_m", "m", 0, 1,
+           "layers: from an edge of an upper plate to that of the next one above; 0: the edges are aligned.",
+           MEMBER(scene.offset_m))
+          .idle(only_in_scenes_with("scene.offset_m")),
       choice("scene.mesh", {std::begin(mesh_forms), std::end(mesh_forms)},
              "How the scene's surface is cut into triangles. as_built: as it is; one_mesh: welded into one mesh; "
              "split: each triangle in four; reversed: triangles and vertices in reverse order; doubled: each triangle "

@@ -94,7 +94,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
   double doubt = 0, error_soft = 0, pcf = 0, pcf_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
          edge_sum = 0;
-  std::vector<double> size(ladder.causes.size());
+  std::vector<double> size(ladder.causes.size()), largest(size.size());
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     receivers += in.receivers.primitive[i] != no_primitive;
     if (!(ladder.flags[i] & flag_facing)) continue;
@@ -110,7 +110,11 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     pcf += std::abs(static_cast<double>(ladder[Rung::shown][i]) - ladder.truth()[i]);
     pcf_soft += std::abs(static_cast<double>(ladder[Rung::shown][i]) - ladder.soft_truth()[i]);
     wrong += hard != 0;
-    for (size_t c = 0; c < size.size(); ++c) size[c] += std::abs(static_cast<double>(ladder.causes[c].step[i]));
+    for (size_t c = 0; c < size.size(); ++c) {
+      const double step = std::abs(static_cast<double>(ladder.causes[c].step[i]));
+      size[c] += step;
+      raise(largest[c], step);
+    }
     const double aliasing = static_cast<double>(ladder[Cause::aliasing_dark][i]) + ladder[Cause::aliasing_light][i];
     aliasing_squares += aliasing * aliasing;
     if (ladder.truth()[i] != 0) panning_lit += std::abs(static_cast<double>(ladder[Cause::peter_panning][i]));
@@ -160,6 +164,10 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   for (const CauseRow& row : cause_rows)
     if (ladder.books(row))
       metrics.emplace(row.name, sum_of(row, [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); }));
+  if (ladder.of_moments())
+    for (const auto& [name, cause] :
+         {std::pair("leak_largest", Cause::leak), std::pair("over_darkening_largest", Cause::over_darkening)})
+      metrics[name] = measured(largest[static_cast<size_t>(cause)]);
   for (size_t c = ladder.built_in(); c < size.size(); ++c) metrics[ladder.causes[c].name] = share(size[c]);
   return metrics;
 }

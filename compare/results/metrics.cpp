@@ -48,6 +48,13 @@ constexpr std::pair<std::string_view, Metric> beside_causes[] = {
       "The part of peter_panning at receivers that are lit in truth. Without a filter and without a normal offset it "
       "is 0; anything else is a defect.",
       true}},
+    {"leak",
+     {"leak_largest", "fraction", "Of a map of moments: the largest leak of a receiver, as a share of full light.",
+      true, false, false, false, false, false, true}},
+    {"over_darkening",
+     {"over_darkening_largest", "fraction",
+      "Of a map of moments: the largest over-darkening of a receiver, as a share of full light.", true, false, false,
+      false, false, false, true}},
     {"undecided",
      {"undecided_taps", "fraction",
       "Weight of the taps whose truth changes within float error, whether they are right or wrong.", true}},

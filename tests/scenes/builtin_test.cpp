@@ -50,15 +50,22 @@ TEST(BuiltinScenes, ReadTheSettingsThatTheirRowsName) {
       {"scene.theta_deg", &SceneSettings::theta_deg},
       {"scene.phi_deg", &SceneSettings::phi_deg},
       {"scene.thickness_m", &SceneSettings::thickness_m},
-      {"scene.height_m", &SceneSettings::height_m}};
+      {"scene.height_m", &SceneSettings::height_m},
+      {"scene.gap_m", &SceneSettings::gap_m},
+      {"scene.step_m", &SceneSettings::step_m},
+      {"scene.offset_m", &SceneSettings::offset_m}};
   for (const BuiltinScene& scene : builtin_scenes())
     for (const auto& [name, member] : settings) {
-      SceneSettings other{.name = std::string(scene.name)};
+      SceneSettings other{.name = std::string(scene.name), .plates = 3};  // an offset needs two upper plates
       const Scene before = scene.make(other);
       other.*member += 0.125;
       const bool named = std::find(scene.reads.begin(), scene.reads.end(), name) != scene.reads.end();
       EXPECT_EQ(scene.make(other).positions != before.positions, named) << scene.name << " and " << name;
     }
+  for (const BuiltinScene& scene : builtin_scenes()) {
+    const bool named = std::find(scene.reads.begin(), scene.reads.end(), "scene.plates") != scene.reads.end();
+    EXPECT_EQ(scene.make({.plates = 5}).parts.size() != scene.make({.plates = 4}).parts.size(), named) << scene.name;
+  }
 }
 
 TEST(BuiltinScenes, AreFiniteAndInRange) {
@@ -84,7 +91,7 @@ TEST(BuiltinScenes, AreFiniteAndInRange) {
 
 TEST(BuiltinScenes, SolidsAreClosedAndTurnedOutward) {
   const std::set<std::string> open = {"floor",  "plane", "bowl",       "wall piece", "pane",
-                                      "reveal", "frond", "front wall", "ground"};
+                                      "reveal", "frond", "front wall", "ground",     "rising face"};
   std::set<std::string> met;
   for (const Scene& scene : all_scenes()) {
     for (const Part& part : scene.parts) {
@@ -265,6 +272,62 @@ TEST(BuiltinScenes, WallAndPlateHaveTheThicknessTheySay) {
   double top = 0;
   for (const glm::vec3& p : plate.positions) top = std::max<double>(top, p.y);
   EXPECT_FLOAT_EQ(static_cast<float>(top), 0.75f);
+}
+
+// The corners of the box of a part.
+std::pair<glm::dvec3, glm::dvec3> box_of(const Scene& scene, const Part& part) {
+  glm::dvec3 low(1e9), high(-1e9);
+  for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+    for (int i = 0; i < 3; ++i) low = glm::min(low, corner(scene, t, i)), high = glm::max(high, corner(scene, t, i));
+  return {low, high};
+}
+
+// How many parts above the floor the light from above meets at (x, z).
+int parts_above(const Scene& scene, double x, double z) {
+  return static_cast<int>(std::count_if(scene.parts.begin() + 1, scene.parts.end(), [&](const Part& part) {
+    const auto [low, high] = box_of(scene, part);
+    return x > low.x && x < high.x && z > low.z && z < high.z;
+  }));
+}
+
+TEST(BuiltinScenes, LayersEndOneAfterTheOtherAboveTheLowest) {
+  const Scene scene = make_scene({.name = "layers", .plates = 4, .gap_m = 0.25, .step_m = 0.125, .offset_m = 0.0625});
+  ASSERT_EQ(scene.parts.size(), 5u);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_EQ(box_of(scene, scene.parts[static_cast<size_t>(i) + 1]).second.y, 0.25 + 0.125 * i) << "its lit face";
+  EXPECT_EQ(parts_above(scene, -0.01, 0), 1) << "the lowest plate covers the edges of the others";
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(parts_above(scene, 0.0625 * i - 0.001, 0), 1 + i) << i;
+    EXPECT_EQ(parts_above(scene, 0.0625 * i + 0.001, 0), 2 + i) << i;
+  }
+  // Thin plates keep clear of each other and of the floor.
+  const Scene close = make_scene({.name = "layers", .plates = 2, .gap_m = 0.004, .step_m = 0.002});
+  EXPECT_GT(box_of(close, close.parts[1]).first.y, 0.001);
+  EXPECT_GT(box_of(close, close.parts[2]).first.y, 0.0045);
+}
+
+TEST(BuiltinScenes, TheCreaseRisesAsTheSettingSaysAndShadesNothing) {
+  for (const double theta : {20.0, 45.0, 80.0}) {
+    const Scene scene = make_scene({.name = "crease", .theta_deg = theta});
+    ASSERT_EQ(scene.parts.size(), 2u);
+    const auto [low, high] = box_of(scene, scene.parts[1]);
+    EXPECT_EQ(low.x, 0);
+    EXPECT_EQ(low.y, 0);
+    EXPECT_NEAR(high.y / high.x, std::tan(glm::radians(theta)), 1e-6) << theta;
+    EXPECT_EQ(box_of(scene, scene.parts[0]).second.x, 0) << "the floor ends where the face begins";
+  }
+}
+
+// No light reaches the floor between two treads.
+TEST(BuiltinScenes, TheTreadsOfTheStairReachUnderOneAnother) {
+  const Scene scene = make_scene({.name = "stairs"});
+  ASSERT_EQ(scene.parts.size(), 13u);
+  for (size_t i = 2; i < scene.parts.size(); ++i) {
+    const auto [low, high] = box_of(scene, scene.parts[i]);
+    EXPECT_FLOAT_EQ(static_cast<float>(high.y), static_cast<float>(0.1875 * static_cast<double>(i))) << i;
+    EXPECT_EQ(parts_above(scene, low.x + 0.01, 0), 2) << "the tread and the one below it, " << i;
+    EXPECT_EQ(parts_above(scene, low.x + 0.2, 0), 1) << i;
+  }
 }
 
 // Seen from a light straight above (u to the right along x, v along -z), the edge that faces +x at phi = 0 faces the

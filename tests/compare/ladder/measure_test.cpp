@@ -147,6 +147,23 @@ TEST(WorstPixels, EachMetricHasItsOwn) {
   EXPECT_TRUE(std::isnan(at("acne").size));
 }
 
+TEST(Measure, GivesTheMostThatOneReceiverLeaksAndLoses) {
+  Picture p(4, 2, cause_count);
+  p.step(0, 0, Cause::leak, 0.125f);
+  p.step(1, 0, Cause::leak, 0.25f);
+  p.step(2, 0, Cause::leak, 0.75f);
+  p.ladder.flags.at(2, 0) |= flag_ambiguous;  // not counted
+  p.step(0, 1, Cause::over_darkening, -0.5f);
+  p.step(1, 1, Cause::over_darkening, -0.375f);
+  attach(p, 3, 1);
+  p.step(3, 1, Cause::over_darkening, -1);
+  EXPECT_EQ(p.metric("leak_largest"), 0.25);
+  EXPECT_EQ(p.metric("over_darkening_largest"), 0.5);
+  const Picture none(0, 0, cause_count);
+  EXPECT_TRUE(std::isnan(none.metric("leak_largest")));
+  EXPECT_FALSE(Picture(1, 1).metrics().contains("leak_largest")) << "comparisons have no leak";
+}
+
 TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
   Picture p(5, 4);
   p.step(0, 0, Cause::aliasing_light, 1);

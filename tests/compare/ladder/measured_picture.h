@@ -16,8 +16,8 @@ inline constexpr float nan_float = std::numeric_limits<float>::quiet_NaN();
 
 // A picture whose receivers all face the light, are lit and are right.
 struct Picture {
-  explicit Picture(int width, int height) {
-    ladder = empty_ladder(width, height);
+  explicit Picture(int width, int height, int causes = compared_cause_count) {
+    ladder = empty_ladder(width, height, causes);
     for (Ladder::RungImage& rung : ladder.rungs) rung.lit = Image<float>(width, height, 1);
     ladder.cause = Image<uint8_t>(width, height, 0);
     ladder.flags = Image<uint8_t>(width, height, flag_facing);
