@@ -150,6 +150,26 @@ std::vector<LookupKind> make_lookups() {
        .moments = MOMENT_FORMULAS(msm_hausdorff),
        .channels = 4,
        .within_one = within_one},
+      {.name = "babylon_esm",
+       .help = "Babylon.js's exponential shadow map (useBlurExponentialShadowMap): from the blurred e^(-c z), the lit "
+               "fraction 1 - e^(c d) E[e^(-c z)]. What is in the map itself is dark without a bias",
+       .law = "no bound: a receiver in the map is lit by 1 - e^(-c b) with the bias b",
+       .reads = {{&exponent}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(babylon_esm),
+       .channels = 1,
+       .warp_power = 1,
+       .within_one = always,
+       .bound = false},
+      {.name = "babylon_close_esm",
+       .help = "Babylon.js's close exponential shadow map (useBlurCloseExponentialShadowMap): e^(-c (d - z)) of the "
+               "blurred depth z",
+       .law = "no bound: shadows grow with the gap between caster and receiver; a caster that covers ln 2 / (c gap) of "
+              "the blur makes half shade",
+       .reads = {{&exponent}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(babylon_close_esm),
+       .channels = 1,
+       .within_one = always,
+       .bound = false},
   };
 }
 

@@ -38,10 +38,13 @@ struct LookupKind {
   // Of a lookup in a map of moments; empty: it compares depths.
   std::optional<MomentFormulas> moments = {};
   int channels = 0;  // numbers that a texel stores: 1, 2 or 4
-  // It stores exponentials, which OpenGL need not round as the host does: at most e^(warp_power c) of the exponent c. 0: none.
+  // It stores exponentials, which OpenGL need not round as the host does: at most e^(warp_power c) of the exponent c, or 1 if
+  // all that it stores lies in [0, 1]. 0: none.
   int warp_power = 0;
   // Whether all that it stores lies in [0, 1], so that map.moments = 16 can hold it; null: never.
   bool (*within_one)(const LookupSettings&) = nullptr;
+  // Whether it is an upper bound of the comparison (law 13). The look-alikes of engines that are none can be darker.
+  bool bound = true;
 
   bool reads_moments() const { return moments.has_value(); }
 };

@@ -217,7 +217,7 @@ std::string moments_beyond_format(const Settings& s, std::optional<LightKind>) {
         "map.moments = 16 holds numbers from 0 to 1, and lookup.kind = {} stores others{}; set 16f or 32f", kind.name,
         kind.within_one ? " with lookup.moments = plain" : "");
   // The largest number that is stored: e^c of a depth of 1, or the square e^(2 c).
-  if (s.map.moments != MomentFormat::f16 || kind.warp_power == 0) return "";
+  if (s.map.moments != MomentFormat::f16 || kind.warp_power == 0 || kind.within_one) return "";
   const double largest_half = 65504, most = std::log(largest_half) / kind.warp_power;
   for (const char* parameter : {"exponent", "negative_exponent"})
     for (const auto& read : kind.reads)

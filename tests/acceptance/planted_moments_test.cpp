@@ -81,6 +81,17 @@ std::vector<Planted> defects() {
                                      "biased_depth(receiver.reference, 2.0 * bias)")},
                  {{"contract_lit", 0, 0.001}},
                  all_but("contract_lit")});
+  all.push_back({"MomentsOfBabylonHeldAtASmallExponent",
+                 with_moments({{"lookup.kind", "babylon_esm"}, {"lookup.exponent", "50"}, {"bias.constant", "0.02"}}),
+                 {.shaders = patched("technique/lookups/babylon_esm.glsl", "-min(p.exponent * depth, real(87))",
+                                     "-min(p.exponent * depth, real(5))")},
+                 {{"contract_store", 0, 0.1}},
+                 all_but("contract_store")});
+  all.push_back({"MomentsOfBabylonWithABiasOfTheirOwn",
+                 with_moments({{"lookup.kind", "babylon_close_esm"}}),
+                 {.shaders = patched("technique/lookups/babylon_close_esm.glsl", "- moments.x", "- moments.x + 0.001")},
+                 {{"contract_lit", 0, 0.01}},
+                 all_but("contract_lit")});
   all.push_back({"MomentsOfAnotherMap",
                  with_moments(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.extent_m *= 1.02; }},

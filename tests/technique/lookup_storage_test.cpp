@@ -219,13 +219,22 @@ TEST(LookupStorage, TransformedMomentsFillUnorm) {
 // Babylon.js's two forms, where an occluder a gap before the receiver covers the share f of the kernel.
 TEST(LookAlikes, BabylonsEsmIsDarkOnItsOwnCasters) {
   const LookupParameters p = with_exponent(20);
-  for (const double depth : {0.1, 0.5, 1.0}) {
+  for (const double depth : {0.1, 0.5, 0.999}) {
     const double depths[] = {depth}, weights[] = {1};
     EXPECT_NEAR(static_cast<double>(babylon_esm_truth(depths, weights, depth, p)), 0, 1e-15);
     // A receiver that does not cast is lit by half ln 2 / c before what is behind it in the map.
     const double before = depth - std::log(2.0) / 20;
     EXPECT_NEAR(static_cast<double>(babylon_esm_truth(depths, weights, before, p)), 0.5, 1e-12);
   }
+}
+
+// Babylon.js clears the map to 0, where its formula would store e^(-c) of the far end: what lies before it is lit.
+TEST(LookAlikes, BabylonsEmptyTexelsAreLit) {
+  const double depths[] = {1}, weights[] = {1};
+  for (const double receiver : {0.5, 0.999, 1.0})
+    EXPECT_EQ(static_cast<double>(babylon_esm_truth(depths, weights, receiver, with_exponent(20))), 1);
+  EXPECT_EQ(in_float::babylon_esm_moments(1, with_float_exponent(20)).x, 0);
+  EXPECT_GT(in_float::babylon_esm_moments(0.999f, with_float_exponent(20)).x, 0);
 }
 
 TEST(LookAlikes, BabylonsCloseEsmFattensShadows) {
