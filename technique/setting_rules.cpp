@@ -188,6 +188,9 @@ std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> l
         "lookup.kind = {} reads a map that is blurred before the lookup, and filter.kind = {} is no blur; "
         "take filter.kind {}",
         kind, s.filter.kind, filters_that([](const Filter& f) { return f.blur != nullptr; }));
+  if (find_lookup(kind).spread && s.filter.kind != "none")
+    return fmt::format(
+        "lookup.kind = {} has a blur of its own, of lookup.samples over lookup.radius; set filter.kind = none", kind);
   if (s.filter.kind == "box" && s.filter["step_texels"] != 1)
     return fmt::format("lookup.kind = {} blurs neighbouring texels; set filter.step_texels = 1", kind);
   if (tap_reference(s.bias.reference).plane)

@@ -14,11 +14,11 @@ double TapPattern::weight(int tap, glm::dvec2 fraction) const {
     return axis_weight(tap % blended_side, fraction.x, size) * axis_weight(tap / blended_side, fraction.y, size);
   }
   const int fetches = static_cast<int>(kernel.size()), side = fetches + 1;
-  const auto along = [&](int i, double f) {
-    return (i < fetches ? kernel[static_cast<size_t>(i)] * (1 - f) : 0) +
-           (i > 0 ? kernel[static_cast<size_t>(i) - 1] * f : 0);
+  const auto along = [&](const std::vector<double>& weights, int i, double f) {
+    return (i < fetches ? weights[static_cast<size_t>(i)] * (1 - f) : 0) +
+           (i > 0 ? weights[static_cast<size_t>(i) - 1] * f : 0);
   };
-  return along(tap % side, fraction.x) * along(tap / side, fraction.y);
+  return along(kernel, tap % side, fraction.x) * along(along_v(), tap / side, fraction.y);
 }
 
 int TapPattern::fetches() const {

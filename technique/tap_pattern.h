@@ -35,6 +35,8 @@ struct TapPattern {
   // along one axis (sum 1); each fetch blends 2 x 2 texels by the position of P between their centres. If `kernel` is
   // empty, axis_weight gives the weight of each texel along one axis (sum 1), and s is the fraction.
   std::vector<double> kernel;
+  std::vector<double> kernel_v = {};  // along v if they differ, as many; empty: those of `kernel`
+  const std::vector<double>& along_v() const { return kernel_v.empty() ? kernel : kernel_v; }
   double (*axis_weight)(int texel, double s, int size) = nullptr;
 
   glm::vec3 offset(int variant, int tap) const { return offsets[static_cast<size_t>(variant * taps + tap)]; }

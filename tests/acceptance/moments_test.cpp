@@ -108,7 +108,24 @@ INSTANTIATE_TEST_SUITE_P(
                   {{"lookup.kind", "babylon_esm"}, {"lookup.exponent", "50"}, {"map.moments", "16f"}}},
         SceneCase{"BabylonCloseEsm",
                   "cube-room",
-                  {{"lookup.kind", "babylon_close_esm"}, {"lookup.exponent", "88"}, {"map.moments", "16"}}}),
+                  {{"lookup.kind", "babylon_close_esm"}, {"lookup.exponent", "88"}, {"map.moments", "16"}}},
+        SceneCase{"ThreeVsm", "cube-room", {{"lookup.kind", "three_vsm"}, {"filter.kind", "none"}}},
+        SceneCase{"ThreeVsmAsShown",
+                  "cube-room",
+                  {{"lookup.kind", "three_vsm"},
+                   {"filter.kind", "none"},
+                   {"lookup.radius", "4"},
+                   {"lookup.reduction", "0.3"},
+                   {"lookup.reduction_span", "0.65"},
+                   {"map.moments", "16f"},
+                   {"bias.constant", "0.002"}}},
+        SceneCase{"ThreeVsmRepeated",
+                  "cube-room",
+                  {{"lookup.kind", "three_vsm"},
+                   {"filter.kind", "none"},
+                   {"lookup.radius", "2.5"},
+                   {"lookup.samples", "5"},
+                   {"map.wrap", "repeat"}}}),
     [](const auto& test) { return test.param.name; });
 
 // R4 from the exact map, blurred and blended as OpenGL defines it, in double and texel by texel.
@@ -249,6 +266,27 @@ TEST(MomentLadder, HasCascadesAndFlickers) {
   EXPECT_GT(metric(moved, "flicker"), 0);
 }
 
+// With taps on the texels and a receiver at a texel's centre three.js's passes are a variance shadow map; between them its
+// fetches blend deviations, so it has less variance and so less light. Both are of one map, and compare alike.
+TEST(LookAlikes, OfThreeJsIsNearlyAVarianceShadowMapOfTheSameTexels) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement three = of_moments(
+      bench,
+      with_moments(
+          {{"lookup.kind", "three_vsm"}, {"filter.kind", "none"}, {"lookup.radius", "2"}, {"lookup.samples", "5"}}));
+  const Measurement vsm = of_moments(bench, with_moments());
+  EXPECT_NEAR(metric(three, "filter"), metric(vsm, "filter"), 1e-7);
+  EXPECT_NEAR(metric(three, "error"), metric(vsm, "error"), 0.1 * metric(vsm, "error"));
+  size_t darker = 0, lighter = 0;
+  for (size_t i = 0; i < three.ladder.flags.size(); ++i) {
+    EXPECT_NEAR(three.ladder[Rung::snapped][i], vsm.ladder[Rung::snapped][i], 1e-6f) << i;
+    const float difference = three.ladder[Rung::on_exact_map][i] - vsm.ladder[Rung::on_exact_map][i];
+    darker += difference<-1e-6f, lighter += difference> 1e-6f;
+  }
+  EXPECT_GT(darker, 100u);
+  EXPECT_EQ(lighter, 0u);
+}
+
 // Babylon.js's exponential shadow map stores e^(-c z): a wall is dark in its own shadow map, and a bias b lights it by
 // 1 - e^(-c b). Its close form stores the depth, so it is lit there.
 TEST(LookAlikes, OfBabylonAreDarkWhereTheyCastAndLitWhereTheMapIsEmpty) {
@@ -288,6 +326,7 @@ TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {
   for (const auto& [settings, says] : std::vector<std::pair<std::vector<Assignment>, std::string>>{
            {{{"filter.kind", "poisson"}},
             "lookup.kind: lookup.kind = vsm reads a map that is blurred before the lookup"},
+           {{{"lookup.kind", "three_vsm"}}, "set filter.kind = none"},
            {{{"filter.kind", "hardware"}}, "take filter.kind none, box or gaussian"},
            {{{"filter.step_texels", "2"}}, "set filter.step_texels = 1"},
            {{{"bias.reference", "receiver_plane"}}, "set bias.reference = own_depth"},
