@@ -28,14 +28,21 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
 ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique) {
   const std::string_view name = technique.moments.value().kind().name;
   const std::string slot = fmt::format("lookup {}", name);
-  programs.define(slot, fmt::format("#include \"technique/lookups/shared/words.glsl\"\n"
-                                    "#include \"technique/lookups/{0}.glsl\"\n"
-                                    "uniform LookupParameters lookup;\n"
-                                    "vec4 stored_moments(float depth) {{ return {0}_moments(depth, lookup); }}\n"
-                                    "float lit_fraction(vec4 moments, float depth) {{\n"
-                                    "  return {0}_lit(moments, depth, lookup);\n"
-                                    "}}\n",
-                                    name));
+  std::string text = fmt::format(
+      "#include \"technique/lookups/shared/words.glsl\"\n"
+      "#include \"technique/lookups/{0}.glsl\"\n"
+      "uniform LookupParameters lookup;\n"
+      "vec4 stored_moments(float depth) {{ return {0}_moments(depth, lookup); }}\n"
+      "float lit_fraction(vec4 moments, float depth) {{\n"
+      "  return {0}_lit(moments, depth, lookup);\n"
+      "}}\n",
+      name);
+  if (technique.moments->spread())
+    text += fmt::format(
+        "vec4 added(vec4 sums, vec4 stored) {{ return {0}_add_stored(sums, stored); }}\n"
+        "vec4 spread(vec4 sums, float taps) {{ return {0}_spread(sums, taps); }}\n",
+        name);
+  programs.define(slot, text);
   return {{"lookup", slot}};
 }
 

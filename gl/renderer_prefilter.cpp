@@ -31,6 +31,13 @@ GLenum texture_format(MomentFormat format, int channels) {
 static_assert(static_cast<int>(Wrap::repeat) == 0 && static_cast<int>(Wrap::clamp_to_edge) == 1 &&
               static_cast<int>(Wrap::clamp_to_border) == 2);
 
+void set_taps(Program& program, std::span<const SpreadBlur::Tap> taps) {
+  for (size_t k = 0; k < taps.size(); ++k) {
+    program.set(fmt::format("tap_texel[{}]", k).c_str(), taps[k].texel);
+    program.set(fmt::format("tap_next[{}]", k).c_str(), taps[k].next);
+  }
+}
+
 }  // namespace
 
 const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& map, const Technique& technique,
@@ -42,6 +49,8 @@ const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& m
   if (!m.moments.empty() && m.moments.front().key == key && !time_ms) return m.moments;
   m.moments.clear();
   const GLenum format = texture_format(lookup.format(), lookup.kind().channels);
+  // A blur that stores spreads reads the depths of the map themselves.
+  const GLenum stored_format = lookup.spread() ? texture_format(MomentFormat::f32, lookup.kind().channels) : format;
   const std::span<const double> kernel = lookup.kernel();
   if (kernel.size() > widest_blur)
     throw std::logic_error("a blur of more texels than shaders/prefilter/blur.frag takes");
@@ -49,7 +58,8 @@ const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& m
   for (const TiledMaps& array : m.arrays) {
     MomentTextures made{key, {}};
     for (Texture& texture : made.passes) {
-      texture = make_array(format, array.size);
+      const bool stored = &texture == &made.passes.front();
+      texture = make_array(stored ? stored_format : format, array.size);
       check_memory("a map of moments", array.size.x, array.size.y);
     }
     m.moments.push_back(std::move(made));
@@ -57,10 +67,18 @@ const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& m
   Program& store =
       programs.get({"shaders/screen.vert", "shaders/prefilter/store.frag"}, moment_slots(programs, technique));
   set_lookup_uniforms(store, technique);
-  Program& blur = programs.get({"shaders/screen.vert", "shaders/prefilter/blur.frag"});
-  blur.set("blur_size", static_cast<int>(kernel.size()));
-  for (size_t k = 0; k < kernel.size(); ++k)
-    blur.set(fmt::format("kernel[{}]", k).c_str(), static_cast<float>(kernel[k]));
+  const SpreadBlur* const spread = lookup.spread();
+  Program& blur =
+      spread ? programs.get({"shaders/screen.vert", "shaders/prefilter/spread.frag"}, moment_slots(programs, technique))
+             : programs.get({"shaders/screen.vert", "shaders/prefilter/blur.frag"});
+  if (spread) {
+    set_lookup_uniforms(blur, technique);
+    blur.set("taps", static_cast<int>(spread->along_u.size()));
+  } else {
+    blur.set("blur_size", static_cast<int>(kernel.size()));
+    for (size_t k = 0; k < kernel.size(); ++k)
+      blur.set(fmt::format("kernel[{}]", k).c_str(), static_cast<float>(kernel[k]));
+  }
   blur.set("wrap", static_cast<int>(m.wrap));
   blur.set("border", border);
   run(time_ms, [&] {
@@ -76,7 +94,9 @@ const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& m
         for (size_t pass = 0; pass < 2; ++pass) {
           draw_into_colour_layer(passes[pass + 1].id(), layer, size);
           glBindTextureUnit(2, passes[pass].id());
-          blur.set("along", pass == 0 ? glm::ivec2(1, 0) : glm::ivec2(0, 1));
+          const bool along_v = (pass == 1) != (spread != nullptr);
+          blur.set("along", along_v ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
+          if (spread) set_taps(blur, along_v ? spread->along_v : spread->along_u);
           draw_screen(blur);
         }
       }
@@ -152,7 +172,7 @@ MomentEvidence Renderer::read_moments(const ShadowMap& map, std::span<const Tech
   const MomentTextures& textures = r.moments_of(map, technique, nullptr)[place.array];
   const glm::ivec2 size = map.size(static_cast<int>(which));
   MomentEvidence evidence;
-  const std::array<std::vector<glm::vec4>*, 3> read = {&evidence.stored, &evidence.blurred_along_u, &evidence.blurred};
+  const std::array<std::vector<glm::vec4>*, 3> read = {&evidence.stored, &evidence.blurred_once, &evidence.blurred};
   constexpr int band = 256;  // rows that are read at a time
   std::vector<glm::vec4> rows;
   for (size_t pass = 0; pass < read.size(); ++pass) {

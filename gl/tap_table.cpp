@@ -38,7 +38,7 @@ std::vector<glm::vec4> tap_table(const TapPattern& pattern) {
   const size_t n = pattern.kernel.size();
   std::vector<double> weights;
   for (size_t y = 0; y < n; ++y)
-    for (size_t x = 0; x < n; ++x) weights.push_back(pattern.kernel[x] * pattern.kernel[y]);
+    for (size_t x = 0; x < n; ++x) weights.push_back(pattern.kernel[x] * pattern.along_v()[y]);
   weights = quantised(weights);
   const double middle = static_cast<double>(n - 1) / 2;
   for (size_t i = 0; i < weights.size(); ++i)

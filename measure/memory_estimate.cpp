@@ -127,8 +127,10 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
 
   double moments = 0;
   if (reads_moments(s)) {
-    const double each = (s.map.moments == MomentFormat::f32 ? 4 : 2) * find_lookup(s.lookup.kind).channels;
-    moments = 2 * 3 * texels * each + std::min(taps, texels) * per_asked_moments + pixels * per_moment_pixel;
+    const LookupKind& kind = find_lookup(s.lookup.kind);
+    const double each = (s.map.moments == MomentFormat::f32 ? 4 : 2) * kind.channels;
+    const double stored = kind.spread ? 4 * kind.channels : each;  // what a blur of spreads reads has 32 bits
+    moments = 2 * texels * (stored + 2 * each) + std::min(taps, texels) * per_asked_moments + pixels * per_moment_pixel;
   }
   const double maps = s.cascades.count;
   if (maps > 1) scene += pixels * sizeof(double) * maps;  // ReceiverTruth::share

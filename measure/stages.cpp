@@ -277,7 +277,7 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   climbed.soundness = soundness.metrics();
   if (technique.moments) {
     climbed.soundness.merge(moment_contract_metrics(shown.moments));
-    climbed.soundness["below_comparison"] = below_comparison;
+    if (technique.moments->kind().bound) climbed.soundness["below_comparison"] = below_comparison;
   }
   return climbed;
 }

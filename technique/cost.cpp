@@ -124,8 +124,19 @@ FrameCost frame_cost(const Settings& settings, int tiles, int64_t map_texels, in
   cost.traffic_bytes = cost.map_bytes + receivers * cost.lookup.texels * texel;
   if (!reads_moments(settings)) return cost;
   // A pass that stores moments reads each texel once, and each of two passes of the blur reads as many as the kernel has.
-  // All three write each texel. The passes come and go between two textures.
+  // All three write each texel. The passes come and go between two textures. A blur that stores spreads needs no pass before
+  // it: it reads the depths themselves.
   const int64_t moments = bytes_of_moments(settings);
+  if (find_lookup(settings.lookup.kind).spread) {
+    const int64_t samples = settings.lookup.whole("samples");
+    cost.pass_fetches = 2 * map_texels * samples;
+    cost.texel_work += 2 * map_texels + cost.pass_fetches;
+    cost.map_bytes += 2 * map_texels * moments;
+    // Along v one depth for each tap, along u the four texels of a linear fetch.
+    cost.traffic_bytes = map_texels * (texel + samples * texel + 2 * moments + 4 * samples * moments) +
+                         receivers * cost.lookup.texels * moments;
+    return cost;
+  }
   const auto width = static_cast<int64_t>(tap_pattern(settings).kernel.size());
   cost.pass_fetches = map_texels * (1 + 2 * width);
   cost.texel_work += 3 * map_texels + cost.pass_fetches;

@@ -183,8 +183,9 @@ struct TapTruth {
 
 // What OpenGL made of a map for a lookup that reads moments: each stage from the one before it.
 struct MomentEvidence {
-  // Of each texel, by TexelSet::index: what it stores, blurred along u, and along v too.
-  std::vector<glm::vec4> stored, blurred_along_u, blurred;
+  // Of each texel, by TexelSet::index: what it stores, after the first pass of the blur (along u; of a SpreadBlur along v),
+  // and after both.
+  std::vector<glm::vec4> stored, blurred_once, blurred;
   Image<glm::vec4> fetched;  // by the lookup of each receiver
 };
 

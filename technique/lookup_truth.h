@@ -33,8 +33,8 @@ class TruthInDouble;
 
 struct LookupTruth {
   long double (*extended)(std::span<const double> depths, std::span<const double> weights, double receiver,
-                          const in_extended::LookupParameters&);
-  double (*in_double)(TruthInDouble&, double receiver, const in_extended::LookupParameters&);
+                          const in_extended::LookupParameters&) = nullptr;
+  double (*in_double)(TruthInDouble&, double receiver, const in_extended::LookupParameters&) = nullptr;
 
   long double operator()(std::span<const double> depths, std::span<const double> weights, double receiver,
                          const in_extended::LookupParameters& p) const {

@@ -7,6 +7,7 @@
 
 #include "technique/filters/patterns.h"
 #include "technique/lookup_formulas.h"
+#include "technique/spread_blur.h"
 
 namespace noonmark {
 namespace {
@@ -82,6 +83,22 @@ std::string beyond_float(const LookupSettings& settings) {
                      settings[of.name()], most, settings.kind);
 }
 
+constexpr KindParameter radius{.setting = "lookup.radius",
+                               .unit = "texels",
+                               .max = 15,
+                               .initial = 1,
+                               .help =
+                                   "shadow.radius: the taps of each pass of the blur stand evenly from this far on one "
+                                   "side to this far on the other."};
+
+constexpr KindParameter samples{.setting = "lookup.samples",
+                                .unit = "taps",
+                                .type = ValueType::integer,
+                                .min = 1,
+                                .max = 25,
+                                .initial = 8,
+                                .help = "shadow.blurSamples: taps of each pass of the blur."};
+
 bool always(const LookupSettings&) { return true; }
 bool within_one(const LookupSettings& settings) { return moment_forms[settings.whole("moments")] != "plain"; }
 
@@ -150,6 +167,40 @@ std::vector<LookupKind> make_lookups() {
        .moments = MOMENT_FORMULAS(msm_hausdorff),
        .channels = 4,
        .within_one = within_one},
+      {.name = "babylon_esm",
+       .help = "Babylon.js's exponential shadow map (useBlurExponentialShadowMap): from the blurred e^(-c z), the lit "
+               "fraction 1 - e^(c d) E[e^(-c z)]. What is in the map itself is dark without a bias",
+       .law = "no bound: a receiver in the map is lit by 1 - e^(-c b) with the bias b",
+       .reads = {{&exponent}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(babylon_esm),
+       .channels = 1,
+       .warp_power = 1,
+       .within_one = always,
+       .bound = false},
+      {.name = "babylon_close_esm",
+       .help = "Babylon.js's close exponential shadow map (useBlurCloseExponentialShadowMap): e^(-c (d - z)) of the "
+               "blurred depth z",
+       .law = "no bound: shadows grow with the gap between caster and receiver; a caster that covers ln 2 / (c gap) of "
+              "the blur makes half shade",
+       .reads = {{&exponent}, {&reduction}, {&reduction_span}},
+       .moments = MOMENT_FORMULAS(babylon_close_esm),
+       .channels = 1,
+       .within_one = always,
+       .bound = false},
+      {.name = "three_vsm",
+       .help = "three.js's variance shadow map (VSMShadowMap): Chebyshev's bound of a mean and a standard deviation, "
+               "which two passes of its own blur; set lookup.reduction = 0.3, lookup.reduction_span = 0.65, "
+               "map.moments = 16f and filter.kind = none for what three.js shows",
+       .law = "as vsm where the taps stand on texels; between them a linear fetch blends deviations, which is less "
+              "variance, and it is no bound",
+       .reads = {{&v_min}, {&radius}, {&samples}, {&reduction}, {&reduction_span}},
+       .moments = MomentFormulas{in_float::three_vsm_moments, in_float::three_vsm_lit, LookupTruth{},
+                                 in_bounds::three_vsm_lit, in_counts::three_vsm_lit},
+       .spread =
+           SpreadFormulas{in_bounds::three_vsm_add_stored, in_bounds::three_vsm_spread, in_extended::three_vsm_lit},
+       .channels = 2,
+       .within_one = always,
+       .bound = false},
   };
 }
 
@@ -175,6 +226,12 @@ std::span<const KindParameter* const> LookupTable::parameters() {
 
 TapPattern tap_pattern(const Settings& settings) {
   if (!reads_moments(settings)) return tap_pattern(settings.filter);
+  if (find_lookup(settings.lookup.kind).spread) {
+    SpreadBlur blur = spread_blur(settings.lookup);
+    TapPattern pattern = fetches_of(std::move(blur.kernel_u));
+    pattern.kernel_v = std::move(blur.kernel_v);
+    return pattern;
+  }
   return fetches_of(find_filter(settings.filter.kind).blur(settings.filter));
 }
 

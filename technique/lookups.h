@@ -30,6 +30,14 @@ struct MomentFormulas {
   Counted (*counted_lit)(in_counts::vec4 moments, Counted depth, in_counts::LookupParameters);
 };
 
+// The two passes of a lookup that blurs by itself and stores the spread of what it reads (technique/spread_blur.h).
+struct SpreadFormulas {
+  in_bounds::vec4 (*bounded_added)(in_bounds::vec4 sums, in_bounds::vec4 stored);
+  in_bounds::vec4 (*bounded_spread)(in_bounds::vec4 sums, Bounded taps);
+  // From the mean and the deviation without rounding; `truth` is then null.
+  long double (*truth)(in_extended::vec4 fetched, long double depth, in_extended::LookupParameters);
+};
+
 struct LookupKind {
   std::string_view name;  // a choice of lookup.kind
   std::string_view help;
@@ -37,11 +45,15 @@ struct LookupKind {
   std::vector<KindRead<LookupSettings>> reads = {};
   // Of a lookup in a map of moments; empty: it compares depths.
   std::optional<MomentFormulas> moments = {};
+  std::optional<SpreadFormulas> spread = {};
   int channels = 0;  // numbers that a texel stores: 1, 2 or 4
-  // It stores exponentials, which OpenGL need not round as the host does: at most e^(warp_power c) of the exponent c. 0: none.
+  // It stores exponentials, which OpenGL need not round as the host does: at most e^(warp_power c) of the exponent c, or 1 if
+  // all that it stores lies in [0, 1]. 0: none.
   int warp_power = 0;
   // Whether all that it stores lies in [0, 1], so that map.moments = 16 can hold it; null: never.
   bool (*within_one)(const LookupSettings&) = nullptr;
+  // Whether it is an upper bound of the comparison (law 13). The look-alikes of engines that are none can be darker.
+  bool bound = true;
 
   bool reads_moments() const { return moments.has_value(); }
 };

@@ -41,13 +41,21 @@ MomentLookup::MomentLookup(const Settings& settings)
   bare_ = exact_;
   bare_.v_min = bare_.floor = bare_.moment_bias = 0;
   if (span_ == 0) span_ = 1 - reduction_;
+  if (kind_->spread) {
+    spread_ = spread_blur(settings.lookup);
+    kernel_ = spread_->kernel_u;
+    return;
+  }
   kernel_ = find_filter(settings.filter.kind).blur(settings.filter);
 }
 
 std::string MomentLookup::key() const {
   const in_float::LookupParameters& p = parameters_;
-  return fmt::format("{} {} {} {} {} {}", kind_->name, static_cast<int>(format_), p.exponent, p.negative_exponent,
-                     p.moments, fmt::join(kernel_, " "));
+  std::string key = fmt::format("{} {} {} {} {} {}", kind_->name, static_cast<int>(format_), p.exponent,
+                                p.negative_exponent, p.moments, fmt::join(kernel_, " "));
+  if (spread_)
+    for (const SpreadBlur::Tap& tap : spread_->along_u) key += fmt::format(" {} {}", tap.texel, tap.next);
+  return key;
 }
 
 glm::vec4 MomentLookup::stored(float depth) const { return kind_->moments->moments(depth, parameters_); }
@@ -70,6 +78,14 @@ double MomentLookup::exact(TruthInDouble& depths, double receiver) const {
 
 double MomentLookup::bare(TruthInDouble& depths, double receiver) const {
   return depths.lit(kind_->moments->truth, receiver, bare_);
+}
+
+double MomentLookup::exact(const Spread& fetched, double receiver) const {
+  return static_cast<double>(kind_->spread->truth({fetched.mean, fetched.deviation, 0, 0}, receiver, exact_));
+}
+
+double MomentLookup::bare(const Spread& fetched, double receiver) const {
+  return static_cast<double>(kind_->spread->truth({fetched.mean, fetched.deviation, 0, 0}, receiver, bare_));
 }
 
 double MomentLookup::reduced(double lit) const { return std::clamp((lit - reduction_) / span_, 0.0, 1.0); }

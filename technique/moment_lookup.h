@@ -14,6 +14,7 @@
 
 #include "technique/lookups.h"
 #include "technique/settings.h"
+#include "technique/spread_blur.h"
 
 namespace noonmark {
 
@@ -26,6 +27,8 @@ class MomentLookup {
   MomentFormat format() const { return format_; }
   const in_float::LookupParameters& parameters() const { return parameters_; }
   std::span<const double> kernel() const { return kernel_; }  // of the blur, along each axis; sum 1
+  // Its own blur, in place of a kernel; null: the blur is the kernel's.
+  const SpreadBlur* spread() const { return spread_ ? &*spread_ : nullptr; }
   // Of all that the texels of a blurred map depend on, besides the depths.
   std::string key() const;
 
@@ -43,6 +46,10 @@ class MomentLookup {
   // is never below the share of the depths that are not before the receiver.
   double bare(TruthInDouble& depths, double receiver) const;
 
+  // The same two of a lookup with a spread(), from the mean and the deviation that its fetch gives without rounding.
+  double exact(const Spread& fetched, double receiver) const;
+  double bare(const Spread& fetched, double receiver) const;
+
   // After light-bleed reduction: (lit - r) / span, clamped to [0, 1]; span is 1 - r unless lookup.reduction_span gives it.
   double reduced(double lit) const;
   float reduced(float lit) const;  // as the shader of an engine computes it
@@ -54,6 +61,7 @@ class MomentLookup {
   in_extended::LookupParameters exact_, bare_;
   double reduction_, span_;
   std::vector<double> kernel_;
+  std::optional<SpreadBlur> spread_;
 };
 
 }  // namespace noonmark

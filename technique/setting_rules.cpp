@@ -188,6 +188,9 @@ std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> l
         "lookup.kind = {} reads a map that is blurred before the lookup, and filter.kind = {} is no blur; "
         "take filter.kind {}",
         kind, s.filter.kind, filters_that([](const Filter& f) { return f.blur != nullptr; }));
+  if (find_lookup(kind).spread && s.filter.kind != "none")
+    return fmt::format(
+        "lookup.kind = {} has a blur of its own, of lookup.samples over lookup.radius; set filter.kind = none", kind);
   if (s.filter.kind == "box" && s.filter["step_texels"] != 1)
     return fmt::format("lookup.kind = {} blurs neighbouring texels; set filter.step_texels = 1", kind);
   if (tap_reference(s.bias.reference).plane)
@@ -217,7 +220,7 @@ std::string moments_beyond_format(const Settings& s, std::optional<LightKind>) {
         "map.moments = 16 holds numbers from 0 to 1, and lookup.kind = {} stores others{}; set 16f or 32f", kind.name,
         kind.within_one ? " with lookup.moments = plain" : "");
   // The largest number that is stored: e^c of a depth of 1, or the square e^(2 c).
-  if (s.map.moments != MomentFormat::f16 || kind.warp_power == 0) return "";
+  if (s.map.moments != MomentFormat::f16 || kind.warp_power == 0 || kind.within_one) return "";
   const double largest_half = 65504, most = std::log(largest_half) / kind.warp_power;
   for (const char* parameter : {"exponent", "negative_exponent"})
     for (const auto& read : kind.reads)

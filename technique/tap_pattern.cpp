@@ -7,11 +7,12 @@
 
 namespace noonmark {
 
-double TapPattern::along_axis(int texel, double fraction) const {
+double TapPattern::along_axis(int axis, int texel, double fraction) const {
   if (axis_weight) return axis_weight(texel, fraction, blended_side - 1);
   const int fetches = blended_side - 1;
-  return (texel < fetches ? kernel[static_cast<size_t>(texel)] * (1 - fraction) : 0) +
-         (texel > 0 ? kernel[static_cast<size_t>(texel) - 1] * fraction : 0);
+  const std::vector<double>& weights = axis == 0 ? kernel : along_v();
+  return (texel < fetches ? weights[static_cast<size_t>(texel)] * (1 - fraction) : 0) +
+         (texel > 0 ? weights[static_cast<size_t>(texel) - 1] * fraction : 0);
 }
 
 int TapPattern::fetches() const {

@@ -35,6 +35,8 @@ struct TapPattern {
   // along one axis (sum 1); each fetch blends 2 x 2 texels by the position of P between their centres. If `kernel` is
   // empty, axis_weight gives the weight of each texel along one axis (sum 1), and s is the fraction.
   std::vector<double> kernel;
+  std::vector<double> kernel_v = {};  // along v if they differ, as many; empty: those of `kernel`
+  const std::vector<double>& along_v() const { return kernel_v.empty() ? kernel : kernel_v; }
   double (*axis_weight)(int texel, double s, int size) = nullptr;
 
   glm::vec3 offset(int variant, int tap) const { return offsets[static_cast<size_t>(variant * taps + tap)]; }
@@ -46,10 +48,10 @@ struct TapPattern {
   // right.
   double weight(int tap, glm::dvec2 fraction) const {
     if (!bilinear()) return 1.0 / taps;
-    return along_axis(tap % blended_side, fraction.x) * along_axis(tap / blended_side, fraction.y);
+    return along_axis(0, tap % blended_side, fraction.x) * along_axis(1, tap / blended_side, fraction.y);
   }
-  // Of its column or of its row alone. fraction: along that axis.
-  double along_axis(int texel, double fraction) const;
+  // Of its column (axis 0) or of its row (axis 1) alone. fraction: along that axis.
+  double along_axis(int axis, int texel, double fraction) const;
 
   // Texture instructions for one receiver: one for each tap, or one for each 2 x 2 texels that a sampler blends.
   int fetches() const;

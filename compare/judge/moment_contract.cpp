@@ -52,13 +52,20 @@ class Check {
 
   void texel(glm::ivec2 at, size_t index, MomentContractCounts& counts) const {
     ++counts.texels;
-    counts.stored += !holds(moments_.stored[index], lookup_.stored(map_[index]), stored_error_);
-    for (const auto& [from, to, way] : {std::tuple(&moments_.stored, &moments_.blurred_along_u, glm::ivec2(1, 0)),
-                                        std::tuple(&moments_.blurred_along_u, &moments_.blurred, glm::ivec2(0, 1))}) {
+    // What a blur of spreads reads is the depth of the map itself.
+    const MomentFormat format = lookup_.spread() ? MomentFormat::f32 : lookup_.format();
+    counts.stored += !holds(format, moments_.stored[index], lookup_.stored(map_[index]), stored_error_);
+    if (const SpreadBlur* const spread = lookup_.spread()) {
+      spread_pass(moments_.stored, moments_.blurred_once, at, index, {0, 1}, spread->along_v, counts);
+      spread_pass(moments_.blurred_once, moments_.blurred, at, index, {1, 0}, spread->along_u, counts);
+      return;
+    }
+    for (const auto& [from, to, way] : {std::tuple(&moments_.stored, &moments_.blurred_once, glm::ivec2(1, 0)),
+                                        std::tuple(&moments_.blurred_once, &moments_.blurred, glm::ivec2(0, 1))}) {
       const std::optional<glm::vec4> sum = summed(*from, at, way);
       if (!sum) continue;
       ++counts.sums;
-      counts.blurred += !holds((*to)[index], *sum, no_error);
+      counts.blurred += !holds(lookup_.format(), (*to)[index], *sum, no_error);
     }
   }
 
@@ -95,9 +102,9 @@ class Check {
     return value > 0 ? 2 * value * (3 + 2 * std::abs(std::log(value))) * 0x1p-23 : 0x1p-126;
   }
 
-  bool holds(glm::vec4 read, glm::vec4 written, Error error) const {
+  bool holds(MomentFormat format, glm::vec4 read, glm::vec4 written, Error error) const {
     for (int c = 0; c < lookup_.kind().channels; ++c)
-      if (!is_held(lookup_.format(), written[c], read[c], error(written[c]))) return false;
+      if (!is_held(format, written[c], read[c], error(written[c]))) return false;
     return true;
   }
 
@@ -118,6 +125,30 @@ class Check {
       sum += kernel_[static_cast<size_t>(k)] * *one;
     }
     return sum;
+  }
+
+  // A pass of a blur that stores the spread of what it reads, within the error of float arithmetic.
+  void spread_pass(const std::vector<glm::vec4>& from, const std::vector<glm::vec4>& to, glm::ivec2 middle,
+                   size_t index, glm::ivec2 way, std::span<const SpreadBlur::Tap> taps,
+                   MomentContractCounts& counts) const {
+    const auto exact = [](float value) { return Bounded(static_cast<double>(value)); };
+    const auto bounded = [&](glm::vec4 m) { return in_bounds::vec4(exact(m.x), exact(m.y), exact(m.z), exact(m.w)); };
+    const SpreadFormulas& formulas = *lookup_.kind().spread;
+    in_bounds::vec4 sums = bounded(glm::vec4(0));
+    for (const SpreadBlur::Tap& tap : taps) {
+      const std::optional<glm::vec4> one = at(from, middle + tap.texel * way);
+      const std::optional<glm::vec4> other = at(from, middle + (tap.texel + 1) * way);
+      if (!one || (!other && tap.next > 0)) return;
+      const Bounded next = exact(tap.next);
+      sums = formulas.bounded_added(sums, (Bounded(1.0) - next) * bounded(*one) + next * bounded(other.value_or(*one)));
+    }
+    const in_bounds::vec4 spread = formulas.bounded_spread(sums, Bounded(static_cast<double>(taps.size())));
+    ++counts.sums;
+    const auto held = [&](Bounded value, float read) {
+      const auto written = static_cast<float>(value.value);
+      return is_held(lookup_.format(), written, read, value.error + 0x1p-24 * std::abs(value.value));
+    };
+    counts.blurred += !(held(spread.x, to[index].x) && held(spread.y, to[index].y));
   }
 
   struct Blend {

@@ -26,8 +26,9 @@ struct MomentContractCounts {
 // lookup. Checked are the texels of the map's set and the facing receivers:
 //   stored   equal to the formula in float on this side, as the format holds it: bit for bit in 32 bits; one of the two
 //            neighbours in 16, where OpenGL may round to either. exp() is within 3 + 2 |x| units (GLSL 4.50, 4.7.1).
-//   blurred  the sum of products in the shader's order, in float, as the format holds it; texels of which a neighbour was not
-//            read are left out.
+//   blurred  the sum of products in the shader's order, in float, as the format holds it; of a blur that stores a spread
+//            (technique/spread_blur.h) within the error of float arithmetic. Texels of which a neighbour was not read are
+//            left out.
 //   fetched  between the blends with weights that are off by 2^-8, as samplers of GPUs have them.
 //   lit      within the error of float arithmetic (technique/bounded.h).
 MomentContractCounts check_moments(const LookupEvidence& evidence, const MapDepths& map, const MomentEvidence& moments,

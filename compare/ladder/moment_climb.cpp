@@ -40,9 +40,38 @@ void blended_depths(const LookupEvidence& e, size_t i, const ReceiverTaps& taps,
         for (int u = 0; u < size; ++u) {
           const glm::ivec2 texel = wrapped(middle + glm::ivec2(u, v) - size / 2, map, e.map.wrap);
           depths.push_back(static_cast<double>(texel.x < 0 ? border_depth : e.exact_map.at(texel)));
-          weights.push_back(share * pattern.kernel[static_cast<size_t>(u)] * pattern.kernel[static_cast<size_t>(v)]);
+          weights.push_back(share * pattern.kernel[static_cast<size_t>(u)] * pattern.along_v()[static_cast<size_t>(v)]);
         }
     }
+}
+
+// What a linear fetch gives at a receiver of the texels of a blur that stores spreads, without rounding.
+Spread fetched_spread(const LookupEvidence& e, size_t i, std::vector<double>& depths) {
+  const SpreadBlur& blur = *e.moments->spread();
+  const int reach = blur.size() / 2;
+  const glm::ivec2 map = e.exact_map.size(), corner = e.probe.texel(i, 0) + reach;
+  const glm::vec2 at = e.probe.map_texels[i] - 0.5f;
+  const glm::dvec2 s = glm::dvec2(at) - glm::dvec2(glm::floor(at));
+  Spread fetched;
+  for (const int y : {0, 1})
+    for (const int x : {0, 1}) {
+      const long double share = (x ? s.x : 1 - s.x) * (y ? s.y : 1 - s.y);
+      const glm::ivec2 middle = wrapped(corner + glm::ivec2(x, y), map, e.map.wrap);
+      if (middle.x < 0) {
+        fetched.mean += share * static_cast<long double>(border_depth);
+        continue;
+      }
+      depths.clear();
+      for (int v = -reach; v <= reach; ++v)
+        for (int u = -reach; u <= reach; ++u) {
+          const glm::ivec2 texel = wrapped(middle + glm::ivec2(u, v), map, e.map.wrap);
+          depths.push_back(static_cast<double>(texel.x < 0 ? border_depth : e.exact_map.at(texel)));
+        }
+      const Spread one = spread_of(blur, depths);
+      fetched.mean += share * one.mean;
+      fetched.deviation += share * one.deviation;
+    }
+  return fetched;
 }
 
 }  // namespace
@@ -60,9 +89,16 @@ MomentClimb::Bounds MomentClimb::bounds_of(size_t i, const ReceiverTaps& taps, P
   if (!e.probe.asks(i)) return {};
   if (reference > 1.0f && e.map.lit_beyond_far) return {1, 1, 1};
   const float biased = reference - e.bias.at(e.probe, i);  // as the shader computes it
-  blended_depths(e, i, taps, part.depths, part.weights);
   const auto bare_depth = static_cast<double>(reference);
   Bounds bounds;
+  if (e.moments->spread()) {
+    const Spread fetched = fetched_spread(e, i, part.depths);
+    bounds.bare = e.moments->bare(fetched, bare_depth);
+    bounds.with_floors = e.moments->exact(fetched, static_cast<double>(biased));
+    bounds.shown = e.moments->reduced(bounds.with_floors);
+    return bounds;
+  }
+  blended_depths(e, i, taps, part.depths, part.weights);
   part.truth.set(part.depths, part.weights);
   bounds.bare = e.moments->bare(part.truth, bare_depth);
   bounds.with_floors = e.moments->exact(part.truth, static_cast<double>(biased));

@@ -153,8 +153,8 @@ class ReceiverTaps {
     const glm::vec2 at = probe.map_texels[i] - 0.5f;
     const glm::dvec2 fraction = glm::dvec2(at) - glm::dvec2(glm::floor(at));
     for (int t = 0; t < probe.pattern.blended_side; ++t) {
-      weight_u_.push_back(probe.pattern.along_axis(t, fraction.x));
-      weight_v_.push_back(probe.pattern.along_axis(t, fraction.y));
+      weight_u_.push_back(probe.pattern.along_axis(0, t, fraction.x));
+      weight_v_.push_back(probe.pattern.along_axis(1, t, fraction.y));
     }
   }
   TapRead read_by(const LookupProbe& probe, size_t i, int tap) const {

@@ -9,6 +9,8 @@ using acceptance::with_moments;
 
 const char* const vsm_file = "technique/lookups/vsm.glsl";
 const char* const blur = "shaders/prefilter/blur.frag";
+const char* const blurred_texel = "shaders/prefilter/texel.glsl";
+const char* const spread = "shaders/prefilter/spread.frag";
 const char* const fetch = "shaders/filter/moments.glsl";
 const char* const chebyshev = "technique/lookups/shared/chebyshev.glsl";
 
@@ -51,14 +53,15 @@ std::vector<Planted> defects() {
                  all_but("contract_blur")});
   all.push_back({"MomentsOfADarkBorder",
                  with_moments(),
-                 {.shaders = patched(blur, "return border;", "return border - 1.0;")},
+                 {.shaders = patched(blurred_texel, "return border;", "return border - 1.0;")},
                  {{"contract_blur", 0, 0.001}},
                  all_but("contract_blur")});
-  all.push_back({"MomentsOfAWrappedBorder",
-                 with_moments({{"map.wrap", "repeat"}}),
-                 {.shaders = patched(blur, "(texel % size + size) % size", "clamp(texel, ivec2(0), size - 1)")},
-                 {{"contract_blur", 0, 0.001}},
-                 all_but("contract_blur")});
+  all.push_back(
+      {"MomentsOfAWrappedBorder",
+       with_moments({{"map.wrap", "repeat"}}),
+       {.shaders = patched(blurred_texel, "(texel % size + size) % size", "clamp(texel, ivec2(0), size - 1)")},
+       {{"contract_blur", 0, 0.001}},
+       all_but("contract_blur")});
   all.push_back(
       {"MomentsFetchedHalfATexelOff",
        with_moments(),
@@ -81,6 +84,28 @@ std::vector<Planted> defects() {
                                      "biased_depth(receiver.reference, 2.0 * bias)")},
                  {{"contract_lit", 0, 0.001}},
                  all_but("contract_lit")});
+  all.push_back({"MomentsOfBabylonHeldAtASmallExponent",
+                 with_moments({{"lookup.kind", "babylon_esm"}, {"lookup.exponent", "50"}, {"bias.constant", "0.02"}}),
+                 {.shaders = patched("technique/lookups/babylon_esm.glsl", "-min(p.exponent * depth, real(87))",
+                                     "-min(p.exponent * depth, real(5))")},
+                 {{"contract_store", 0, 0.1}},
+                 all_but("contract_store")});
+  all.push_back({"MomentsOfBabylonWithABiasOfTheirOwn",
+                 with_moments({{"lookup.kind", "babylon_close_esm"}}),
+                 {.shaders = patched("technique/lookups/babylon_close_esm.glsl", "- moments.x", "- moments.x + 0.001")},
+                 {{"contract_lit", 0, 0.01}},
+                 all_but("contract_lit")});
+  const Settings three = with_moments({{"lookup.kind", "three_vsm"}, {"filter.kind", "none"}, {"lookup.radius", "3"}});
+  all.push_back({"MomentsOfThreeJsFetchedNearest",
+                 three,
+                 {.shaders = patched(spread, "tap_next[k] * other", "tap_next[k] * one")},
+                 {{"contract_blur", 0, 0.05}},
+                 all_but("contract_blur")});
+  all.push_back({"MomentsOfThreeJsWithoutTheirDeviations",
+                 three,
+                 {.shaders = patched("technique/lookups/three_vsm.glsl", "stored.y * stored.y +", "")},
+                 {{"contract_blur", 0, 0.1}},
+                 all_but("contract_blur")});
   all.push_back({"MomentsOfAnotherMap",
                  with_moments(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.extent_m *= 1.02; }},

@@ -68,6 +68,9 @@ WRONG = [(None, ["biass=0.1"], 'there is no setting "biass"'),
          ("three", ["class=CSM", "extent=5"], '"extent" has no effect with class=CSM'),
          ("three", ["class=SunLight", "splits=5,20"], '"splits" has no effect with class=SunLight'),
          ("three", ["class=CSM", "splits=5,"], '"splits" takes numbers with commas above 0'),
+         ("three", ["blurSamples=7"], '"blurSamples" has no effect with type=PCFShadowMap; it needs type=VSMShadowMap'),
+         ("babylon", ["depthScale=20"], '"depthScale" has no effect with filter=none'),
+         ("babylon", ["filter=useBlurExponentialShadowMap", "blurKernel=9"], '"blurKernel" has no effect with useKernelBlur=false'),
          ("babylon", ["lambda=0.5"], '"lambda" has no effect with class=ShadowGenerator'),
          ("eevee", ["high_bitdepth=yes"], '"high_bitdepth" takes true | false')]
 for page in PAGES:

@@ -90,6 +90,24 @@ TEST(Cost, AddsTheMapAndTheLookups) {
 }
 
 // A row without its counters would cost nothing, or crash.
+// A pass stores moments and two blur them; three.js's two passes read the depths themselves.
+TEST(Cost, AddsThePassesOverAMapOfMoments) {
+  Settings s = with({"box", {{"size", 5}}});
+  s.lookup.kind = "vsm";
+  const FrameCost vsm = frame_cost(s, 1, 100, 10, 1);
+  EXPECT_EQ(vsm.pass_fetches, 100 * (1 + 5 + 5));
+  EXPECT_EQ(vsm.texel_work, 100 + 10 + 3 * 100 + vsm.pass_fetches);
+  s.filter.kind = "none";
+  s.lookup.kind = "three_vsm";
+  s.lookup["samples"] = 8, s.lookup["radius"] = 4;
+  const FrameCost three = frame_cost(s, 1, 100, 10, 1);
+  EXPECT_EQ(three.pass_fetches, 100 * (8 + 8));
+  EXPECT_EQ(three.texel_work, 100 + 10 + 2 * 100 + three.pass_fetches);
+  // Depths of 32 bits are written, read 8 times along v, and the two numbers are written twice and fetched four times 8.
+  EXPECT_EQ(three.traffic_bytes, 100 * (4 + 8 * 4 + 2 * 8 + 4 * 8 * 8) + 10 * 4 * 8);
+  EXPECT_EQ(three.map_bytes, vsm.map_bytes);
+}
+
 TEST(Cost, EveryRowHasItsCounters) {
   for (const BiasPart& part : bias_parts()) {
     const bool polygon_offset = !part.formula.factor && !part.formula.way;

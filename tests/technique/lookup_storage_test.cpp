@@ -7,6 +7,7 @@
 
 #include "technique/lookup_formulas.h"
 #include "technique/lookup_truth.h"
+#include "technique/spread_blur.h"
 
 namespace noonmark {
 namespace in_extended {
@@ -219,13 +220,22 @@ TEST(LookupStorage, TransformedMomentsFillUnorm) {
 // Babylon.js's two forms, where an occluder a gap before the receiver covers the share f of the kernel.
 TEST(LookAlikes, BabylonsEsmIsDarkOnItsOwnCasters) {
   const LookupParameters p = with_exponent(20);
-  for (const double depth : {0.1, 0.5, 1.0}) {
+  for (const double depth : {0.1, 0.5, 0.999}) {
     const double depths[] = {depth}, weights[] = {1};
     EXPECT_NEAR(static_cast<double>(babylon_esm_truth(depths, weights, depth, p)), 0, 1e-15);
     // A receiver that does not cast is lit by half ln 2 / c before what is behind it in the map.
     const double before = depth - std::log(2.0) / 20;
     EXPECT_NEAR(static_cast<double>(babylon_esm_truth(depths, weights, before, p)), 0.5, 1e-12);
   }
+}
+
+// Babylon.js clears the map to 0, where its formula would store e^(-c) of the far end: what lies before it is lit.
+TEST(LookAlikes, BabylonsEmptyTexelsAreLit) {
+  const double depths[] = {1}, weights[] = {1};
+  for (const double receiver : {0.5, 0.999, 1.0})
+    EXPECT_EQ(static_cast<double>(babylon_esm_truth(depths, weights, receiver, with_exponent(20))), 1);
+  EXPECT_EQ(in_float::babylon_esm_moments(1, with_float_exponent(20)).x, 0);
+  EXPECT_GT(in_float::babylon_esm_moments(0.999f, with_float_exponent(20)).x, 0);
 }
 
 TEST(LookAlikes, BabylonsCloseEsmFattensShadows) {
@@ -261,6 +271,51 @@ TEST(LookAlikes, ThreeJsTwoPassesAreOneVarianceAtTexelCentres) {
   const LookupParameters p = with_v_min(1e-7L);
   const Number lit = in_extended::three_vsm_lit(in_extended::three_vsm_spread(second, 4), 0.5L, p);
   EXPECT_NEAR(static_cast<double>(lit), static_cast<double>(vsm_truth(depths, weights, 0.5, p)), 1e-15);
+}
+
+// The loop of three.js's shader, in its own words, over the formulas of the file.
+TEST(LookAlikes, ThreeJsSpreadOfDepthsIsThatOfItsPasses) {
+  std::mt19937_64 random(5);
+  for (const auto& [radius, samples] :
+       {std::pair(1.0, 8), {4.0, 8}, {3.0, 7}, {2.2, 5}, {0.0, 8}, {3.7, 25}, {2.0, 1}}) {
+    LookupSettings settings;
+    settings["radius"] = radius, settings["samples"] = samples;
+    const SpreadBlur blur = spread_blur(settings);
+    const int size = blur.size(), reach = size / 2;
+    std::vector<double> depths;
+    for (int i = 0; i < size * size; ++i) depths.push_back(static_cast<double>(within(random, 0.2, 0.8)));
+    const auto offset = [&, n = samples, r = radius](int i) { return n == 1 ? 0 : (-1 + i * (2.0 / (n - 1))) * r; };
+    const auto texel = [&](double offset_texels) {  // of the middle one's centre, at 1/2
+      return static_cast<int>(std::floor(0.5 + offset_texels));
+    };
+    const auto column = [&](int u) {
+      vec4 sums(0);
+      for (int i = 0; i < samples; ++i) {
+        const auto at = static_cast<size_t>((texel(offset(i)) + reach) * size + u + reach);
+        sums = in_extended::three_vsm_add_depth(sums, static_cast<Number>(depths[at]));
+      }
+      return in_extended::three_vsm_spread(sums, samples);
+    };
+    vec4 sums(0);
+    for (int i = 0; i < samples; ++i) {
+      const double before = std::floor(offset(i)), next = offset(i) - before;
+      vec4 stored = column(static_cast<int>(before));
+      if (next > 0) stored = Number(1 - next) * stored + Number(next) * column(static_cast<int>(before) + 1);
+      sums = in_extended::three_vsm_add_stored(sums, stored);
+    }
+    const vec4 made = in_extended::three_vsm_spread(sums, samples);
+    const Spread spread = spread_of(blur, depths);
+    EXPECT_NEAR(static_cast<double>(spread.mean), static_cast<double>(made.x), 1e-7) << radius;  // shares are floats
+    EXPECT_NEAR(static_cast<double>(spread.deviation), static_cast<double>(made.y), 1e-7) << radius;
+    double mean = 0, sum = 0;
+    for (int v = 0; v < size; ++v)
+      for (int u = 0; u < size; ++u) {
+        const double weight = blur.kernel_u[static_cast<size_t>(u)] * blur.kernel_v[static_cast<size_t>(v)];
+        sum += weight, mean += weight * depths[static_cast<size_t>(v * size + u)];
+      }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_NEAR(mean, static_cast<double>(made.x), 1e-7);
+  }
 }
 
 TEST(LookAlikes, ThreeJsLinearFetchesLoseVariance) {

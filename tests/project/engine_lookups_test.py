@@ -1,0 +1,124 @@
+"""The filtered maps of engines against Noonmark's prediction: each frame of the cube room that an engine draws with its VSM or its
+exponential shadow map has the error that Noonmark measures with the same map and lookup, to 0.1 points.
+   engine_lookups_test.py NOONMARK SOURCE FOLDER
+It prints the rows of the table in examples/engines/README.md. Skips (77) where no engine can run: node, Chromium or the
+packages of examples/engines/package.json (npm install in that folder, or NODE_MODULES names another one) are not installed."""
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+
+program, source, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+engines = source / "examples/engines"
+modules = pathlib.Path(os.environ.get("NODE_MODULES", engines / "node_modules"))
+SKIP = 77
+POINTS = 0.1  # of a hundred: how far the prediction may be from the frame
+
+EXTENT, NEAR, FAR, RESOLUTION = 10, 1, 20, 512
+EYE, TARGET = [-1.6, 2.8, 6.4], [0.5, 0.2, 0]
+WIDENED = 1.2  # Babylon.js widens the map by shadowOrthoScale, a tenth of it, on each side
+
+
+def words(numbers):
+    return ",".join(map(repr, numbers))
+
+
+SHOT = [f"eye={words(EYE)}", f"target={words(TARGET)}", "fov_y_deg=45", f"resolution={RESOLUTION}", f"extent={EXTENT}", f"depth={NEAR},{FAR}"]
+
+
+def three(bias, *, radius, samples, lookup=()):
+    """In 32-bit floats: Chromium rounds the halves of three.js's map to the nearest, Mesa's llvmpipe towards 0, which is acne."""
+    return (["three/page.html", "type=VSMShadowMap", "shadow_side=both", f"radius={radius}", f"blurSamples={samples}", f"bias={-bias}"],
+            [[f"map.extent_m={EXTENT}", "lookup.kind=three_vsm", "filter.kind=none", f"lookup.radius={radius}",
+              f"lookup.samples={samples}", "lookup.reduction=0.3", "lookup.reduction_span=0.65", f"bias.constant={bias}", *lookup]])
+
+
+def babylon(engine_filter, kind, bias, shot, *blurs):
+    """Each of `blurs` is one prediction: the frame lies between two."""
+    return (["babylon/page.html", f"filter={engine_filter}", f"bias={bias}", "forceBackFacesOnly=false", *shot],
+            [[f"map.extent_m={EXTENT * WIDENED}", f"lookup.kind={kind}", "lookup.exponent=50", f"bias.constant={bias}", *blur] for blur in blurs])
+
+
+def box(size):
+    return ["filter.kind=box", f"filter.size={size}"]
+
+
+# The name, what is shot, and what is predicted: one point, or two between which the frame lies.
+CASES = [("three.js `VSMShadowMap`, `radius=3 blurSamples=7`", *three(0, radius=3, samples=7)),
+         ("three.js `VSMShadowMap`, its defaults", *three(0, radius=1, samples=8)),
+         ("three.js `VSMShadowMap`, `radius=4`, `bias=-0.002`", *three(0.002, radius=4, samples=8)),
+         ("Babylon.js `useCloseExponentialShadowMap`", *babylon("useCloseExponentialShadowMap", "babylon_close_esm", 0.0005, [], ["filter.kind=none"])),
+         ("Babylon.js `useBlurCloseExponentialShadowMap`, `blurScale=1 blurBoxOffset=3`",
+          *babylon("useBlurCloseExponentialShadowMap", "babylon_close_esm", 0.0005, ["blurScale=1", "blurBoxOffset=3"], box(7))),
+         ("the same with `useKernelBlur=true blurKernel=9`",
+          *babylon("useBlurCloseExponentialShadowMap", "babylon_close_esm", 0.0005, ["blurScale=1", "useKernelBlur=true", "blurKernel=9"],
+                   ["filter.kind=gaussian", "filter.size=9", "filter.sigma_texels=1.3333333"])),
+         ("Babylon.js `useBlurCloseExponentialShadowMap`, its defaults",
+          *babylon("useBlurCloseExponentialShadowMap", "babylon_close_esm", 0.0005, [], box(5), box(7))),
+         ("Babylon.js `useBlurExponentialShadowMap`, `blurScale=1 bias=0.02`",
+          *babylon("useBlurExponentialShadowMap", "babylon_esm", 0.02, ["blurScale=1"], box(3)))]
+
+
+def missing(page):
+    package = {"three": "three", "babylon": "babylonjs"}[page.split("/")[0]]
+    lacking = [tool for tool in ("node", "chromium") if not shutil.which(tool)]
+    return " ".join(lacking + ([] if (modules / package).is_dir() else [f"{modules}/{package}"]))
+
+
+def run(*command):
+    return subprocess.run([str(part) for part in command], env={**os.environ, "NODE_MODULES": str(modules)}, capture_output=True, text=True)
+
+
+def found(ran, what):
+    if ran.returncode != 0:
+        print(f"{what}: exit code {ran.returncode}\n{ran.stdout[-2000:]}{ran.stderr[-2000:]}")
+        sys.exit(1)
+
+
+def light_through_the_middle(path):
+    """Where the light is and what it aims at, so that the middle of its map is that of the scene, as on the pages, and depths begin at
+    the light. The meshes of the file have no nodes of their own."""
+    data = path.read_bytes()
+    told = json.loads(data[20:20 + struct.unpack("<I", data[12:16])[0]])
+    node = next(one for one in told["nodes"] if "extensions" in one)
+    x, y, z, w = node["rotation"]
+    way = [-2 * (x * z + w * y), -2 * (y * z - w * x), -(1 - 2 * (x * x + y * y))]  # -Z turned
+    places = [told["accessors"][part["attributes"]["POSITION"]] for mesh in told["meshes"] for part in mesh["primitives"]]
+    middle = [(min(one["min"][k] for one in places) + max(one["max"][k] for one in places)) / 2 for k in range(3)]
+    along = sum((middle[k] - node["translation"][k]) * way[k] for k in range(3))
+    return [f"light.position_m={words(middle[k] - along * way[k] for k in range(3))}", f"light.target_m={words(middle)}"]
+
+
+able = [case for case in CASES if not missing(case[1][0])]
+for page in sorted({case[1][0] for case in CASES}):
+    if missing(page):
+        print(f"not run: {page}, which needs {missing(page)}")
+if not able:
+    print("no engine is installed")
+    sys.exit(SKIP)
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+model = folder / "cube-room.glb"
+found(run(program, "export", "cube-room", "--out", model), "export")
+PREDICTED = ["scene.name=cube-room", f"view.eye_m={words(EYE)}", f"view.target_m={words(TARGET)}", "view.fov_deg=45", f"map.resolution={RESOLUTION}",
+             f"map.near_m={NEAR}", f"map.far_m={FAR}", *light_through_the_middle(model)]
+bad = []
+for i, (name, (page, *shot), predictions) in enumerate(able):
+    out = folder / str(i)
+    found(run("node", engines / "shoot.mjs", page, model, out, *SHOT, *shot), name)
+    found(run(program, "judge", out / "frame.json", "--out", out / "judged"), name)
+    of_frame = 100 * json.loads((out / "judged/judge.json").read_text())["metrics"]["frame_error"]
+    errors = []
+    for k, predicted in enumerate(predictions):
+        settings = [word for one in PREDICTED + predicted for word in ("--set", one)]
+        found(run(program, "render", *settings, "--out", out / f"predicted-{k}"), name)
+        errors.append(100 * json.loads((out / f"predicted-{k}/point.json").read_text())["metrics"]["error"])
+    print(f"| {name} | {of_frame:.3f}% | {' to '.join(f'{error:.3f}%' for error in sorted(errors))} |", flush=True)
+    near = abs(errors[0] - of_frame) <= POINTS if len(errors) == 1 else min(errors) <= of_frame <= max(errors)
+    if not near:
+        bad.append(f"{name}: the frame has {of_frame:.3f}%, the prediction {errors}")
+print("\n".join(bad))
+sys.exit(bool(bad))
