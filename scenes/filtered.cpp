@@ -17,9 +17,9 @@ void add_light_from_above(Scene& scene) {
 }  // namespace
 
 // Horizontal plates over a floor. The lowest covers the edges of all others, so where those end, the floor is in full
-// shadow and a filtered map sees casters at several depths: it leaks. The upper edges that face -x lie at x = 0, offset_m,
-// 2 offset_m and so on, so that a blur of the width W has the share offset_m / W of every plate between the lowest and
-// the highest.
+// shadow and a filtered map sees casters at several depths: it leaks. The upper edges that face -x lie at x = 0,
+// offset_m, 2 offset_m and so on, so that a blur of the width W has the share offset_m / W of every plate between the
+// lowest and the highest.
 Scene layers(const SceneSettings& settings) {
   Scene scene;
   add_quad(scene, "floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
@@ -36,8 +36,8 @@ Scene layers(const SceneSettings& settings) {
   return scene;
 }
 
-// A floor and a face that rises from it, both lit: no point shadows another. A blur across the crease mixes their depths, and
-// a filtered map is too dark on both sides of it, whatever the angle.
+// A floor and a face that rises from it, both lit: no point shadows another. A blur across the crease mixes their
+// depths, and a filtered map is too dark on both sides of it, whatever the angle.
 Scene crease(const SceneSettings& settings) {
   Scene scene;
   const double theta = settings.theta_deg * std::numbers::pi / 180;
@@ -48,8 +48,8 @@ Scene crease(const SceneSettings& settings) {
   return scene;
 }
 
-// An open stair. Each tread reaches under the next one, so the floor below is in full shadow, and a blur of several treads
-// holds as many depths of casters.
+// An open stair. Each tread reaches under the next one, so the floor below is in full shadow, and a blur of several
+// treads holds as many depths of casters.
 Scene stairs(const SceneSettings&) {
   Scene scene;
   add_quad(scene, "floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
