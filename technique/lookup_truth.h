@@ -14,7 +14,7 @@
 //   double lit = of_thread.lit(msm_truth, 0.5, {});   // within 1e-12 of it
 //
 // The look-alikes of Babylon.js are no bounds and nothing cancels in them: theirs is the .glsl file in long double. three.js's
-// has none, because the result depends on which depths each of its passes blurs; in_extended compiles the passes.
+// is in technique/spread_blur.h, because the result depends on which depths each of its passes blurs.
 //
 // depths: window depths of the texels. weights: 0 or more, as many; divided by their sum, which is above 0. receiver: window
 // depth with the bias subtracted. The parameters are those of the .glsl file; LookupParameters::moments only says which

@@ -224,6 +224,8 @@ void require_metrics(const Measurement& m) {
   for (const char* name :
        {"filter", "displacement", "aliasing", "acne", "peter_panning", "coverage", "undecided", "precision"})
     causes += metric(m, name);
+  if (m.technique.moments)
+    for (const char* name : {"leak", "over_darkening", "reduction", "moment_precision"}) causes += metric(m, name);
   require(metric(m, "error") <= causes + rounding,
           fmt::format("error {} is more than its causes, {}", metric(m, "error"), causes));
   require(metric(m, "error") <= metric(m, "wrong") + rounding, "a mean error above the share of wrong receivers");
