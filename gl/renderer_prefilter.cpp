@@ -138,7 +138,7 @@ HalfRounding Renderer::half_rounding() {
     }
   const Texture given = make_texture(GL_R32F, width, rows);
   glTextureSubImage2D(given.id(), 0, 0, 0, width, rows, GL_RED, GL_FLOAT, floats.data());
-  const Target made{make_texture(GL_R16F, width, rows), width, rows};
+  const Target made{make_texture(GL_R16F, width, rows), GL_R16F, width, rows};
   r.draw_into({made.texture.id()}, 0, width, rows);
   glBindTextureUnit(2, given.id());
   r.draw_screen(r.programs.get({"shaders/screen.vert", "shaders/prefilter/copy.frag"}));
