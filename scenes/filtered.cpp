@@ -33,6 +33,9 @@ Scene layers(const SceneSettings& settings) {
   }
   scene.camera = {.eye_m = {-5, 1.7, 4.2}, .target_m = {0.2, 0.6, 0}, .fov_y_deg = 42};
   add_light_from_above(scene);
+  // The map begins above all plates, also above the light, whose rays are parallel.
+  const double highest = settings.gap_m + (settings.plates - 1) * settings.step_m;
+  scene.map->near_m = std::min(scene.map->near_m, scene.light.position_m.y - highest - 0.5);
   return scene;
 }
 

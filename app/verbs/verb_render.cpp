@@ -123,6 +123,25 @@ void print_curve_of_cascades(const Measurement& m, const BiasCurve& c) {
              100 * c.best_error);
 }
 
+// Of a lookup in a map of moments: what another lookup.reduction would do.
+void print_reductions(const Measurement& m) {
+  const auto& metrics = m.record.metrics;
+  if (!metrics.contains("reduction_best")) return;
+  fmt::print("  lookup.reduction of least error: {:.4g} ({:.5f}% on the exact map, without rounding)\n",
+             metrics.at("reduction_best"), 100 * metrics.at("reduction_best_error"));
+  if (metrics.contains("reduction_min"))
+    fmt::print(
+        "  from {:.4g} to {:.4g} the leak is within curve.peter_panning_bound, what it darkens in curve.acne_bound\n",
+        metrics.at("reduction_min"), metrics.at("reduction_max"));
+  else
+    fmt::print("  none keeps the leak within curve.peter_panning_bound and what it darkens in curve.acne_bound\n");
+  const double rounding = metrics.at("moment_precision"), error = metrics.at("error");
+  if (rounding > error / 2)
+    fmt::print(
+        "  moment_precision is most of the error, and no reduction cures it: give a floor (lookup.floor, lookup.v_min "
+        "or lookup.moment_bias), or map.moments = 32f\n");
+}
+
 // clock: what the times come from.
 void print_ladder(const Measurement& m, const char* clock) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
@@ -132,10 +151,12 @@ void print_ladder(const Measurement& m, const char* clock) {
   fmt::print("\n");
   if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
   if (nothing_judged(m.record)) return;
+  const auto of_one_receiver = [](const Metric& metric) { return metric.name.ends_with("_largest"); };
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
-        !metric.of_frames && !metric.of_motion && !metric.of_lights &&  // printed otherwise
+        !metric.of_frames && !metric.of_motion && !metric.of_lights && !of_one_receiver(metric) &&
+        metric.name != "reduction_best_error" &&                // printed otherwise
         m.record.metrics.contains(std::string(metric.name))) {  // a point with one map has no metrics of cascades
       const double share = m.record.metrics.at(std::string(metric.name));
       if (!std::isnan(share)) fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * share);
@@ -153,13 +174,10 @@ void print_ladder(const Measurement& m, const char* clock) {
   // Up to 1 the map is fine enough for the camera.
   for (const char* name : {"perspective_aliasing", "perspective_aliasing_p95"})
     if (!(value(name) <= 1)) fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), "texel widths for a pixel's");
-  if (m.record.metrics.contains("reduction_best")) {
-    fmt::print("  lookup.reduction of least error: {:.4g}", value("reduction_best"));
-    if (m.record.metrics.contains("reduction_min"))
-      fmt::print("; within the bounds from {:.4g} to {:.4g}\n", value("reduction_min"), value("reduction_max"));
-    else
-      fmt::print("; none is within the bounds of leak and darkening\n");
-  }
+  for (const Metric& metric : metrics_of({&m.record, 1}))
+    if (of_one_receiver(metric) && m.record.metrics.contains(std::string(metric.name)))
+      fmt::print("  {:<32}{:>12.5g} of the light of one receiver\n", metric.name, value(metric.name.data()));
+  print_reductions(m);
   for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
     if (!m.record.metrics.contains(name)) continue;
     const MedianInterval time = interval_of(m.record, name);

@@ -177,8 +177,7 @@ std::string why_no_curve(const PointRecord& point) {
   const auto lookup = point.settings.find("lookup.kind");
   if (lookup != point.settings.end() && lookup->second != "compare")
     return fmt::format(
-        "lookup.kind = {} compares no depths, so no curve over the bias is exact in one pass; sweep the bias, or read "
-        "reduction_min and reduction_max",
+        "lookup.kind = {} compares no depths, so no curve over the bias is exact in one pass; sweep the bias",
         printable(lookup->second));
   std::string why;
   for (const BiasPart& part : bias_parts()) {
