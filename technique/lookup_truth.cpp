@@ -228,9 +228,10 @@ class InDouble {
   Shares<Number> mixed(const Parameters& p) {
     if (p.moment_bias == 0) return plain();
     const std::span<const Number> way = depths_.ways(receiver), weight = depths_.weights();
-    way_.assign(way.begin(), way.end()), weight_.assign(weight.begin(), weight.end());
-    mix(p, way_, weight_, receiver);
-    return {way_, weight_};
+    std::vector<Number>&way_here = depths_.mixed_ways, &weight_here = depths_.mixed_weights;
+    way_here.assign(way.begin(), way.end()), weight_here.assign(weight.begin(), weight.end());
+    mix(p, way_here, weight_here, receiver);
+    return {way_here, weight_here};
   }
   InExtended in_extended() const { return {depths_.depths(), depths_.weights(), receiver}; }
 
@@ -238,7 +239,6 @@ class InDouble {
 
  private:
   TruthInDouble& depths_;
-  std::vector<Number> way_, weight_;
 };
 
 struct Vsm {
@@ -273,35 +273,37 @@ struct Evsm4 {
   }
 };
 
+// Gives of(shares, kernel); in long double where double loses digits.
+template <class Given, class Of>
+typename Given::Number lit_by_kernel(Given& given, const Parameters& p, Of of) {
+  const auto shares = given.mixed(p);
+  if (!shares.has_three_depths()) return share_behind(shares);
+  const Kernel kernel(shares);
+  if constexpr (std::is_same_v<Given, InDouble>)
+    if (!kernel.keeps_digits()) {
+      InExtended extended = given.in_extended();
+      return static_cast<double>(lit_by_kernel(extended, p, of));
+    }
+  return of(shares, kernel);
+}
+
 struct Msm {
   template <class Given>
-  static typename Given::Number lit(Given& given, const Parameters& p) {
-    const auto shares = given.mixed(p);
-    if (!shares.has_three_depths()) return share_behind(shares);
-    const Kernel kernel(shares);
-    if constexpr (std::is_same_v<Given, InDouble>)
-      if (!kernel.keeps_digits()) {
-        InExtended extended = given.in_extended();
-        return static_cast<double>(lit(extended, p));
-      }
-    return three_depths_lit(kernel);
+  static auto lit(Given& given, const Parameters& p) {
+    return lit_by_kernel(given, p, [](const auto&, const auto& kernel) { return three_depths_lit(kernel); });
   }
 };
 
 struct MsmHausdorff {
   template <class Given>
-  static typename Given::Number lit(Given& given, const Parameters& p) {
-    const auto shares = given.mixed(p);
-    if (!shares.has_three_depths()) return share_behind(shares);
-    if (!(given.receiver > 0)) return 1;
-    const Kernel kernel(shares);
-    if constexpr (std::is_same_v<Given, InDouble>)
-      if (!kernel.keeps_digits()) {
-        InExtended extended = given.in_extended();
-        return static_cast<double>(lit(extended, p));
-      }
-    const auto hamburger = three_depths_lit(kernel);
-    return given.receiver < 1 ? hausdorff_lit(shares, given.receiver, hamburger) : hamburger;
+  static auto lit(Given& given, const Parameters& p) {
+    const auto of = [d = given.receiver]<class Number>(const Shares<Number>& shares,
+                                                       const Kernel<Number>& kernel) -> Number {
+      if (!(d > 0)) return 1;
+      const Number hamburger = three_depths_lit(kernel);
+      return d < 1 ? hausdorff_lit(shares, d, hamburger) : hamburger;
+    };
+    return lit_by_kernel(given, p, of);
   }
 };
 
@@ -334,7 +336,8 @@ constexpr LookupTruth truth_of() {
           }};
 }
 
-constexpr size_t exponentials = size_t{1} << 14;
+// Of the exponentials that are kept for each rate, 2^14 of 32 bytes.
+constexpr int exponential_bits = 14;
 
 }  // namespace
 
@@ -371,11 +374,11 @@ std::span<const double> TruthInDouble::ways(double receiver) {
 
 std::span<const double> TruthInDouble::warped(int which, double receiver, long double rate) {
   Warp& warp = warps_[which];
-  if (warp.rate != rate) warp = {rate, std::vector<Exponential>(exponentials, {0, 1}), {}};
+  if (warp.rate != rate) warp = {rate, std::vector<Exponential>(size_t{1} << exponential_bits, {0, 1}), {}};  // e^0
   const long double of_receiver = std::exp(-rate * receiver), sign = rate > 0 ? 1 : -1;
   warp.ways.resize(depths_.size());
   for (size_t i = 0; i < depths_.size(); ++i) {
-    Exponential& met = warp.met[std::bit_cast<uint64_t>(depths_[i]) * 0x9e3779b97f4a7c15 >> (64 - 14)];
+    Exponential& met = warp.met[std::bit_cast<uint64_t>(depths_[i]) * 0x9e3779b97f4a7c15 >> (64 - exponential_bits)];
     if (met.depth != depths_[i]) met = {depths_[i], std::exp(rate * depths_[i])};
     warp.ways[i] = static_cast<double>(sign * (met.value * of_receiver - 1));
   }

@@ -66,6 +66,7 @@ class TruthInDouble {
   std::span<const double> ways(double receiver);
   // e^(rate way) - 1 of each, turned to -(e^(rate way) - 1) if the rate is below 0. which: 0 or 1, of two that are held.
   std::span<const double> warped(int which, double receiver, long double rate);
+  std::vector<double> mixed_ways, mixed_weights;  // of MSM: the same with the moment bias mixed in
 
  private:
   // e^(rate depth), by depth: the texels of neighbouring receivers are mostly the same. In long double, because its
