@@ -1,22 +1,13 @@
 """The cascades of engines against Noonmark's prediction: each frame of the street that an engine draws with its cascades has the
 error that Noonmark measures with the engine's splits, fit, bias and filter, to 0.05 points.
    engine_cascades_test.py NOONMARK SOURCE FOLDER
-And the lines that a report prints for the engine lay these cascades, typed in as they are. It prints the rows of the table in
-examples/engines/README.md. Skips (77) where no engine can run: node, Chromium or the
-packages of examples/engines/package.json (npm install in that folder, or NODE_MODULES names another one) are not installed."""
+And the lines that a report prints for the engine lay these cascades, typed in as they are."""
 import html
 import json
-import os
-import pathlib
 import re
-import shutil
-import subprocess
-import sys
 
-program, source, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-engines = source / "examples/engines"
-modules = pathlib.Path(os.environ.get("NODE_MODULES", engines / "node_modules"))
-SKIP = 77
+from engine_predictions import able, bad, compare, end, folder, found, missing, program, run, sets
+
 POINTS = 0.05  # of a hundred: how far the prediction may be from the frame
 
 # The street as its scene is seen, with near and far planes that both sides are given.
@@ -68,65 +59,30 @@ CASES = [("three.js CSM, `bias=-0.00002`", *csm(0.00002, RASTER_M)), ("three.js 
          ("Babylon.js, `bias=0.001`", *babylon(False, 0.001)), ("Babylon.js, `bias=0.01`", *babylon(False, 0.01))]
 
 
-def missing(page):
-    package = {"three": "three", "babylon": "babylonjs"}[page.split("/")[0]]
-    lacking = [tool for tool in ("node", "chromium") if not shutil.which(tool)]
-    return " ".join(lacking + ([] if (modules / package).is_dir() else [f"{modules}/{package}"]))
-
-
-def run(*command):
-    return subprocess.run([str(part) for part in command], env={**os.environ, "NODE_MODULES": str(modules)}, capture_output=True, text=True)
-
-
-def found(ran, what):
-    if ran.returncode != 0:
-        print(f"{what}: exit code {ran.returncode}\n{ran.stdout[-2000:]}{ran.stderr[-2000:]}")
-        sys.exit(1)
-
-
-able = [case for case in CASES if not missing(case[1][0])]
-for page in sorted({case[1][0] for case in CASES}):
-    if missing(page):
-        print(f"not run: {page}, which needs {missing(page)}")
-if not able:
-    print("no engine is installed")
-    sys.exit(SKIP)
-shutil.rmtree(folder, ignore_errors=True)
-folder.mkdir(parents=True)
+cases = able(CASES)
 found(run(program, "export", "street", "--out", folder / "street.glb"), "export")
-bad = []
+
 
 def compared(name, out, page, shot, predictions):
     """Draws a frame and measures the points; the texels are the same, and the errors as near as they must be."""
-    found(run("node", engines / "shoot.mjs", page, folder / "street.glb", out, *SHOT, *shot), name)
-    found(run(program, "judge", out / "frame.json", "--out", out / "judged"), name)
-    of_frame = 100 * json.loads((out / "judged/judge.json").read_text())["metrics"]["frame_error"]
+    points = compare(name, out, page, folder / "street.glb", SHOT + shot, [PREDICTED + settings for settings in predictions], POINTS)
     laid = json.loads((out / "laid.json").read_text())["cascades"]
-    errors = []
-    for k, predicted in enumerate(predictions):
-        settings = [word for one in PREDICTED + predicted for word in ("--set", one)]
-        found(run(program, "render", *settings, "--out", out / f"predicted-{k}"), name)
-        point = json.loads((out / f"predicted-{k}/point.json").read_text())
-        errors.append(100 * point["metrics"]["error"])
+    for point in points:
         for one, other in zip(laid, point["cascades"], strict=True):
             widest = max(one["width_m"], one["height_m"])
             if abs(other["light"]["extent_m"] / widest - 1) > FLOATS:
                 bad.append(f"{name}: a map is {other['light']['extent_m']} m wide, the engine's {widest} m")
-    print(f"| {name} | {of_frame:.3f}% | {' to '.join(f'{error:.3f}%' for error in sorted(errors))} |", flush=True)
-    near = abs(errors[0] - of_frame) <= POINTS if len(errors) == 1 else min(errors) <= of_frame <= max(errors)
-    if not near:
-        bad.append(f"{name}: the frame has {of_frame:.3f}%, the prediction {errors}")
     return laid
 
 
-for i, (name, (page, *shot), predictions) in enumerate(able):
+for i, (name, (page, *shot), predictions) in enumerate(cases):
     compared(name, folder / str(i), page, [f"resolution={RESOLUTION}", *shot], predictions)
 
 # The lines of the report of one point: 2.3 texels of bias in each cascade, as the engine can have it.
 ENDS, TEXELS = [9, 20, 37], 2.3
 TYPED = ["cascades.count=4", "cascades.splits=manual", f"cascades.bounds_m={','.join(map(str, ENDS))}", "bias.unit=texel", f"bias.constant={TEXELS}"]
 (folder / "typed.toml").write_text('scene = "street"\n')
-found(run(program, "run", folder / "typed.toml", "--out", folder / "typed", *[word for one in PREDICTED + TYPED + ["map.fit=sphere"] for word in ("--set", one)]), "run")
+found(run(program, "run", folder / "typed.toml", "--out", folder / "typed", *sets(PREDICTED + TYPED + ["map.fit=sphere"])), "run")
 report = html.unescape(re.sub("<[^>]+>", "", (folder / "typed/report.html").read_text()))
 
 
@@ -151,5 +107,4 @@ if not missing("babylon/page.html"):
         return ["map.fit=corner_sphere", "cascades.radius_round_m=0.0625", "map.depth_clamp=true", "cascades.splits=practical",
                 f"cascades.lambda={number('lambda')}", "bias.unit=depth", f"bias.constant={number('shadowGenerator.bias')}"]
     typed("Babylon.js", "babylon/page.html", of_babylon)
-print("\n".join(bad))
-sys.exit(bool(bad))
+end()

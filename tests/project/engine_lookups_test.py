@@ -1,20 +1,11 @@
 """The filtered maps of engines against Noonmark's prediction: each frame of the cube room that an engine draws with its VSM or its
 exponential shadow map has the error that Noonmark measures with the same map and lookup, to 0.1 points.
-   engine_lookups_test.py NOONMARK SOURCE FOLDER
-It prints the rows of the table in examples/engines/README.md. Skips (77) where no engine can run: node, Chromium or the
-packages of examples/engines/package.json (npm install in that folder, or NODE_MODULES names another one) are not installed."""
+   engine_lookups_test.py NOONMARK SOURCE FOLDER"""
 import json
-import os
-import pathlib
-import shutil
 import struct
-import subprocess
-import sys
 
-program, source, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-engines = source / "examples/engines"
-modules = pathlib.Path(os.environ.get("NODE_MODULES", engines / "node_modules"))
-SKIP = 77
+from engine_predictions import able, compare, end, folder, found, program, run
+
 POINTS = 0.1  # of a hundred: how far the prediction may be from the frame
 
 EXTENT, NEAR, FAR, RESOLUTION = 10, 1, 20, 512
@@ -62,22 +53,6 @@ CASES = [("three.js `VSMShadowMap`, `radius=3 blurSamples=7`", *three(0, radius=
           *babylon("useBlurExponentialShadowMap", "babylon_esm", 0.02, ["blurScale=1"], box(3)))]
 
 
-def missing(page):
-    package = {"three": "three", "babylon": "babylonjs"}[page.split("/")[0]]
-    lacking = [tool for tool in ("node", "chromium") if not shutil.which(tool)]
-    return " ".join(lacking + ([] if (modules / package).is_dir() else [f"{modules}/{package}"]))
-
-
-def run(*command):
-    return subprocess.run([str(part) for part in command], env={**os.environ, "NODE_MODULES": str(modules)}, capture_output=True, text=True)
-
-
-def found(ran, what):
-    if ran.returncode != 0:
-        print(f"{what}: exit code {ran.returncode}\n{ran.stdout[-2000:]}{ran.stderr[-2000:]}")
-        sys.exit(1)
-
-
 def light_through_the_middle(path):
     """Where the light is and what it aims at, so that the middle of its map is that of the scene, as on the pages, and depths begin at
     the light. The meshes of the file have no nodes of their own."""
@@ -92,33 +67,11 @@ def light_through_the_middle(path):
     return [f"light.position_m={words(middle[k] - along * way[k] for k in range(3))}", f"light.target_m={words(middle)}"]
 
 
-able = [case for case in CASES if not missing(case[1][0])]
-for page in sorted({case[1][0] for case in CASES}):
-    if missing(page):
-        print(f"not run: {page}, which needs {missing(page)}")
-if not able:
-    print("no engine is installed")
-    sys.exit(SKIP)
-shutil.rmtree(folder, ignore_errors=True)
-folder.mkdir(parents=True)
+cases = able(CASES)
 model = folder / "cube-room.glb"
 found(run(program, "export", "cube-room", "--out", model), "export")
 PREDICTED = ["scene.name=cube-room", f"view.eye_m={words(EYE)}", f"view.target_m={words(TARGET)}", "view.fov_deg=45", f"map.resolution={RESOLUTION}",
              f"map.near_m={NEAR}", f"map.far_m={FAR}", *light_through_the_middle(model)]
-bad = []
-for i, (name, (page, *shot), predictions) in enumerate(able):
-    out = folder / str(i)
-    found(run("node", engines / "shoot.mjs", page, model, out, *SHOT, *shot), name)
-    found(run(program, "judge", out / "frame.json", "--out", out / "judged"), name)
-    of_frame = 100 * json.loads((out / "judged/judge.json").read_text())["metrics"]["frame_error"]
-    errors = []
-    for k, predicted in enumerate(predictions):
-        settings = [word for one in PREDICTED + predicted for word in ("--set", one)]
-        found(run(program, "render", *settings, "--out", out / f"predicted-{k}"), name)
-        errors.append(100 * json.loads((out / f"predicted-{k}/point.json").read_text())["metrics"]["error"])
-    print(f"| {name} | {of_frame:.3f}% | {' to '.join(f'{error:.3f}%' for error in sorted(errors))} |", flush=True)
-    near = abs(errors[0] - of_frame) <= POINTS if len(errors) == 1 else min(errors) <= of_frame <= max(errors)
-    if not near:
-        bad.append(f"{name}: the frame has {of_frame:.3f}%, the prediction {errors}")
-print("\n".join(bad))
-sys.exit(bool(bad))
+for i, (name, (page, *shot), predictions) in enumerate(cases):
+    compare(name, folder / str(i), page, model, SHOT + shot, [PREDICTED + settings for settings in predictions], POINTS)
+end()
