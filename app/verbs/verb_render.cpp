@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <memory>
@@ -30,6 +31,7 @@
 #include "technique/casters.h"
 #include "technique/light_frame.h"
 #include "technique/light_kind.h"
+#include "technique/lookups.h"
 #include "technique/placements.h"
 #include "technique/setting_rules.h"
 
@@ -129,17 +131,23 @@ void print_reductions(const Measurement& m) {
   if (!metrics.contains("reduction_best")) return;
   fmt::print("  lookup.reduction of least error: {:.4g} ({:.5f}% on the exact map, without rounding)\n",
              metrics.at("reduction_best"), 100 * metrics.at("reduction_best_error"));
+  constexpr const char* bounds = "the leak within curve.peter_panning_bound and the darkening within curve.acne_bound";
   if (metrics.contains("reduction_min"))
-    fmt::print(
-        "  from {:.4g} to {:.4g} the leak is within curve.peter_panning_bound, what it darkens in curve.acne_bound\n",
-        metrics.at("reduction_min"), metrics.at("reduction_max"));
+    fmt::print("  reductions from {:.4g} to {:.4g} keep {}\n", metrics.at("reduction_min"), metrics.at("reduction_max"),
+               bounds);
   else
-    fmt::print("  none keeps the leak within curve.peter_panning_bound and what it darkens in curve.acne_bound\n");
-  const double rounding = metrics.at("moment_precision"), error = metrics.at("error");
-  if (rounding > error / 2)
-    fmt::print(
-        "  moment_precision is most of the error, and no reduction cures it: give a floor (lookup.floor, lookup.v_min "
-        "or lookup.moment_bias), or map.moments = 32f\n");
+    fmt::print("  no reduction keeps {}\n", bounds);
+  if (!(metrics.at("moment_precision") > metrics.at("error") / 2)) return;
+  const Settings& settings = m.technique.settings;
+  std::vector<std::string_view> cures;
+  for (const auto& read : find_lookup(settings.lookup.kind).reads)
+    if (const std::string_view name = read.parameter->setting;
+        name == "lookup.v_min" || name == "lookup.floor" || name == "lookup.moment_bias")
+      cures.push_back(name);
+  if (settings.map.moments != MomentFormat::f32) cures.push_back("map.moments = 32f");
+  fmt::print(
+      "  most of the error is moment_precision, which no reduction cures; {}\n",
+      cures.empty() ? "bring near and far closer together" : fmt::format("what may: {}", fmt::join(cures, ", ")));
 }
 
 // clock: what the times come from.
