@@ -47,12 +47,12 @@ struct LookupKind {
   std::optional<MomentFormulas> moments = {};
   std::optional<SpreadFormulas> spread = {};
   int channels = 0;  // numbers that a texel stores: 1, 2 or 4
-  // It stores exponentials, which OpenGL need not round as the host does: at most e^(warp_power c) of the exponent c, or 1 if
-  // all that it stores lies in [0, 1]. 0: none.
+  // Above 0: a texel stores exponentials, which the device and the host may round differently. The largest is e^(warp_power c)
+  // for the exponent c, or 1 if within_one.
   int warp_power = 0;
   // Whether all that it stores lies in [0, 1], so that map.moments = 16 can hold it; null: never.
   bool (*within_one)(const LookupSettings&) = nullptr;
-  // Whether it is an upper bound of the comparison (law 13). The look-alikes of engines that are none can be darker.
+  // True if it is never darker than the comparison of the same depths (law 13). False for forms of engines that can be.
   bool bound = true;
 
   bool reads_moments() const { return moments.has_value(); }

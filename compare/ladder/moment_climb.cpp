@@ -118,11 +118,11 @@ void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) cons
 
   // As shares of the sum of the weights in the same order, so that lit taps alone are exactly 1.
   double exact_lit = 0, moved_lit = 0, texel_lit = 0, unsure = 0, uncovered = 0, whole = 0;
-  double before_exact = 0, before_moved = 0;                // the undecided parts, as of Climb
-  const size_t count = taps.one_truth() ? 1 : taps.size();  // one stands for all of them then
+  double before_exact = 0, before_moved = 0;  // the undecided parts of two steps, as in Climb::receiver()
+  const size_t count = taps.one_truth() ? 1 : taps.size();
   for (size_t t = 0; t < count; ++t) {
     const Tap tap = taps[t];
-    const double weight = taps.one_truth() ? 1 : tap.weight;
+    const double weight = taps.one_truth() ? 1 : tap.weight;  // one tap stands for all of them
     whole += weight;
     if (tap.exact_lit) exact_lit += weight;
     if (tap.moved_lit) moved_lit += weight;

@@ -1,7 +1,7 @@
-// What filtered maps make of two scenes, against an independent ladder: a program in double precision that meets every
-// triangle by brute force, with neither OpenGL nor a ray tracer, and with formulas of its own. It counts the receivers
-// that are at least a kernel away from the border of the map. What leaks and what is too dark lies among those, so the
-// sums over the receivers are compared, and not the shares.
+// The causes of filtered maps in two scenes, compared with those that another program found. That program tests every triangle
+// in double precision, uses neither OpenGL nor a ray tracer, and has its own formulas. It leaves out receivers that are less
+// than a kernel away from the map's border. No receiver there leaks or is too dark. So the test compares the sums over
+// all receivers, not the shares.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>

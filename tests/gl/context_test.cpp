@@ -24,7 +24,7 @@ TEST_F(GlTest, InfoNamesAUsableDevice) {
       << "the timer queries of a software renderer are wrong";
 }
 
-// Drivers that round in another way, as shaders that round before they store.
+// Shaders stand for drivers: each rounds a number in its own way before it stores it.
 TEST(GlHalfFloats, RoundingIsToldFromWhatIsStored) {
   const auto rounding = [](const std::string& bits) {
     const std::string text = R"(#version 450 core
@@ -47,7 +47,7 @@ void main() {
   EXPECT_THROW(rounding("(b + 0x4000u) & ~0x1fffu"), Error);
 }
 
-// Mesa truncates (measured with 22.3.6; llvmpipe's shader compiler packs half floats so).
+// Measured with Mesa 22.3.6.
 TEST_F(GlTest, LlvmpipeTruncatesHalfFloats) {
   if (renderer.info().renderer.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "another device";
   EXPECT_EQ(renderer.half_rounding(), HalfRounding::toward_zero);

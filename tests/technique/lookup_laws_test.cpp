@@ -119,7 +119,7 @@ TEST(LookupLaws, Law15LeakIsAttained) {
       const Kernel three = kernel_of({nearest - span, nearest - span / 2, nearest}, {l0, l1, l2});
       EXPECT_NEAR(three.lit(msm_truth, receiver), 1 / std::pow(2 * x * x - 1, 2), rounding);
     }
-  // EVSM's bound has no span in it: it is reached by occluders whose warped depth is far below that of the nearest one.
+  // EVSM's bound does not depend on the span. It is reached by occluders whose warped depth is far below that of the nearest.
   Parameters steep = bare;
   steep.exponent = 44;
   const double warped = std::exp(44 * 2 * 0.01), far = (warped - 1) / (2 * warped - 1);

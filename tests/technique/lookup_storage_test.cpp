@@ -285,9 +285,8 @@ TEST(LookAlikes, ThreeJsSpreadOfDepthsIsThatOfItsPasses) {
     std::vector<double> depths;
     for (int i = 0; i < size * size; ++i) depths.push_back(static_cast<double>(within(random, 0.2, 0.8)));
     const auto offset = [&, n = samples, r = radius](int i) { return n == 1 ? 0 : (-1 + i * (2.0 / (n - 1))) * r; };
-    const auto texel = [&](double offset_texels) {  // of the middle one's centre, at 1/2
-      return static_cast<int>(std::floor(0.5 + offset_texels));
-    };
+    // The texel at this offset from the centre of the middle texel. That texel is from 0 to 1, its centre at 1/2.
+    const auto texel = [&](double offset_texels) { return static_cast<int>(std::floor(0.5 + offset_texels)); };
     const auto column = [&](int u) {
       vec4 sums(0);
       for (int i = 0; i < samples; ++i) {
