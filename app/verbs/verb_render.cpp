@@ -184,7 +184,7 @@ void print_ladder(const Measurement& m, const char* clock) {
     if (!(value(name) <= 1)) fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), "texel widths for a pixel's");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (of_one_receiver(metric) && m.record.metrics.contains(std::string(metric.name)))
-      fmt::print("  {:<32}{:>12.5g} of the light of one receiver\n", metric.name, value(metric.name.data()));
+      fmt::print("  {:<32}{:>11.5f}% of the light of one receiver\n", metric.name, 100 * value(metric.name.data()));
   print_reductions(m);
   for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
     if (!m.record.metrics.contains(name)) continue;
