@@ -439,8 +439,10 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   if (reduces && !m.cascades.blends()) {
     ReductionWindow reductions;
     for (OneMap& map : maps) reductions.add(std::exchange(map.climbed.reductions, {}));
+    reductions.sort();
     m.record.metrics.merge(
-        reduction_metrics(std::move(reductions), curve_options->peter_panning_bound, curve_options->acne_bound));
+        reduction_metrics(reductions, curve_options->peter_panning_bound, curve_options->acne_bound));
+    m.record.lookup_curve = reduction_curve(reductions);
   }
   add_maps(m.record, maps, *kept.drawn.value(), truth, metrics);
   m.record.cascades = std::move(cascades);

@@ -80,15 +80,15 @@ void find_bounds(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, Mo
   const float reference = e.probe.reference[i];
   if (!e.probe.asks(i)) return;
   if (reference > 1.0f && e.map.lit_beyond_far) {
-    steps.bare = steps.with_floors = steps.shown = 1;
+    steps.chain.bare = steps.chain.bound = steps.shown = 1;
     return;
   }
   const float biased = reference - e.bias.at(e.probe, i);  // as the shader computes it
   const auto bare_depth = static_cast<double>(reference);
   const auto set = [&](auto& truth) {  // the depths, or what is fetched of them
-    steps.bare = e.moments->bare(truth, bare_depth);
-    steps.with_floors = e.moments->exact(truth, static_cast<double>(biased));
-    steps.shown = e.moments->reduced(steps.with_floors);
+    steps.chain.bare = e.moments->bare(truth, bare_depth);
+    steps.chain.bound = e.moments->exact(truth, static_cast<double>(biased));
+    steps.shown = e.moments->reduced(steps.chain.bound);
   };
   if (e.moments->spread()) {
     Spread fetched = fetched_spread(e, i, scratch.depths);
@@ -101,53 +101,36 @@ void find_bounds(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, Mo
   double compared = 0;
   for (size_t t = 0; t < scratch.depths.size(); ++t)
     if (scratch.depths[t] >= bare_depth) compared += scratch.weights[t];
-  steps.below_comparison = compared - steps.bare;
+  steps.below_comparison = compared - steps.chain.bare;
 }
 
 }  // namespace
 
 MomentSteps moment_steps(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, MomentScratch& scratch) {
   MomentSteps s;
+  MomentChain& c = s.chain;
   // As shares of the sum of the weights in the same order, so that lit taps alone are exactly 1.
-  double uncovered = 0, whole = 0;
+  double whole = 0;
   const size_t count = taps.one_truth() ? 1 : taps.size();
   for (size_t t = 0; t < count; ++t) {
     const Tap tap = taps[t];
     const double weight = taps.one_truth() ? 1 : tap.weight;  // one tap stands for all of them
     whole += weight;
     if (tap.exact_lit) s.exact_lit += weight;
-    if (tap.moved_lit) s.moved_lit += weight;
-    if (tap.texel_lit) s.texel_lit += weight;
-    if (!tap.covered) uncovered += weight;
+    if (tap.moved_lit) c.from += weight;
+    if (tap.texel_lit) c.texels += weight;
+    if (!tap.covered) c.uncovered += weight;
     if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
-    s.unsure += weight;
+    c.unsure += weight;
     const auto step = [&](bool from, bool to) { return weight * (static_cast<int>(to) - static_cast<int>(from)); };
     if (!tap.exact_sure) s.before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
     if (!tap.exact_sure || !tap.moved_sure) s.before_moved += step(tap.exact_lit, tap.moved_lit);
   }
-  for (double* sum :
-       {&s.exact_lit, &s.moved_lit, &s.texel_lit, &s.unsure, &uncovered, &s.before_exact, &s.before_moved})
+  for (double* sum : {&s.exact_lit, &c.from, &c.texels, &c.unsure, &c.uncovered, &s.before_exact, &s.before_moved})
     *sum /= whole;
-  s.displacement = s.moved_lit - s.exact_lit - s.before_moved;
+  s.displacement = c.from - s.exact_lit - s.before_moved;
   find_bounds(e, i, taps, scratch, s);
-
-  std::array<double, 4> parts{};
-  lasting_steps(std::array{s.moved_lit, s.texel_lit, s.bare, s.with_floors, s.shown}, parts);
-  const double change = s.shown - s.moved_lit;
-  double left_uncovered = std::min(uncovered, std::abs(change));
-  double left_unsure = std::min(s.unsure, std::abs(change) - left_uncovered);
-  s.coverage = 0 + std::copysign(left_uncovered, change);  // 0 + x: no negative zero
-  s.undecided = 0 + std::copysign(left_unsure, change);
-  for (double& part : parts) {
-    const auto take = [&](double& left) {
-      const double taken = std::min(left, std::abs(part));
-      left -= taken;
-      part -= std::copysign(taken, change);
-    };
-    take(left_uncovered);
-    take(left_unsure);
-  }
-  s.aliasing = 0 + parts[0], s.to_bare = 0 + parts[1], s.to_floors = 0 + parts[2], s.reduction = 0 + parts[3];
+  s.parts = moment_parts(c, s.shown);
   return s;
 }
 
@@ -164,17 +147,17 @@ void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) cons
   if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside_of_map(e.probe, i, e.exact_map))
     ladder.flags[i] |= flag_outside;
   const MomentSteps s = moment_steps(e, i, taps, worst.scratch);
-  if (s.unsure > 0) ladder.flags[i] |= flag_undecided;
+  if (s.chain.unsure > 0) ladder.flags[i] |= flag_undecided;
   worst.below_comparison = larger_residual(worst.below_comparison, s.below_comparison);
 
   const auto number = [](double value) { return static_cast<float>(value); };
-  const float r[std::size(rung_names)] = {e.truth.soft[i],     number(e.truth.lit[i]), number(s.exact_lit),
-                                          number(s.texel_lit), number(s.shown),        e.r5[i]};
+  const float r[std::size(rung_names)] = {e.truth.soft[i],        number(e.truth.lit[i]), number(s.exact_lit),
+                                          number(s.chain.texels), number(s.shown),        e.r5[i]};
   for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
 
   // What a cascade shows at a seam for comparison alone is no result.
   if (is_counted(ladder, i) && e.truth.share_of(i) > 0)
-    worst.reductions.add({i, static_cast<double>(e.truth.lit[i]), s.moved_lit, s.texel_lit, s.bare, s.with_floors});
+    worst.reductions.add({i, static_cast<double>(e.truth.lit[i]), s.chain});
 
   const auto set = [&](Cause cause, double value) { ladder[cause][i] = number(value); };
   for (Ladder::CauseImage& cause : ladder.causes) cause.step[i] = 0;
@@ -182,20 +165,21 @@ void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) cons
   set(Cause::filter, static_cast<double>(r[2]) - r[1] - s.before_exact);
   set(Cause::displacement, s.displacement);
   set(Cause::undecided, s.all_undecided());
-  set(s.coverage < 0 ? Cause::coverage_dark : Cause::coverage_light, s.coverage);
-  set(s.aliasing < 0 ? Cause::aliasing_dark : Cause::aliasing_light, s.aliasing);
-  set(Cause::leak, s.leak());
-  set(Cause::peter_panning, s.peter_panning());
-  set(Cause::over_darkening, s.over_darkening());
-  set(Cause::reduction, s.reduction);
+  const MomentParts& parts = s.parts;
+  set(parts.coverage < 0 ? Cause::coverage_dark : Cause::coverage_light, parts.coverage);
+  set(parts.aliasing < 0 ? Cause::aliasing_dark : Cause::aliasing_light, parts.aliasing);
+  set(Cause::leak, parts.leak());
+  set(Cause::peter_panning, parts.peter_panning());
+  set(Cause::over_darkening, parts.over_darkening());
+  set(Cause::reduction, parts.reduction);
   // What OpenGL makes of the exact map, and of its own: the same rounding often turns both the same way.
   std::array<double, 2> device{};
   lasting_steps(std::array{s.shown, static_cast<double>(e.r4[i]), static_cast<double>(e.r5[i])}, device);
   set(Cause::moment_precision, device[0]);
   set(Cause::precision, device[1]);
-  ladder.doubt[i] = number(s.unsure);
+  ladder.doubt[i] = number(s.chain.unsure);
 
-  double all = 0, classes = s.before_moved + s.undecided;
+  double all = 0, classes = s.before_moved + parts.undecided;
   for (size_t c = 0; c < ladder.built_in(); ++c) all += ladder.causes[c].step[i];
   for (const Cause cause :
        {Cause::displacement, Cause::aliasing_dark, Cause::aliasing_light, Cause::peter_panning, Cause::coverage_dark,

@@ -16,10 +16,10 @@
 // near, and undecided as much as the weight of the taps whose truth float error can change, both from the first step on.
 // moment_precision and precision are the lasting steps from R4 to what OpenGL makes of the exact map, and from there to R5.
 #pragma once
-#include <algorithm>
 #include <vector>
 
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/moment_parts.h"
 #include "compare/ladder/reduction_window.h"
 
 namespace noonmark {
@@ -28,22 +28,17 @@ class ReceiverTaps;
 
 // One receiver from R2 to R4, in double. Shares of 1; a step is negative if it darkens.
 struct MomentSteps {
-  double exact_lit = 0, moved_lit = 0, texel_lit = 0;  // R2, D, R3
-  double bare = 0, with_floors = 0, shown = 0;         // shown: R4
-  double unsure = 0;                                   // the weight of taps whose truth float error can change
-  // The undecided parts of the steps from R1 to R2, from there to D, and from there to R4.
-  double before_exact = 0, before_moved = 0, undecided = 0;
+  double exact_lit = 0;  // R2
+  MomentChain chain;     // from D on
+  double shown = 0;      // R4
+  // The undecided parts of the steps from R1 to R2 and from there to D.
+  double before_exact = 0, before_moved = 0;
   double displacement = 0;
-  // The parts of R4 - D, without what is undecided.
-  double coverage = 0, aliasing = 0, to_bare = 0, to_floors = 0, reduction = 0;
+  MomentParts parts;  // of R4 - D
   // How much the bare bound is darker than the comparison of the same depths (law 13); negative if it is lighter.
   double below_comparison = 0;
 
-  double all_undecided() const { return before_exact + before_moved + undecided; }
-  // As the ladder books the steps to the two bounds, which may have opposite signs only if one is 0.
-  double leak() const { return std::max(0.0, to_bare); }
-  double peter_panning() const { return std::max(0.0, to_floors); }
-  double over_darkening() const { return std::min(0.0, to_bare) + std::min(0.0, to_floors); }
+  double all_undecided() const { return before_exact + before_moved + parts.undecided; }
 };
 
 // The memory that moment_steps() uses again for the next receiver of a thread.

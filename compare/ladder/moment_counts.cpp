@@ -21,19 +21,20 @@ void MomentCounts::add(const LookupEvidence& e, size_t pixel) {
   receivers_ += share;
   taps_.read(e, pixel);
   const MomentSteps s = moment_steps(e, pixel, taps_, scratch_);
+  const MomentParts& parts = s.parts;
   const double truth = e.truth.lit[pixel];
   const auto count = [&](Sum sum, double size) { of_[0][sum] += share * size; };
   count(error, std::abs(s.shown - truth));
   count(wrong, static_cast<float>(s.shown) != static_cast<float>(truth));  // as a picture of floats shows it
-  count(peter_panning, s.peter_panning());
-  count(s.aliasing < 0 ? aliasing_dark : aliasing_light, std::abs(s.aliasing));
-  count(aliasing_squares, s.aliasing * s.aliasing);
-  count(s.coverage < 0 ? coverage_dark : coverage_light, std::abs(s.coverage));
+  count(peter_panning, parts.peter_panning());
+  count(parts.aliasing < 0 ? aliasing_dark : aliasing_light, std::abs(parts.aliasing));
+  count(aliasing_squares, parts.aliasing * parts.aliasing);
+  count(parts.coverage < 0 ? coverage_dark : coverage_light, std::abs(parts.coverage));
   count(undecided, std::abs(s.all_undecided()));
-  count(leak, s.leak());
-  count(over_darkening, -s.over_darkening());
-  count(reduction, std::abs(s.reduction));
-  if (bounds_) reductions_.add({pixel, truth, s.moved_lit, s.texel_lit, s.bare, s.with_floors});
+  count(leak, parts.leak());
+  count(over_darkening, -parts.over_darkening());
+  count(reduction, std::abs(parts.reduction));
+  if (bounds_) reductions_.add({pixel, truth, s.chain});
 }
 
 void MomentCounts::add(const MomentCounts& other) {

@@ -4,11 +4,9 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
-#include "compare/ladder/lasting_steps.h"
 #include "compare/ladder/numbers.h"
 
 namespace noonmark {
@@ -29,34 +27,48 @@ double first_that(double low, double high, const Holds& holds) {
 
 }  // namespace
 
+void ReductionWindow::At::add(const At& other) {
+  error += other.error, leak += other.leak, reduction += other.reduction;
+  over_darkening += other.over_darkening, peter_panning += other.peter_panning;
+}
+
+ReductionWindow::At ReductionWindow::of(const Receiver& r, double reduction) {
+  const double shown = reduced(r.chain.bound, reduction);
+  const MomentParts parts = moment_parts(r.chain, shown);
+  return {std::abs(shown - r.truth), parts.leak(), -parts.over_darkening(), parts.peter_panning(),
+          std::max(0.0, -parts.reduction)};
+}
+
 void ReductionWindow::sort() {
   std::sort(receivers_.begin(), receivers_.end(),
             [](const Receiver& a, const Receiver& b) { return a.pixel < b.pixel; });
+  std::vector<Receiver> others;
+  for (const Receiver& receiver : receivers_) {
+    if (receiver.chain.bound == 0 || receiver.chain.bound == 1)
+      fixed_.add(of(receiver, 0)), ++fixed_receivers_;
+    else
+      others.push_back(receiver);
+  }
+  receivers_ = std::move(others);
 }
 
 ReductionWindow::At ReductionWindow::at(double reduction) const {
+  if (count() == 0) return {not_a_number, not_a_number, not_a_number, not_a_number, not_a_number};
   // The same partition on any machine, so that the sums are too.
-  const At sum = tbb::parallel_deterministic_reduce(
+  At sum = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<size_t>(0, receivers_.size(), 8192), At{},
       [&](const tbb::blocked_range<size_t>& range, At so_far) {
-        for (size_t i = range.begin(); i != range.end(); ++i) {
-          const Receiver& r = receivers_[i];
-          const double shown = reduced(r.bound, reduction);
-          so_far.error += std::abs(shown - r.truth);
-          std::array<double, 4> parts{};
-          lasting_steps(std::array{r.from, r.texels, r.bare, r.bound, shown}, parts);
-          so_far.leak += std::max(0.0, parts[1]);
-          so_far.reduction += std::max(0.0, -parts[3]);
-        }
+        for (size_t i = range.begin(); i != range.end(); ++i) so_far.add(of(receivers_[i], reduction));
         return so_far;
       },
       [](At a, const At& b) {
-        a.error += b.error, a.leak += b.leak, a.reduction += b.reduction;
+        a.add(b);
         return a;
       });
-  const auto count = static_cast<double>(receivers_.size());
-  if (receivers_.empty()) return {not_a_number, not_a_number, not_a_number};
-  return {sum.error / count, sum.leak / count, sum.reduction / count};
+  sum.add(fixed_);
+  for (double At::*mean : {&At::error, &At::leak, &At::over_darkening, &At::peter_panning, &At::reduction})
+    sum.*mean /= static_cast<double>(count());
+  return sum;
 }
 
 // With u = 1 / (1 - r) a receiver's result is 1 - (1 - L) u until it is 0 at r = L. So its error is linear in u between the
@@ -66,20 +78,20 @@ ReductionWindow::Best ReductionWindow::best() const {
     double r, constant, slope;  // what is added to the sum of errors, constant + slope u, from r on
   };
   std::vector<Bend> bends;
-  double constant = 0, slope = 0;
+  double constant = fixed_.error, slope = 0;
   for (const Receiver& r : receivers_) {
-    const double loss = 1 - r.bound;
-    if (r.bound > r.truth) {
+    const double loss = 1 - r.chain.bound;
+    if (r.chain.bound > r.truth) {
       constant += 1 - r.truth, slope -= loss;
       // Where the result meets the truth; a truth of 0 is met where the result becomes 0 and stays.
-      const double meets = r.truth < 1 ? (r.bound - r.truth) / (1 - r.truth) : 1;
+      const double meets = r.truth < 1 ? (r.chain.bound - r.truth) / (1 - r.truth) : 1;
       bends.push_back({meets, -2 * (1 - r.truth), 2 * loss});
     } else {
       constant += r.truth - 1, slope += loss;
     }
-    bends.push_back({r.bound, 1, -loss});  // from here on the error is the truth itself
+    bends.push_back({r.chain.bound, 1, -loss});  // from here on the error is the truth itself
   }
-  if (receivers_.empty()) return {not_a_number, not_a_number};
+  if (count() == 0) return {not_a_number, not_a_number};
   std::sort(bends.begin(), bends.end(), [](const Bend& a, const Bend& b) {
     return std::tie(a.r, a.constant, a.slope) < std::tie(b.r, b.constant, b.slope);  // one order on any machine
   });
@@ -97,21 +109,31 @@ ReductionWindow::Best ReductionWindow::best() const {
 }
 
 std::optional<ReductionWindow::Window> ReductionWindow::usable(double leak_bound, double darkening_bound) const {
-  if (receivers_.empty() || at(most_reduction).leak > leak_bound || at(0).reduction > darkening_bound)
-    return std::nullopt;
+  if (count() == 0 || at(most_reduction).leak > leak_bound || at(0).reduction > darkening_bound) return std::nullopt;
   const double low = first_that(0, most_reduction, [&](double r) { return at(r).leak <= leak_bound; });
   const double beyond = first_that(0, most_reduction, [&](double r) { return at(r).reduction > darkening_bound; });
   const double high = at(most_reduction).reduction <= darkening_bound ? most_reduction : beyond - 0x1p-30;
   return low <= high ? std::optional(Window{low, high}) : std::nullopt;
 }
 
-std::map<std::string, double> reduction_metrics(ReductionWindow window, double leak_bound, double darkening_bound) {
-  window.sort();
+std::map<std::string, double> reduction_metrics(const ReductionWindow& window, double leak_bound,
+                                                double darkening_bound) {
   const ReductionWindow::Best best = window.best();
   std::map<std::string, double> metrics = {{"best_reduction", best.reduction}, {"best_reduction_error", best.error}};
   if (const auto usable = window.usable(leak_bound, darkening_bound))
     metrics.insert({{"reduction_min", usable->low}, {"reduction_max", usable->high}});
   return metrics;
+}
+
+std::vector<LookupCurvePoint> reduction_curve(const ReductionWindow& window) {
+  std::vector<LookupCurvePoint> curve;
+  for (int percent = 0; percent <= std::lround(100 * most_reduction); ++percent) {
+    const double r = percent / 100.0;
+    const ReductionWindow::At at = window.at(r);
+    if (std::isnan(at.error)) return {};
+    curve.push_back({"lookup.reduction", r, at.error, at.leak, at.over_darkening, at.peter_panning, at.reduction});
+  }
+  return curve;
 }
 
 }  // namespace noonmark

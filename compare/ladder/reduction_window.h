@@ -2,7 +2,8 @@
 // of each receiver. All numbers are those of R4, on the exact map.
 //
 //   ReductionWindow window;
-//   window.add({.pixel = 7, .truth = 0, .from = 0, .texels = 0, .bare = 0.1, .bound = 0.1});  // each counted receiver, once
+//   window.add({.pixel = 7, .truth = 0, .chain = {.from = 0, .texels = 0, .bare = 0.1, .bound = 0.1}});  // each receiver once
+//   window.sort();
 //   std::optional<Window> usable = window.usable(0.001, 0.01);
 //   double r = window.best().reduction;
 #pragma once
@@ -12,28 +13,32 @@
 #include <string>
 #include <vector>
 
+#include "compare/ladder/moment_parts.h"
+#include "compare/results/records.h"
+
 namespace noonmark {
 
 class ReductionWindow {
  public:
-  // Of one receiver: its pixel, by which the sums are ordered; R1; the taps at the places looked up, and at the centres of their texels; the bound without and with
-  // bias and floors (compare/ladder/moment_climb.h). All in [0, 1].
+  // A counted receiver: its pixel, by which the sums are ordered; R1; and the way from D to the bound.
   struct Receiver {
     size_t pixel = 0;
-    double truth = 0, from = 0, texels = 0, bare = 0, bound = 0;
+    double truth = 0;
+    MomentChain chain;
   };
   void add(const Receiver& receiver) { receivers_.push_back(receiver); }
   void add(const ReductionWindow& more) {
     receivers_.insert(receivers_.end(), more.receivers_.begin(), more.receivers_.end());
   }
   const std::vector<Receiver>& all() const { return receivers_; }
-  // Puts the receivers in the order of their pixels. Threads add them in any order, and the last bit of a sum depends on it.
+  // To be called once, when all are added. Puts the receivers in the order of their pixels: threads add them in any order, and
+  // the last bit of a sum depends on it. Receivers whose bound is 0 or 1 are the same at every reduction; they are summed up.
   void sort();
 
-  // Means over the receivers, at this reduction (0 ... 0.99): |R4 - R1|; the leak and what the reduction darkens, as the
-  // ladder books them.
+  // Means over the receivers, at this reduction (0 ... 0.99): |R4 - R1|, and the causes as the ladder books them.
   struct At {
-    double error = 0, leak = 0, reduction = 0;
+    double error = 0, leak = 0, over_darkening = 0, peter_panning = 0, reduction = 0;
+    void add(const At& other);
   };
   At at(double reduction) const;
 
@@ -53,14 +58,23 @@ class ReductionWindow {
   std::optional<Window> usable(double leak_bound, double darkening_bound) const;
 
  private:
+  static At of(const Receiver& receiver, double reduction);
+  size_t count() const { return receivers_.size() + fixed_receivers_; }
+
   std::vector<Receiver> receivers_;
+  At fixed_;  // sums over those that are the same at every reduction
+  size_t fixed_receivers_ = 0;
 };
 
 // The largest reduction that a setting can have.
 inline constexpr double most_reduction = 0.99;
 
-// Of the window in the order of its pixels: best_reduction, best_reduction_error, reduction_min, reduction_max: fractions. Of no receiver NaN; the window is left out if
-// there is none.
-std::map<std::string, double> reduction_metrics(ReductionWindow window, double leak_bound, double darkening_bound);
+// Of a window that is sorted: best_reduction, best_reduction_error, reduction_min, reduction_max: fractions. Of no receiver
+// NaN; the ends of the window are left out if there is none.
+std::map<std::string, double> reduction_metrics(const ReductionWindow& window, double leak_bound,
+                                                double darkening_bound);
+
+// Of a window that is sorted: its numbers at reductions of 0, 0.01 ... 0.99. Empty of no receiver.
+std::vector<LookupCurvePoint> reduction_curve(const ReductionWindow& window);
 
 }  // namespace noonmark

@@ -17,6 +17,7 @@
 #include "compare/report/opening.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/point_data.h"
+#include "compare/report/reduction_section.h"
 #include "compare/report/rules.h"
 #include "compare/report/speed.h"
 #include "compare/report/text.h"
@@ -29,18 +30,6 @@ namespace noonmark::report {
 namespace {
 
 using nlohmann::json;
-
-// JSON cannot write these values. Charts leave them out, tables show "not finite".
-json value_of(double value) {
-  if (std::isnan(value)) return "NaN";
-  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
-  return value;
-}
-
-// Six digits are a thousandth of a chart's pixel, and take half the bytes.
-json drawn_value(double value) {
-  return std::isfinite(value) ? json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)) : value_of(value);
-}
 
 json drawn(const std::vector<double>& series, const std::vector<size_t>& indices) {
   json out = json::array();
@@ -65,6 +54,16 @@ json curve_of(const PointRecord& point, size_t entries_of_all_curves) {
 }
 
 }  // namespace
+
+nlohmann::json value_of(double value) {
+  if (std::isnan(value)) return "NaN";
+  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
+  return value;
+}
+
+nlohmann::json drawn_value(double value) {
+  return std::isfinite(value) ? json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)) : value_of(value);
+}
 
 std::vector<size_t> drawn_biases(const BiasCurve& curve, size_t entries_of_all_curves) {
   const size_t count = curve.bias_depth.size();
@@ -171,12 +170,13 @@ json point_data(const PointRecord& point, const Results& results, const std::set
 }
 
 json points_data(const Results& results, const ShownPoints& shown, const std::set<std::string>& shared) {
-  const size_t entries = curve_entries(shown.results);
+  const size_t entries = curve_entries(shown.results), reductions = points_with_reductions(shown.results.points);
   const std::map<int64_t, double> biases = recommended_biases(shown.groups);
   json out = json::array();
   for (const PointRecord& point : shown.results.points) {
     json entry = point_data(point, results, shared);
     if (point.curve) entry["curve"] = curve_of(point, entries);
+    if (json curve = reductions_of(point, reductions); !curve.is_null()) entry["reductions"] = std::move(curve);
     if (const auto bias = biases.find(point.id); bias != biases.end()) entry["at"] = at_bias(point, bias->second);
     out.push_back(std::move(entry));
   }

@@ -15,6 +15,11 @@ nlohmann::json chart_data(const Results& results, const ShownPoints& shown);
 // Indices of the curve's entries that are drawn. These are all entries, or an even choice that keeps both ends if the
 // curves of the sweep have more than max_curve_entries together.
 std::vector<size_t> drawn_biases(const BiasCurve& curve, size_t entries_of_all_curves);
+// JSON cannot write values that are not finite: they are texts. Charts leave them out, tables show "not finite".
+nlohmann::json value_of(double value);
+// Six digits are a thousandth of a chart's pixel, and take half the bytes.
+nlohmann::json drawn_value(double value);
+
 inline constexpr size_t max_curve_entries = 40000;  // about 3 MB of JSON
 // The entries of all curves of the points.
 size_t curve_entries(const Results& results);

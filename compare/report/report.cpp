@@ -17,6 +17,7 @@
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/recommendation_box.h"
+#include "compare/report/reduction_section.h"
 #include "compare/report/sections.h"
 #include "compare/report/shown.h"
 #include "compare/report/speed_section.h"
@@ -96,6 +97,7 @@ constexpr Section all_sections[] = {
     {"engines", "Engines", plain<report::engines_section>, false},
     {"motion", "Motion", motion, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
+    {"reduction", "Reduction", by_point<report::reduction_section>, true},
     {"sweep", "Sweep", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
     {"cost", "Speed", speed, false},
@@ -168,8 +170,8 @@ std::string render_report(const Results& results,
        .sections = body,
        .data = report::chart_data(results, shown),
        .causes = causes,
-       .scripts = {"charts", "keyboard", "chart_bias", "chart_sweep", "speed_marks", "chart_speed", "chart_laws",
-                   "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
+       .scripts = {"charts", "keyboard", "chart_bias", "chart_reduction", "chart_sweep", "speed_marks", "chart_speed",
+                   "chart_laws", "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
        .version = results.info.version});
 }
 

@@ -97,6 +97,8 @@ constexpr TableOfPoints tables[] = {
      [](const Statement& row, PointRecord& point) { point.worst_of.push_back(worst_pixels_table().record_of(row)); }},
     {"cascades",
      [](const Statement& row, PointRecord& point) { point.cascades.push_back(cascades_table().record_of(row)); }},
+    {"lookup_curves", [](const Statement& row,
+                         PointRecord& point) { point.lookup_curve.push_back(lookup_curves_table().record_of(row)); }},
 };
 
 // A point has the causes whose metric it has.
@@ -137,6 +139,9 @@ void add_rows(Database& db, const PointRecord& point) {
   Table<PointRecord::Cascade>::Insert cascades(db, cascades_table());
   for (size_t i = 0; i < point.cascades.size(); ++i)
     cascades.row({point.id, static_cast<int64_t>(i)}, point.cascades[i]);
+  Table<LookupCurvePoint>::Insert lookup_curves(db, lookup_curves_table());
+  for (size_t i = 0; i < point.lookup_curve.size(); ++i)
+    lookup_curves.row({point.id, static_cast<int64_t>(i)}, point.lookup_curve[i]);
 }
 
 StoredPoints read_points(Database& db) {

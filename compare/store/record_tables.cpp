@@ -149,6 +149,16 @@ const Table<PointRecord::Cascade>& cascades_table() {
   return table;
 }
 
+const Table<LookupCurvePoint>& lookup_curves_table() {
+  using L = LookupCurvePoint;
+  static const Table<L> table(
+      "lookup_curves", {"point", "i"},
+      {column("parameter", &L::parameter), column("value", &L::value), column("error", &L::error),
+       column("leak", &L::leak), column("over_darkening", &L::over_darkening),
+       column("peter_panning", &L::peter_panning), column("reduction", &L::reduction)});
+  return table;
+}
+
 const Table<BoundResult>& bounds_table() {
   using B = BoundResult;
   static const Table<B> table(
@@ -224,8 +234,9 @@ std::string record_tables() {
   for (const CurveSeries& one : curve_series()) series += fmt::format(", {} REAL", one.name);
   series += ", PRIMARY KEY (point, i)) WITHOUT ROWID;\n";
   return curves_table().create() + series + curve_windows_table().create() + pictures_table().create() +
-         images_table().create() + worst_pixels_table().create() + cascades_table().create() + bounds_table().create() +
-         laws_table().create() + law_samples_table().create();
+         images_table().create() + worst_pixels_table().create() + cascades_table().create() +
+         lookup_curves_table().create() + bounds_table().create() + laws_table().create() +
+         law_samples_table().create();
 }
 
 }  // namespace noonmark

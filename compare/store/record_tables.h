@@ -16,6 +16,7 @@ const Table<PictureRecord>& pictures_table();     // one row per point and place
 const Table<ImageRecord>& images_table();         // the same keys
 const Table<PointRecord::WorstOf>& worst_pixels_table();  // the same keys
 const Table<PointRecord::Cascade>& cascades_table();      // the same keys
+const Table<LookupCurvePoint>& lookup_curves_table();     // the same keys
 const Table<BoundResult>& bounds_table();
 const Table<LawResult>& laws_table();  // without the samples
 const Table<LawResult::Sample>& law_samples_table();

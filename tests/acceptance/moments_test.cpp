@@ -311,6 +311,32 @@ TEST(LookAlikes, OfBabylonAreDarkWhereTheyCastAndLitWhereTheMapIsEmpty) {
   EXPECT_GT(lit("babylon_close_esm", "0"), 0.98);
 }
 
+// The curve over the reduction is what measuring each reduction gives, also where the map's edge crosses the picture.
+TEST(MomentCurve, HasTheNumbersOfMeasuringEachReduction) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const std::vector<Assignment>& set :
+       {std::vector<Assignment>{{"lookup.v_min", "1e-4"}}, {{"lookup.kind", "evsm4"}, {"bias.constant", "0.002"}}}) {
+    const Settings settings = with(set, with_moments());
+    const std::vector<LookupCurvePoint> curve = bench.measure(settings, CurveOptions{}).record.lookup_curve;
+    ASSERT_EQ(curve.size(), 100u);
+    for (const size_t percent : {0u, 7u, 40u, 90u}) {
+      Settings one = settings;
+      one.lookup["reduction"] = static_cast<double>(percent) / 100;
+      const Measurement m = bench.measure(one, std::nullopt);
+      EXPECT_TRUE(m.record.lookup_curve.empty());
+      const LookupCurvePoint& at = curve[percent];
+      EXPECT_EQ(at.parameter, "lookup.reduction");
+      EXPECT_NEAR(at.value, one.lookup["reduction"], 1e-15);
+      constexpr double of_images = 0x1p-24;  // the ladder's images are floats
+      EXPECT_NEAR(at.error, error_on_exact_map(m.ladder), of_images) << percent;
+      EXPECT_NEAR(at.leak, metric(m, "leak"), of_images) << percent;
+      EXPECT_NEAR(at.over_darkening, metric(m, "over_darkening"), of_images) << percent;
+      EXPECT_NEAR(at.peter_panning, metric(m, "peter_panning"), of_images) << percent;
+      EXPECT_NEAR(at.reduction, metric(m, "reduction"), of_images) << percent;
+    }
+  }
+}
+
 TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {
   const auto why = [](const std::vector<Assignment>& more) {
     try {

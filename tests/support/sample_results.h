@@ -32,6 +32,8 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   point.metrics["contract"] = 0;                                // a sound measurement (compare/judge/soundness.h)
   point.metrics["counted"] = 700000 - static_cast<double>(id);  // enough for a picture
   point.times = {{"map_ms", 1.25}, {"truth_ms", 1.0 / 3 + static_cast<double>(id)}, {"rays", 1e9 + 1}};
+  for (const double r : {0.0, 0.5})
+    point.lookup_curve.push_back({"lookup.reduction", r, value /= 3, value /= 3, value /= 3, value /= 3, value /= 3});
   if (with_curve) {
     BiasCurve curve;
     curve.parameter = "bias.constant";
@@ -222,6 +224,12 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
          std::equal(a.worst_of.begin(), a.worst_of.end(), b.worst_of.begin(), b.worst_of.end(),
                     [](const auto& x, const auto& y) {
                       return x.metric == y.metric && x.x == y.x && x.y == y.y && same(x.size, y.size);
+                    }) &&
+         std::equal(a.lookup_curve.begin(), a.lookup_curve.end(), b.lookup_curve.begin(), b.lookup_curve.end(),
+                    [](const auto& x, const auto& y) {
+                      return x.parameter == y.parameter && x.value == y.value && x.error == y.error &&
+                             x.leak == y.leak && x.over_darkening == y.over_darkening &&
+                             x.peter_panning == y.peter_panning && x.reduction == y.reduction;
                     }) &&
          std::equal(a.cascades.begin(), a.cascades.end(), b.cascades.begin(), b.cascades.end(),
                     [](const auto& x, const auto& y) {

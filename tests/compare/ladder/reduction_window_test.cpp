@@ -17,9 +17,11 @@ ReductionWindow random_window(unsigned seed, int count) {
   for (int i = 0; i < count; ++i) {
     const double truth = random() % 2 == 0 ? 0 : 1, from = random() % 3 == 0 ? share(random) : truth;
     const double texels = std::clamp(from + 0.2 * (share(random) - 0.5), 0.0, 1.0);
-    const double bare = random() % 4 == 0 ? texels : texels + (1 - texels) * share(random) * share(random);
+    double bare = random() % 4 == 0 ? texels : texels + (1 - texels) * share(random) * share(random);
+    if (random() % 5 == 0) bare = 0.8 * texels;  // over-darkening
     const double bound = random() % 4 == 0 ? std::min(1.0, bare + 0.05) : bare;
-    window.add({static_cast<size_t>(i), truth, from, texels, bare, bound});
+    const double uncovered = random() % 5 == 0 ? 0.1 * share(random) : 0;
+    window.add({static_cast<size_t>(i), truth, {from, texels, bare, random() % 6 == 0 ? 1 : bound, uncovered, 0}});
   }
   return window;
 }
@@ -56,7 +58,7 @@ TEST(ReductionWindow, HoldsBothBoundsAndNoWiderOneDoes) {
 // One receiver in full shadow, with a leak of a quarter: it is gone from a reduction of a quarter on, and nothing is darkened.
 TEST(ReductionWindow, RemovesALeakOfPFromP) {
   ReductionWindow window;
-  window.add({0, 0, 0, 0, 0.25, 0.25});
+  window.add({0, 0, {.from = 0, .texels = 0, .bare = 0.25, .bound = 0.25}});
   EXPECT_DOUBLE_EQ(window.at(0).leak, 0.25);
   EXPECT_DOUBLE_EQ(window.at(0.1).leak, (0.25 - 0.1) / 0.9);
   EXPECT_EQ(window.at(0.25).leak, 0);
@@ -70,12 +72,35 @@ TEST(ReductionWindow, RemovesALeakOfPFromP) {
 
 // Threads add receivers in any order.
 TEST(ReductionWindow, HasTheSameBitsInAnyOrder) {
-  const ReductionWindow one = random_window(7, 5000);
+  ReductionWindow one = random_window(7, 5000);
   ReductionWindow parts[3], joined;
   std::mt19937 random(7);
   for (const auto& receiver : one.all()) parts[random() % 3].add(receiver);
   for (int k : {2, 0, 1}) joined.add(parts[k]);
+  one.sort(), joined.sort();
   EXPECT_EQ(reduction_metrics(joined, 0.01, 0.05), reduction_metrics(one, 0.01, 0.05));
+}
+
+// Receivers that no reduction changes are summed up once.
+TEST(ReductionWindow, IsTheSameWhenSorted) {
+  const ReductionWindow window = random_window(3, 2000);
+  ReductionWindow sorted = window;
+  sorted.sort();
+  EXPECT_LT(sorted.all().size(), window.all().size());
+  EXPECT_DOUBLE_EQ(sorted.best().reduction, window.best().reduction);
+  const std::vector<LookupCurvePoint> curve = reduction_curve(sorted);
+  ASSERT_EQ(curve.size(), 100u);
+  for (const LookupCurvePoint& point : curve) {
+    const ReductionWindow::At at = window.at(point.value);
+    EXPECT_NEAR(point.error, at.error, 1e-14) << point.value;
+    EXPECT_NEAR(point.leak, at.leak, 1e-14);
+    EXPECT_NEAR(point.over_darkening, at.over_darkening, 1e-14);
+    EXPECT_NEAR(point.peter_panning, at.peter_panning, 1e-14);
+    EXPECT_NEAR(point.reduction, at.reduction, 1e-14);
+  }
+  EXPECT_EQ(curve.back().value, most_reduction);
+  EXPECT_GT(curve[20].over_darkening, 0);
+  EXPECT_GT(curve[20].peter_panning, 0);
 }
 
 TEST(ReductionWindow, SaysNothingOfNoReceiver) {
@@ -84,6 +109,7 @@ TEST(ReductionWindow, SaysNothingOfNoReceiver) {
   EXPECT_TRUE(std::isnan(window.best().error));
   EXPECT_FALSE(window.usable(1, 1));
   EXPECT_EQ(reduction_metrics(window, 1, 1).count("reduction_min"), 0u);
+  EXPECT_TRUE(reduction_curve(window).empty());
 }
 
 }  // namespace

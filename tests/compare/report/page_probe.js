@@ -27,7 +27,7 @@
   }
   function marks(figure) {
     var count = {};
-    ['line', 'area', 'symbol', 'rule'].forEach(function(kind) {
+    ['line', 'area', 'symbol', 'rule', 'rect'].forEach(function(kind) {
       count[kind] = all('.mark-' + kind + ' path, .mark-' + kind + ' line', figure).length;
     });
     count.zero = all('.mark-text.role-mark text', figure)

@@ -208,6 +208,14 @@ class BandsPage : public Browser {
       curve.window_min_worst_depth = *curve.window_min_depth * 1.1;
       curve.window_max_worst_depth = *curve.window_max_depth * 0.9;
     }
+    for (size_t k : {5u, 9u}) {
+      for (int i = 0; i < 100; ++i) {
+        const double r = i / 100.0, leak = std::max(0.0, 0.002 * (0.3 - r));
+        results.points[k].lookup_curve.push_back({"lookup.reduction", r, leak + 0.05 * r, leak, 0.001, 0, 0.05 * r});
+      }
+      results.points[k].metrics.insert(
+          {{"best_reduction", 0}, {"best_reduction_error", 0.0006}, {"reduction_min", 0.1}, {"reduction_max", 0.2}});
+    }
     open(render_report(results, sample_picture), "page_probe.js");
   }
 };
@@ -219,6 +227,11 @@ TEST_F(BandsPage, TheBiasChartDrawsTheBandsOfAllPlacements) {
   EXPECT_NE(bias["facts"].get<std::string>().find("At every one of 64 placements of the grid from "), std::string::npos)
       << bias["facts"];
   EXPECT_NE(bias["tip"].get<std::string>().find("Over 64 placements"), std::string::npos) << bias["tip"];
+}
+
+TEST_F(BandsPage, TheReductionChartDrawsTheSeriesAboveZeroAndTheWindow) {
+  EXPECT_EQ(marks("chart-reduction", "line"), 4) << "error, leak, reduction and over-darkening; no Peter Panning";
+  EXPECT_EQ(marks("chart-reduction", "rect"), 1) << "the window";
 }
 
 // Two groups of choices. One choice has no curve and no error, one has no usable window.

@@ -49,6 +49,32 @@ TEST(Report, HasTheTextForTheEngines) {
   EXPECT_NE(page.find("<a href=\"#engines\">Engines</a>"), std::string::npos);
 }
 
+// A row for each point with a curve over the reduction; columns for the placements only where one was placed.
+TEST(Report, ListsTheWindowsOfTheReduction) {
+  Results results = sample_results();
+  EXPECT_EQ(render_report(results, sample_picture).find("<section id=\"reduction\""), std::string::npos);
+  for (size_t k : {2u, 4u}) {
+    results.points[k].lookup_curve = {{"lookup.reduction", 0, 0.01, 0.002, 0, 0, 0}};
+    results.points[k].metrics.insert({{"best_reduction", 0.25}, {"best_reduction_error", 0.004}});
+  }
+  results.points[2].metrics.insert({{"reduction_min", 0.125}, {"reduction_max", 0.375}});
+  const auto section = [&] {
+    const std::string page = render_report(results, sample_picture);
+    const size_t from = page.find("<section id=\"reduction\"");
+    EXPECT_NE(from, std::string::npos);
+    return page.substr(from, page.find("</section>", from) - from);
+  };
+  const std::string without = section();
+  EXPECT_NE(without.find("<td>0.125</td><td>0.375</td><td>0.25</td>"), std::string::npos) << without;
+  EXPECT_NE(without.find("<td colspan=\"2\">none</td>"), std::string::npos) << without;
+  EXPECT_EQ(without.find("placement"), std::string::npos) << without;
+  results.points[2].metrics.insert(
+      {{"error_mean", 0.01}, {"reduction_min_worst", 0.1875}, {"reduction_max_worst", 0.3125}});
+  const std::string placed = section();
+  EXPECT_NE(placed.find("<td>0.188</td><td>0.312</td>"), std::string::npos) << placed;
+  EXPECT_NE(placed.find("<td colspan=\"2\">–</td>"), std::string::npos) << placed;
+}
+
 // What all points share stands in no label of the budget, so that what differs is in it.
 TEST(Report, TheBudgetsLabelsDiffer) {
   Results results = sample_results();
