@@ -315,7 +315,9 @@ TEST(LookAlikes, OfBabylonAreDarkWhereTheyCastAndLitWhereTheMapIsEmpty) {
 TEST(MomentCurve, HasTheNumbersOfMeasuringEachReduction) {
   Workbench bench(gl::DebugMode::fatal);
   for (const std::vector<Assignment>& set :
-       {std::vector<Assignment>{{"lookup.v_min", "1e-4"}}, {{"lookup.kind", "evsm4"}, {"bias.constant", "0.002"}}}) {
+       {std::vector<Assignment>{{"lookup.v_min", "1e-4"}},
+        {{"lookup.kind", "evsm4"}, {"bias.constant", "0.002"}},
+        {{"map.extent_m", "2"}, {"map.wrap", "clamp_to_edge"}}}) {
     const Settings settings = with(set, with_moments());
     const std::vector<LookupCurvePoint> curve = bench.measure(settings, CurveOptions{}).record.lookup_curve;
     ASSERT_EQ(curve.size(), 100u);
