@@ -305,12 +305,17 @@ std::vector<std::string> answers_table(const Advice& advice) {
 // Of which pictures the numbers of the table are. Others measure others: that is why their numbers differ.
 std::string pictures_text(const Advice& advice, const Answer& answer) {
   const Settings& settings = answer.tried.settings;
+  std::string other;
+  for (const Answer& one : advice.answers)
+    if (one.placements != answer.placements)
+      other = fmt::format(" ({} for {})", one.placements,
+                          one.tried.filtered() ? "filtered maps" : "maps that are compared with");
   std::string text = fmt::format(
       "Work is that of a picture of {} x {} pixels. Error is the largest under {} and at {} placements of the map's "
-      "grid, in "
+      "grid{}, in "
       "pictures {} pixels wide; recommended.toml measures full pictures, so its report has other numbers.",
       settings.view.width_px, settings.view.height_px, counted(answer.conditions, "condition"), answer.placements,
-      std::min(advice.request.width_px, settings.view.width_px));
+      other, std::min(advice.request.width_px, settings.view.width_px));
   if (answer.tried.eye)
     text +=
         " Edges and patch are measured at the given view, in full size: a camera that comes closer shows the texels.";

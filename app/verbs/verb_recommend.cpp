@@ -37,6 +37,7 @@
 #include "compare/results/number_text.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
+#include "technique/lookups.h"
 #include "technique/setting_rules.h"
 #include "technique/tap_pattern.h"
 
@@ -278,7 +279,12 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
                          const std::function<void(const std::string&)>& say) {
   AdviceRequest request;
   request.conditions = conditions_of(experiment);
-  for (const Settings& condition : request.conditions) require_compared(condition, "a recommendation");
+  for (const Settings& condition : request.conditions)
+    if (reads_moments(condition))
+      throw SettingConflict(
+          "lookup.kind",
+          fmt::format("recommend chooses the lookup: leave lookup.kind = {} out, and name it with --lookups",
+                      condition.lookup.kind));
   const Settings first = request.conditions.front();
   const Scene& scene = bench.scene(first.scene);
   if (request.conditions.size() == 1 && options.views > 1) {
