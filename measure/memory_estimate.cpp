@@ -10,6 +10,7 @@
 #include "compare/ladder/live_picture.h"
 #include "compare/ladder/picture_stack.h"
 #include "compare/ladder/receiver_taps.h"
+#include "compare/ladder/reduction_window.h"
 #include "raytrace/tracer.h"
 #include "scenes/scene_size.h"
 #include "technique/casters.h"
@@ -57,6 +58,8 @@ constexpr double per_listed_part_byte = 3.5;
 // All placements of the map's grid: where each placement looks up, the points of the lattice that are held at a time with
 // their tiles, and the sums by cause, placement and bias of each thread and of the whole.
 // Placements that form no lattice are measured one by one, beside the point itself: a probe, an exact map and taps each.
+// Of a map of moments also the receivers of a ReductionWindow, in a list of up to twice their size and a copy of it.
+constexpr double per_listed_receiver = 4.0 * sizeof(ReductionWindow::Receiver);
 constexpr double per_placed_pixel = 8, per_lattice_triangle = 260, per_placement = 10 * 8 * 512.0 * 12;
 constexpr double lattice_points = 9e6 * 28;
 constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
@@ -148,11 +151,11 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   double placements = 0;
   if (side > 1) {                                    // of each map
     placements = side * side * per_placement + map;  // the worst placement is rendered too
-    if (kind_of_light(input.light).placements_form_lattice())
+    if (kind_of_light(input.light).placements_form_lattice() && !reads_moments(s))
       placements += lattice_points + pixels * per_placed_pixel * side +
                     per_lattice_triangle * static_cast<double>(input.scene.triangles);
     else
-      placements += strip + pixels * per_pixel;
+      placements += strip + pixels * (per_pixel + (reads_moments(s) ? per_listed_receiver : 0));
   }
   placements *= maps;
   // A snapped map is drawn cell by cell and then put in order; the next frame of a motion has maps of its own.

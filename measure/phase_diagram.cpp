@@ -248,7 +248,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
       stage.add(taps, strip);
       blurred += filter_share(probe, taps, truth.receivers, strip);
     }
-    const PlacementCounts& counts = stage.counts();
+    const PlacementCounts& counts = *stage.counts();
     if (counts.receivers() == 0)
       throw Error(ErrorKind::usage,
                   "no pixel of this view can be judged: none sees a surface that faces the light; "

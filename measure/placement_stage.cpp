@@ -4,6 +4,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace noonmark {
 namespace {
@@ -21,21 +22,100 @@ std::vector<Image<glm::vec2>> positions_of(gl::Renderer& renderer, const Placeme
   return positions;
 }
 
+// Each placement is measured by itself, with a probe, an exact map and a truth of the taps of its own. Counts: PlacementCounts
+// or MomentCounts.
+template <class Counts>
+class OneByOneStage final : public PlacementStage {
+ public:
+  OneByOneStage(const PlacementInput& input, Counts counts)
+      : PlacementStage(input.technique.frame),
+        in_(input),
+        counts_(std::move(counts)),
+        first_(counts_.empty_copy_of_one()) {}
+
+  void add(const LookupEvidence& evidence, PixelRange strip) override { count(evidence, strip, first_); }
+
+  void finish() override {
+    if (first_.receivers() == 0) return;  // nothing can be judged
+    counts_.put(0, std::move(first_));
+    for (int placement = 1; placement < placements().count(); ++placement) {
+      const Technique placed = in_.technique.at(frame(placement));
+      LookupStage lookup = in_.stages.prepare_lookup(in_.renderer, in_.tracer, in_.view, in_.truth, placed);
+      Counts one = counts_.empty_copy_of_one();
+      each_strip_of(in_.renderer, lookup, in_.truth, placed,
+                    [&](const LookupEvidence& evidence, PixelRange strip) { count(evidence, strip, one); });
+      counts_.put(placement, std::move(one));
+      for (const StageTime& stage : {lookup.texel_stage, lookup.tap_stage}) {
+        time_.milliseconds += stage.milliseconds;
+        time_.rays += stage.rays;
+      }
+    }
+  }
+
+  void compare(const LookupEvidence& evidence, int placement, PixelRange strip) override {
+    if (!again_ || compared_ != placement) again_.emplace(counts_.empty_copy_of_one());
+    compared_ = placement;
+    count(evidence, strip, *again_);
+  }
+
+  uint64_t disagreements() const override { return again_ ? counts_.disagreements(compared_, *again_) : 0; }
+  const Placements& placements() const override { return counts_.placements(); }
+  PlacementShares shares() const override { return counts_.shares(); }
+  double receivers() const override { return counts_.receivers(); }
+  const PlacementCounts* counts() const override {
+    if constexpr (std::is_same_v<Counts, PlacementCounts>) return &counts_;
+    return nullptr;
+  }
+  std::optional<ReductionWindow::Window> reductions() const override {
+    if constexpr (std::is_same_v<Counts, MomentCounts>) return counts_.usable();
+    return std::nullopt;
+  }
+
+ private:
+  // Adds a strip of one placement.
+  static void count(const LookupEvidence& evidence, PixelRange strip, Counts& one) {
+    struct Body {
+      const LookupEvidence& evidence;
+      Counts counts;
+      Body(const LookupEvidence& e, const Counts& like) : evidence(e), counts(like.empty_copy()) {}
+      Body(Body& other, tbb::split) : Body(other.evidence, other.counts) {}
+      void operator()(const tbb::blocked_range<size_t>& range) {
+        for (size_t i = range.begin(); i != range.end(); ++i)
+          if (evidence.truth.facing[i]) counts.add(evidence, i);
+      }
+      void join(const Body& other) { counts.add(other.counts); }
+    } body(evidence, one);
+    // The same partition on any machine, so that the sums of weights are too.
+    tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<size_t>(strip.first, strip.end, std::max<size_t>(1, strip.size() / 16)), body);
+    one.add(body.counts);
+  }
+
+  PlacementInput in_;
+  Counts counts_;
+  Counts first_;                 // of placement 0
+  std::optional<Counts> again_;  // of the placement that is compared
+  int compared_ = 0;
+};
+
 }  // namespace
 
-std::unique_ptr<PlacementStage> make_placement_stage(const PlacementInput& in, const BiasPart* part,
-                                                     std::vector<float> edges) {
+std::unique_ptr<PlacementStage> make_placement_stage(const PlacementInput& in, PlacementRequest request) {
+  const Placements placements(in.technique.settings.map.placements);
+  if (in.technique.moments)
+    return std::make_unique<OneByOneStage<MomentCounts>>(in, MomentCounts(placements, request.reductions));
   if (in.technique.frame.light().placements_form_lattice())
-    return std::make_unique<LatticeStage>(in.renderer, in.tracer, in.probe, in.view, in.truth, in.technique, part,
-                                          std::move(edges));
-  return std::make_unique<TurnStage>(in, part, std::move(edges));
+    return std::make_unique<LatticeStage>(in.renderer, in.tracer, in.probe, in.view, in.truth, in.technique,
+                                          request.part, std::move(request.edges));
+  return std::make_unique<OneByOneStage<PlacementCounts>>(
+      in, PlacementCounts(placements, in.probe, request.part, std::move(request.edges)));
 }
 
 LatticeStage::LatticeStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupProbe& probe,
                            const ViewStage& view, const TruthStage& truth, const Technique& technique,
                            const BiasPart* part, std::vector<float> edges)
-    : PlacementStage(technique.frame,
-                     PlacementCounts(Placements(technique.settings.map.placements), probe, part, std::move(edges))),
+    : PlacementStage(technique.frame),
+      counts_(Placements(technique.settings.map.placements), probe, part, std::move(edges)),
       truth_(truth.receivers),
       map_(technique.settings.map),
       bias_(technique.bias),
@@ -99,55 +179,6 @@ void LatticeStage::compare(const LookupEvidence& evidence, int placement, PixelR
         },
         std::plus<>());
   });
-}
-
-TurnStage::TurnStage(const PlacementInput& input, const BiasPart* part, std::vector<float> edges)
-    : PlacementStage(input.technique.frame, PlacementCounts(Placements(input.technique.settings.map.placements),
-                                                            input.probe, part, std::move(edges))),
-      in_(input),
-      first_(counts_.empty_copy_of_one()) {}
-
-void TurnStage::add(const LookupEvidence& evidence, PixelRange strip) { count(evidence, strip, first_); }
-
-void TurnStage::finish() {
-  if (first_.receivers() == 0) return;  // nothing can be judged
-  counts_.put(0, first_);
-  for (int placement = 1; placement < counts_.placements().count(); ++placement) {
-    const Technique turned = in_.technique.at(frame(placement));
-    LookupStage lookup = in_.stages.prepare_lookup(in_.renderer, in_.tracer, in_.view, in_.truth, turned);
-    PlacementCounts one = counts_.empty_copy_of_one();
-    each_strip_of(in_.renderer, lookup, in_.truth, turned,
-                  [&](const LookupEvidence& evidence, PixelRange strip) { count(evidence, strip, one); });
-    counts_.put(placement, one);
-    for (const StageTime& stage : {lookup.texel_stage, lookup.tap_stage}) {
-      time_.milliseconds += stage.milliseconds;
-      time_.rays += stage.rays;
-    }
-  }
-}
-
-void TurnStage::compare(const LookupEvidence& evidence, int placement, PixelRange strip) {
-  if (!again_ || compared_ != placement) again_.emplace(counts_.empty_copy_of_one());
-  compared_ = placement;
-  count(evidence, strip, *again_);
-}
-
-void TurnStage::count(const LookupEvidence& evidence, PixelRange strip, PlacementCounts& one) const {
-  struct Body {
-    const LookupEvidence& evidence;
-    PlacementCounts counts;
-    Body(const LookupEvidence& e, const PlacementCounts& like) : evidence(e), counts(like.empty_copy()) {}
-    Body(Body& other, tbb::split) : Body(other.evidence, other.counts) {}
-    void operator()(const tbb::blocked_range<size_t>& range) {
-      for (size_t i = range.begin(); i != range.end(); ++i)
-        if (evidence.truth.facing[i]) counts.add(evidence, i);
-    }
-    void join(const Body& other) { counts.add(other.counts); }
-  } body(evidence, one);
-  // The same partition on any machine, so that the sums of weights are too.
-  tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<size_t>(strip.first, strip.end, std::max<size_t>(1, strip.size() / 16)), body);
-  one.add(body.counts);
 }
 
 }  // namespace noonmark

@@ -3,13 +3,20 @@
 //   std::unique_ptr<PlacementStage> stage = make_placement_stage({...}, part, edges);
 //   stage->add(evidence, strip);                     // for every strip, while the lookup holds its taps
 //   stage->finish();
-//   std::map<std::string, double> metrics = placement_metrics(stage->counts(), stage->facts(worst));
+//   const PlacementShares shares = stage->shares();
+//   std::map<std::string, double> metrics = placement_metrics(shares, stage->facts(worst_placement(shares)));
 //
 // Two placements are measured by themselves too, with OpenGL: the one of the settings, and the one with the largest
 // error. The counts must agree with both.
+//
+// Shifts of a grid that is compared share one lattice of rays. The turns of a cube share no texel, and a map of moments needs
+// the depths and weights of whole blurs: there each placement is measured by itself, and S x S placements take as long as
+// S x S points without OpenGL.
 #pragma once
 #include <memory>
+#include <optional>
 
+#include "compare/ladder/moment_counts.h"
 #include "compare/ladder/placement_counts.h"
 #include "measure/stages.h"
 #include "raytrace/placement_tracer.h"
@@ -29,21 +36,28 @@ class PlacementStage {
   // The taps at which there was a difference.
   virtual uint64_t disagreements() const = 0;
 
-  LightFrame frame(int placement) const { return counts_.placements().frame(frame_, placement); }
+  virtual const Placements& placements() const = 0;
+  virtual PlacementShares shares() const = 0;
+  // The counted receivers; of a map that others share receivers with, the sum of its shares.
+  virtual double receivers() const = 0;
+  // For the bands of a curve over the bias. Null of a map of moments, which has none.
+  virtual const PlacementCounts* counts() const { return nullptr; }
+  // Of a map of moments, if asked for (PlacementRequest): the reductions usable at every placement.
+  virtual std::optional<ReductionWindow::Window> reductions() const { return std::nullopt; }
+
+  LightFrame frame(int placement) const { return placements().frame(frame_, placement); }
   std::vector<PlacementFact> facts(int placement) const {
-    return frame_.light().placement_facts(frame(placement), counts_.placements(), placement);
+    return frame_.light().placement_facts(frame(placement), placements(), placement);
   }
-  const PlacementCounts& counts() const { return counts_; }
   const StageTime& time() const { return time_; }
 
  protected:
-  PlacementStage(const LightFrame& frame, PlacementCounts counts) : frame_(frame), counts_(std::move(counts)) {}
+  explicit PlacementStage(const LightFrame& frame) : frame_(frame) {}
   const LightFrame frame_;  // of placement 0
-  PlacementCounts counts_;
   StageTime time_;
 };
 
-// What both kinds of stage are given. All of it must outlive them.
+// What every kind of stage is given. All of it must outlive them.
 struct PlacementInput {
   Pipeline& stages;
   gl::Renderer& renderer;
@@ -54,9 +68,15 @@ struct PlacementInput {
   const Technique& technique;
 };
 
-// The stage for the kind of light. part and edges: as for PlacementCounts.
-std::unique_ptr<PlacementStage> make_placement_stage(const PlacementInput& input, const BiasPart* part,
-                                                     std::vector<float> edges);
+// What is asked besides the metrics at the point's own settings.
+struct PlacementRequest {
+  const BiasPart* part = nullptr;  // of lookups that compare depths; it and edges as for PlacementCounts
+  std::vector<float> edges;
+  std::optional<MomentCounts::ReductionBounds> reductions;  // of a map of moments
+};
+
+// The stage for the kind of light and of lookup.
+std::unique_ptr<PlacementStage> make_placement_stage(const PlacementInput& input, PlacementRequest request);
 
 // Shifts of the grid: one lattice of rays answers for all of them.
 class LatticeStage final : public PlacementStage {
@@ -73,6 +93,10 @@ class LatticeStage final : public PlacementStage {
   void add(const TapTruth& taps, PixelRange strip);
   void compare(const LookupEvidence& evidence, int placement, PixelRange strip) override;
   uint64_t disagreements() const override { return disagreements_; }
+  const Placements& placements() const override { return counts_.placements(); }
+  PlacementShares shares() const override { return counts_.shares(); }
+  double receivers() const override { return counts_.receivers(); }
+  const PlacementCounts* counts() const override { return &counts_; }
 
  private:
   // Calls visit(part) for runs of pixels whose lattice points fit into memory, with the lattice traced. points: lattice
@@ -80,32 +104,13 @@ class LatticeStage final : public PlacementStage {
   template <class Visit>
   void in_parts(PixelRange strip, size_t points, const Visit& visit) const;
 
+  PlacementCounts counts_;
   const ReceiverTruth& truth_;
   MapSettings map_;
   Bias bias_;
   PlacedProbe probe_;
   raytrace::PlacementTracer rays_;
   uint64_t disagreements_ = 0;
-};
-
-// Turns of a cube: each is measured by itself, with a probe, an exact map and a truth of the taps of its own.
-class TurnStage final : public PlacementStage {
- public:
-  TurnStage(const PlacementInput& input, const BiasPart* part, std::vector<float> edges);
-
-  void add(const LookupEvidence& evidence, PixelRange strip) override;
-  void finish() override;
-  void compare(const LookupEvidence& evidence, int placement, PixelRange strip) override;
-  uint64_t disagreements() const override { return again_ ? counts_.disagreements(compared_, *again_) : 0; }
-
- private:
-  // Adds a strip of one placement.
-  void count(const LookupEvidence& evidence, PixelRange strip, PlacementCounts& one) const;
-
-  PlacementInput in_;
-  PlacementCounts first_;                 // of placement 0
-  std::optional<PlacementCounts> again_;  // of the placement that is compared
-  int compared_ = 0;
 };
 
 }  // namespace noonmark

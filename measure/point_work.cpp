@@ -48,7 +48,13 @@ std::vector<uint64_t> work_of(const Settings& s, const Settings* before, const s
   const BiasPart* const varied = options ? curve_part(s) : nullptr;
   if (varied && anew([&](const Settings& one) { return curve_key_of(one, *varied, *options); }))
     work[PointWork::curve] = taps;
-  if (s.map.placements > 1) work[PointWork::place] = taps * square(s.map.placements);
+  if (s.map.placements > 1 && reads_moments(s)) {  // each is looked up and compared by itself
+    const uint64_t others = taps * (square(s.map.placements) - 1);
+    work[PointWork::look] += others;
+    work[PointWork::compare] += others;
+  } else if (s.map.placements > 1) {
+    work[PointWork::place] = taps * square(s.map.placements);
+  }
   return work;
 }
 

@@ -250,7 +250,7 @@ ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, 
 Workbench::Impl::WorstPlacement Workbench::Impl::render_worst(const Asked& asked, const ViewStage& seen,
                                                               const OneMap& map, PlacementStage& placements) {
   see(asked);
-  const int worst = worst_placement(placements.counts());
+  const int worst = worst_placement(placements.shares());
   const Technique moved = map.technique.at(placements.frame(worst));
   const SceneStage& loaded = asked.loaded;
   LookupStage lookup_there = stages->prepare_lookup(renderer, *loaded.tracer, seen, map.truth, moved);
@@ -271,13 +271,13 @@ void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap
                                      std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked) {
   record.metrics.merge(of_maps);
   double error = 0, disagreements = 0, receivers = 0;
-  for (const auto& stage : placements) receivers += stage->counts().receivers();
+  for (const auto& stage : placements) receivers += stage->receivers();
   StageTime time;
   for (size_t k = 0; k < maps.size(); ++k) {
     PlacementStage& stage = *placements[k];
     time.milliseconds += stage.time().milliseconds;
     time.rays += stage.time().rays;
-    const double share = stage.counts().receivers() / receivers;
+    const double share = stage.receivers() / receivers;
     if (!(share > 0)) continue;
     const WorstPlacement worst = render_worst(asked, seen, maps[k], stage);
     error += share * worst.error_shown;
@@ -358,12 +358,16 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
   // Only for a curve that is not known yet.
   const BiasScale scale = unknown ? bias_scale(scaled, view.receivers, settings.bias.unit) : BiasScale();
+  // Whether lookup.reduction alone turns a bound into the result.
+  const bool reduces = technique.moments && curve_options && settings.lookup["reduction_span"] == 0;
   std::vector<std::unique_ptr<PlacementStage>> placements;  // of each map
   const auto with_placements = [&](LookupStage& lookup) -> EachStrip {
     const size_t k = placements.size();
+    PlacementRequest request{unknown, {}, {}};
+    if (unknown) request.edges = placement_edges(biases_of(*curve_options), scale.depth_per_unit);
+    if (reduces && !cascaded) request.reductions = {curve_options->peter_panning_bound, curve_options->acne_bound};
     placements.push_back(make_placement_stage(
-        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, *truths[k], techniques[k]}, unknown,
-        unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>()));
+        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, *truths[k], techniques[k]}, std::move(request)));
     return [&stage = *placements[k]](const LookupEvidence& evidence, PixelRange strip) { stage.add(evidence, strip); };
   };
   b.see(asked);
@@ -390,7 +394,10 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     soundness = map.climbed.soundness;
     if (!placements.empty()) {
       const PlacementStage& stage = *placements.front();
-      of_placements = placement_metrics(stage.counts(), stage.facts(worst_placement(stage.counts())));
+      const PlacementShares shares = stage.shares();
+      of_placements = placement_metrics(shares, stage.facts(worst_placement(shares)));
+      if (const auto usable = stage.reductions())
+        of_placements.insert({{"reduction_min_worst", usable->low}, {"reduction_max_worst", usable->high}});
     }
   }
   const std::vector<Seam> seams = cascaded ? seams_of(maps, choice->chosen) : std::vector<Seam>();
@@ -404,11 +411,11 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     for (size_t k = 0; k < maps.size(); ++k) {
       cascades.push_back(record_of_cascade(maps[k], m.ladder, m.cascades.of, loaded, view));
       cascades.back().metrics.merge(seam_metrics(seams[k]));
-      if (!placements.empty()) cascades.back().metrics.merge(placement_metrics(placements[k]->counts(), {}));
+      if (!placements.empty()) cascades.back().metrics.merge(placement_metrics(placements[k]->shares(), {}));
     }
     if (!placements.empty()) {
       std::vector<double> receivers;
-      for (const auto& stage : placements) receivers.push_back(stage->counts().receivers());
+      for (const auto& stage : placements) receivers.push_back(stage->receivers());
       of_placements = join_placements(cascades, receivers, m.cascades.blends());
     }
     laws = join_laws(cascades);
@@ -429,7 +436,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   m.record.metrics.merge(laws);
   m.record.metrics.merge(soundness);
   // In a blend band a result is a mix of two lookups, which another reduction would change both.
-  if (technique.moments && curve_options && settings.lookup["reduction_span"] == 0 && !m.cascades.blends()) {
+  if (reduces && !m.cascades.blends()) {
     ReductionWindow reductions;
     for (OneMap& map : maps) reductions.add(std::exchange(map.climbed.reductions, {}));
     m.record.metrics.merge(
@@ -447,7 +454,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       made.curve = summarise(*maps.front().climbed.counts, scale, *curve_options);
       maps.front().climbed.counts.reset();  // large, and not needed again: freed before the curve is copied
       std::vector<const PlacementCounts*> counts;
-      for (const auto& stage : placements) counts.push_back(&stage->counts());
+      for (const auto& stage : placements) counts.push_back(stage->counts());
       if (!counts.empty()) add_bands(made.curve, counts, scale.depth_per_unit);
       return made;
     });

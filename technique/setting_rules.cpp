@@ -204,11 +204,6 @@ std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> l
           "bias.{} moves the casters in the map, and what a map of moments shows with it is not measured yet; "
           "set it to 0 and give the receiver a bias (bias.constant, bias.slope)",
           part.name);
-  if (s.map.placements > 1)
-    return fmt::format(
-        "map.placements = {}: other placements of the texel grid are not measured yet with lookup.kind = {}; "
-        "set map.placements = 1",
-        s.map.placements, kind);
   return "";
 }
 

@@ -340,8 +340,9 @@ std::vector<Setting> make_table() {
           "map.placements", "", 1, Placements::most,
           "S: measures at S x S placements of the texel grid, and gives mean, largest and least over them. "
           "Placement 0 is the map as the other settings place it. A flat map is shifted by 1/S texel from one to the "
-          "next, and one set of rays answers for all. A point light's cube is turned, a sample of all rotations, and "
-          "each turn takes its own rays.",
+          "next, and one set of rays answers for all; with a map of moments (lookup.kind) each takes its own, so 4 "
+          "suffices there. A point light's cube is turned, a sample of all rotations, and each turn takes its own "
+          "rays.",
           MEMBER(map.placements))
           .only_read_by({Stage::ladder}),
       real("map.near_m", "m", -1e9, 1e9,

@@ -128,15 +128,22 @@ void print_curve_of_cascades(const Measurement& m, const BiasCurve& c) {
 // Of a lookup in a map of moments: what another lookup.reduction would do.
 void print_reductions(const Measurement& m) {
   const auto& metrics = m.record.metrics;
-  if (!metrics.contains("reduction_best")) return;
+  if (!metrics.contains("best_reduction")) return;
   fmt::print("  lookup.reduction of least error: {:.4g} ({:.5f}% on the exact map, without rounding)\n",
-             metrics.at("reduction_best"), 100 * metrics.at("reduction_best_error"));
+             metrics.at("best_reduction"), 100 * metrics.at("best_reduction_error"));
   constexpr const char* bounds = "the leak within curve.peter_panning_bound and the darkening within curve.acne_bound";
   if (metrics.contains("reduction_min"))
     fmt::print("  reductions from {:.4g} to {:.4g} keep {}\n", metrics.at("reduction_min"), metrics.at("reduction_max"),
                bounds);
   else
     fmt::print("  no reduction keeps {}\n", bounds);
+  if (metrics.contains("error_mean") && m.maps.size() == 1) {
+    if (metrics.contains("reduction_min_worst"))
+      fmt::print("  at every placement of the grid: reductions from {:.4g} to {:.4g}\n",
+                 metrics.at("reduction_min_worst"), metrics.at("reduction_max_worst"));
+    else
+      fmt::print("  at every placement of the grid: no reduction\n");
+  }
   if (!(metrics.at("moment_precision") > metrics.at("error") / 2)) return;
   const Settings& settings = m.technique.settings;
   std::vector<std::string_view> cures;
@@ -164,7 +171,7 @@ void print_ladder(const Measurement& m, const char* clock) {
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
         !metric.of_frames && !metric.of_motion && !metric.of_lights && !of_one_receiver(metric) &&
-        metric.name != "reduction_best_error" &&                // printed otherwise
+        metric.name != "best_reduction_error" &&                // printed otherwise
         m.record.metrics.contains(std::string(metric.name))) {  // a point with one map has no metrics of cascades
       const double share = m.record.metrics.at(std::string(metric.name));
       if (!std::isnan(share)) fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * share);

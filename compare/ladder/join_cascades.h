@@ -23,7 +23,7 @@ std::map<std::string, double> join_soundness(std::span<const PointRecord::Cascad
 // The metrics of placement_metrics(), which the cascades have too: means over all counted receivers of what each cascade has
 // at its own worst, mean and best. The grids of cascades lie independently of each other, so each is a real placement of
 // the whole map. Which placement it is has no name here. receivers: the sum of the shares that each cascade has in the
-// results of its receivers (PlacementCounts::receivers). Where cascades share receivers, wrong_* and aliasing_rms_* are left
+// results of its receivers (PlacementStage::receivers). Where cascades share receivers, wrong_* and aliasing_rms_* are left
 // out: a pixel that two maps have a part in has no sum over them.
 std::map<std::string, double> join_placements(std::span<const PointRecord::Cascade> cascades,
                                               std::span<const double> receivers, bool shared);

@@ -74,89 +74,70 @@ Spread fetched_spread(const LookupEvidence& e, size_t i, std::vector<double>& de
   return fetched;
 }
 
-}  // namespace
-
-MomentClimb::MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder)
-    : e_(evidence), ladder_(ladder) {
-  for (size_t i = strip.first; i < strip.end; ++i)
-    ladder.flags[i] = static_cast<uint8_t>((evidence.truth.facing[i] ? flag_facing : 0) |
-                                           (evidence.truth.ambiguous[i] ? flag_ambiguous : 0));
-}
-
-MomentClimb::Bounds MomentClimb::bounds_of(size_t i, const ReceiverTaps& taps, Part& part) const {
-  const LookupEvidence& e = e_;
+// The bounds of a receiver, and what law 13 says of them.
+void find_bounds(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, MomentScratch& scratch,
+                 MomentSteps& steps) {
   const float reference = e.probe.reference[i];
-  if (!e.probe.asks(i)) return {};
-  if (reference > 1.0f && e.map.lit_beyond_far) return {1, 1, 1};
+  if (!e.probe.asks(i)) return;
+  if (reference > 1.0f && e.map.lit_beyond_far) {
+    steps.bare = steps.with_floors = steps.shown = 1;
+    return;
+  }
   const float biased = reference - e.bias.at(e.probe, i);  // as the shader computes it
   const auto bare_depth = static_cast<double>(reference);
-  Bounds bounds;
+  const auto set = [&](auto& truth) {  // the depths, or what is fetched of them
+    steps.bare = e.moments->bare(truth, bare_depth);
+    steps.with_floors = e.moments->exact(truth, static_cast<double>(biased));
+    steps.shown = e.moments->reduced(steps.with_floors);
+  };
   if (e.moments->spread()) {
-    const Spread fetched = fetched_spread(e, i, part.depths);
-    bounds.bare = e.moments->bare(fetched, bare_depth);
-    bounds.with_floors = e.moments->exact(fetched, static_cast<double>(biased));
-    bounds.shown = e.moments->reduced(bounds.with_floors);
-    return bounds;
+    Spread fetched = fetched_spread(e, i, scratch.depths);
+    set(fetched);
+    return;
   }
-  blended_depths(e, i, taps, part.depths, part.weights);
-  part.truth.set(part.depths, part.weights);
-  bounds.bare = e.moments->bare(part.truth, bare_depth);
-  bounds.with_floors = e.moments->exact(part.truth, static_cast<double>(biased));
-  bounds.shown = e.moments->reduced(bounds.with_floors);
+  blended_depths(e, i, taps, scratch.depths, scratch.weights);
+  scratch.truth.set(scratch.depths, scratch.weights);
+  set(scratch.truth);
   double compared = 0;
-  for (size_t t = 0; t < part.depths.size(); ++t)
-    if (part.depths[t] >= bare_depth) compared += part.weights[t];
-  part.below_comparison = larger_residual(part.below_comparison, compared - bounds.bare);
-  return bounds;
+  for (size_t t = 0; t < scratch.depths.size(); ++t)
+    if (scratch.depths[t] >= bare_depth) compared += scratch.weights[t];
+  steps.below_comparison = compared - steps.bare;
 }
 
-void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
-  const LookupEvidence& e = e_;
-  Ladder& ladder = ladder_;
-  if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside_of_map(e.probe, i, e.exact_map))
-    ladder.flags[i] |= flag_outside;
+}  // namespace
 
+MomentSteps moment_steps(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, MomentScratch& scratch) {
+  MomentSteps s;
   // As shares of the sum of the weights in the same order, so that lit taps alone are exactly 1.
-  double exact_lit = 0, moved_lit = 0, texel_lit = 0, unsure = 0, uncovered = 0, whole = 0;
-  double before_exact = 0, before_moved = 0;  // the undecided parts of two steps, as in Climb::receiver()
+  double uncovered = 0, whole = 0;
   const size_t count = taps.one_truth() ? 1 : taps.size();
   for (size_t t = 0; t < count; ++t) {
     const Tap tap = taps[t];
     const double weight = taps.one_truth() ? 1 : tap.weight;  // one tap stands for all of them
     whole += weight;
-    if (tap.exact_lit) exact_lit += weight;
-    if (tap.moved_lit) moved_lit += weight;
-    if (tap.texel_lit) texel_lit += weight;
+    if (tap.exact_lit) s.exact_lit += weight;
+    if (tap.moved_lit) s.moved_lit += weight;
+    if (tap.texel_lit) s.texel_lit += weight;
     if (!tap.covered) uncovered += weight;
     if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
-    unsure += weight;
+    s.unsure += weight;
     const auto step = [&](bool from, bool to) { return weight * (static_cast<int>(to) - static_cast<int>(from)); };
-    if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
-    if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
+    if (!tap.exact_sure) s.before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
+    if (!tap.exact_sure || !tap.moved_sure) s.before_moved += step(tap.exact_lit, tap.moved_lit);
   }
-  for (double* sum : {&exact_lit, &moved_lit, &texel_lit, &unsure, &uncovered, &before_exact, &before_moved})
+  for (double* sum :
+       {&s.exact_lit, &s.moved_lit, &s.texel_lit, &s.unsure, &uncovered, &s.before_exact, &s.before_moved})
     *sum /= whole;
-  if (unsure > 0) ladder.flags[i] |= flag_undecided;
-  const Bounds bounds = bounds_of(i, taps, worst);
+  s.displacement = s.moved_lit - s.exact_lit - s.before_moved;
+  find_bounds(e, i, taps, scratch, s);
 
-  const auto number = [](double value) { return static_cast<float>(value); };
-  const float r[std::size(rung_names)] = {e.truth.soft[i],   number(e.truth.lit[i]), number(exact_lit),
-                                          number(texel_lit), number(bounds.shown),   e.r5[i]};
-  for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
-
-  // What a cascade shows at a seam for comparison alone is no result.
-  if (is_counted(ladder, i) && e.truth.share_of(i) > 0)
-    worst.reductions.add(
-        {i, static_cast<double>(e.truth.lit[i]), moved_lit, texel_lit, bounds.bare, bounds.with_floors});
-
-  // From the taps at the places looked up to R4.
-  constexpr size_t steps = 4;
-  std::array<double, steps> parts{};
-  lasting_steps(std::array{moved_lit, texel_lit, bounds.bare, bounds.with_floors, bounds.shown}, parts);
-  const double change = bounds.shown - moved_lit;
+  std::array<double, 4> parts{};
+  lasting_steps(std::array{s.moved_lit, s.texel_lit, s.bare, s.with_floors, s.shown}, parts);
+  const double change = s.shown - s.moved_lit;
   double left_uncovered = std::min(uncovered, std::abs(change));
-  double left_unsure = std::min(unsure, std::abs(change) - left_uncovered);
-  const double coverage = std::copysign(left_uncovered, change), undecided = std::copysign(left_unsure, change);
+  double left_unsure = std::min(s.unsure, std::abs(change) - left_uncovered);
+  s.coverage = 0 + std::copysign(left_uncovered, change);  // 0 + x: no negative zero
+  s.undecided = 0 + std::copysign(left_unsure, change);
   for (double& part : parts) {
     const auto take = [&](double& left) {
       const double taken = std::min(left, std::abs(part));
@@ -166,30 +147,55 @@ void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) cons
     take(left_uncovered);
     take(left_unsure);
   }
+  s.aliasing = 0 + parts[0], s.to_bare = 0 + parts[1], s.to_floors = 0 + parts[2], s.reduction = 0 + parts[3];
+  return s;
+}
+
+MomentClimb::MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder)
+    : e_(evidence), ladder_(ladder) {
+  for (size_t i = strip.first; i < strip.end; ++i)
+    ladder.flags[i] = static_cast<uint8_t>((evidence.truth.facing[i] ? flag_facing : 0) |
+                                           (evidence.truth.ambiguous[i] ? flag_ambiguous : 0));
+}
+
+void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
+  const LookupEvidence& e = e_;
+  Ladder& ladder = ladder_;
+  if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside_of_map(e.probe, i, e.exact_map))
+    ladder.flags[i] |= flag_outside;
+  const MomentSteps s = moment_steps(e, i, taps, worst.scratch);
+  if (s.unsure > 0) ladder.flags[i] |= flag_undecided;
+  worst.below_comparison = larger_residual(worst.below_comparison, s.below_comparison);
+
+  const auto number = [](double value) { return static_cast<float>(value); };
+  const float r[std::size(rung_names)] = {e.truth.soft[i],     number(e.truth.lit[i]), number(s.exact_lit),
+                                          number(s.texel_lit), number(s.shown),        e.r5[i]};
+  for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
+
+  // What a cascade shows at a seam for comparison alone is no result.
+  if (is_counted(ladder, i) && e.truth.share_of(i) > 0)
+    worst.reductions.add({i, static_cast<double>(e.truth.lit[i]), s.moved_lit, s.texel_lit, s.bare, s.with_floors});
 
   const auto set = [&](Cause cause, double value) { ladder[cause][i] = number(value); };
   for (Ladder::CauseImage& cause : ladder.causes) cause.step[i] = 0;
   set(Cause::light_size, static_cast<double>(r[1]) - r[0]);
-  set(Cause::filter, static_cast<double>(r[2]) - r[1] - before_exact);
-  set(Cause::displacement, moved_lit - exact_lit - before_moved);
-  set(Cause::undecided, before_exact + before_moved + undecided);
-  const auto book = [&](double part, Cause darker, Cause lighter) {
-    Image<float>& image = ladder[part < 0 ? darker : lighter];
-    image[i] = number(static_cast<double>(image[i]) + part);
-  };
-  book(coverage, Cause::coverage_dark, Cause::coverage_light);
-  book(parts[0], Cause::aliasing_dark, Cause::aliasing_light);
-  book(parts[1], Cause::over_darkening, Cause::leak);
-  book(parts[2], Cause::over_darkening, Cause::peter_panning);
-  book(parts[3], Cause::reduction, Cause::reduction);
+  set(Cause::filter, static_cast<double>(r[2]) - r[1] - s.before_exact);
+  set(Cause::displacement, s.displacement);
+  set(Cause::undecided, s.all_undecided());
+  set(s.coverage < 0 ? Cause::coverage_dark : Cause::coverage_light, s.coverage);
+  set(s.aliasing < 0 ? Cause::aliasing_dark : Cause::aliasing_light, s.aliasing);
+  set(Cause::leak, s.leak());
+  set(Cause::peter_panning, s.peter_panning());
+  set(Cause::over_darkening, s.over_darkening());
+  set(Cause::reduction, s.reduction);
   // What OpenGL makes of the exact map, and of its own: the same rounding often turns both the same way.
   std::array<double, 2> device{};
-  lasting_steps(std::array{bounds.shown, static_cast<double>(e.r4[i]), static_cast<double>(e.r5[i])}, device);
+  lasting_steps(std::array{s.shown, static_cast<double>(e.r4[i]), static_cast<double>(e.r5[i])}, device);
   set(Cause::moment_precision, device[0]);
   set(Cause::precision, device[1]);
-  ladder.doubt[i] = number(unsure);
+  ladder.doubt[i] = number(s.unsure);
 
-  double all = 0, classes = before_moved + undecided;
+  double all = 0, classes = s.before_moved + s.undecided;
   for (size_t c = 0; c < ladder.built_in(); ++c) all += ladder.causes[c].step[i];
   for (const Cause cause :
        {Cause::displacement, Cause::aliasing_dark, Cause::aliasing_light, Cause::peter_panning, Cause::coverage_dark,

@@ -16,6 +16,9 @@
 // near, and undecided as much as the weight of the taps whose truth float error can change, both from the first step on.
 // moment_precision and precision are the lasting steps from R4 to what OpenGL makes of the exact map, and from there to R5.
 #pragma once
+#include <algorithm>
+#include <vector>
+
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/reduction_window.h"
 
@@ -23,17 +26,43 @@ namespace noonmark {
 
 class ReceiverTaps;
 
+// One receiver from R2 to R4, in double. Shares of 1; a step is negative if it darkens.
+struct MomentSteps {
+  double exact_lit = 0, moved_lit = 0, texel_lit = 0;  // R2, D, R3
+  double bare = 0, with_floors = 0, shown = 0;         // shown: R4
+  double unsure = 0;                                   // the weight of taps whose truth float error can change
+  // The undecided parts of the steps from R1 to R2, from there to D, and from there to R4.
+  double before_exact = 0, before_moved = 0, undecided = 0;
+  double displacement = 0;
+  // The parts of R4 - D, without what is undecided.
+  double coverage = 0, aliasing = 0, to_bare = 0, to_floors = 0, reduction = 0;
+  // How much the bare bound is darker than the comparison of the same depths (law 13); negative if it is lighter.
+  double below_comparison = 0;
+
+  double all_undecided() const { return before_exact + before_moved + undecided; }
+  // As the ladder books the steps to the two bounds, which may have opposite signs only if one is 0.
+  double leak() const { return std::max(0.0, to_bare); }
+  double peter_panning() const { return std::max(0.0, to_floors); }
+  double over_darkening() const { return std::min(0.0, to_bare) + std::min(0.0, to_floors); }
+};
+
+// The memory that moment_steps() uses again for the next receiver of a thread.
+struct MomentScratch {
+  std::vector<double> depths, weights;  // of the taps of one receiver
+  TruthInDouble truth;
+};
+
+// Of a facing receiver. Pictures of OpenGL in the evidence are not read.
+MomentSteps moment_steps(const LookupEvidence& evidence, size_t i, const ReceiverTaps& taps, MomentScratch& scratch);
+
 // Climbs a strip, as a judge of read_taps (compare/ladder/receiver_taps.h). The evidence has moments; its r4 is OpenGL's
 // result on the exact map. The ladder has all of Cause.
 class MomentClimb {
  public:
   struct Part {
     double steps = 0, taps = 0;  // the largest residuals of the ladder
-    // The largest amount by which the bare bound is darker than the comparison of the same depths (law 13).
     double below_comparison = 0;
-    std::vector<double> depths;  // of the taps of one receiver
-    std::vector<double> weights;
-    TruthInDouble truth;
+    MomentScratch scratch;
     ReductionWindow reductions;  // of the counted receivers
   };
   MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);  // both must outlive this
@@ -45,11 +74,6 @@ class MomentClimb {
   const ReductionWindow& reductions() const { return reductions_; }
 
  private:
-  struct Bounds {
-    double bare = 0, with_floors = 0, shown = 0;  // shown: R4
-  };
-  Bounds bounds_of(size_t i, const ReceiverTaps& taps, Part& part) const;
-
   const LookupEvidence& e_;
   Ladder& ladder_;
   double below_comparison_ = 0;

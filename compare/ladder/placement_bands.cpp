@@ -1,34 +1,12 @@
-// Over all placements: which is the worst, the metrics, and the bands of a curve (placement_counts.h).
-#include <fmt/format.h>
-
+// Over all placements: the bands of a curve (placement_counts.h).
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "compare/ladder/placement_counts.h"
 
 namespace noonmark {
-
-int worst_placement(const PlacementCounts& counts) {
-  const std::vector<double> error = counts.shares().at("error");
-  return static_cast<int>(std::max_element(error.begin(), error.end()) - error.begin());
-}
-
-std::map<std::string, double> placement_metrics(const PlacementCounts& counts, std::span<const PlacementFact> worst) {
-  std::map<std::string, double> metrics;
-  const auto shares = counts.shares();
-  for (const auto& [name, values] : shares) {
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());  // all are NaN, or none is
-    metrics[name + "_mean"] = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
-    metrics[name + "_worst"] = sorted.back();
-    metrics[name + "_best"] = sorted.front();
-  }
-  for (const PlacementFact& fact : worst) metrics[fmt::format("worst_{}", fact.name)] = fact.value;
-  return metrics;
-}
 
 void add_bands(BiasCurve& curve, std::span<const PlacementCounts* const> maps, double depth_per_unit) {
   const int placements = maps.front()->placements().count();

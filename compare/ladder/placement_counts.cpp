@@ -341,8 +341,8 @@ double PlacementCounts::wrong_taps(int placement, size_t edge) const {
   return wrong(error_dark, placement, edge) + wrong(error_light, placement, edge);
 }
 
-std::map<std::string, std::vector<double>> PlacementCounts::shares() const {
-  std::map<std::string, std::vector<double>> shares;
+PlacementShares PlacementCounts::shares() const {
+  PlacementShares shares;
   const auto add = [&](const char* name, double whole, const auto& of) {
     std::vector<double>& list = shares[name];
     for (size_t p = 0; p < count_; ++p)

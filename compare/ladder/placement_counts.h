@@ -2,7 +2,7 @@
 //
 //   PlacementCounts counts(placements, probe, part, placement_edges(grid, scale.depth_per_unit));
 //   counts.add(evidence, pixel, taps, box);          // for each facing receiver
-//   std::map<std::string, double> metrics = placement_metrics(counts);   // at the point's own bias
+//   std::map<std::string, double> metrics = placement_metrics(counts.shares(), {});   // at the point's own bias
 //   counts.caused(Cause::acne, 9, 3);                // taps of placement 9, at the amount edges()[3]
 //
 // Placements that share no lattice are counted one by one:
@@ -29,6 +29,7 @@
 
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/numbers.h"
+#include "compare/ladder/placement_shares.h"
 #include "compare/ladder/tap_threshold.h"
 #include "compare/ladder/threshold_bins.h"
 #include "compare/results/records.h"
@@ -80,8 +81,7 @@ class PlacementCounts {
   // The least amount from which no tap is acne at any placement; exact, not at an edge. Infinity if there is none.
   float acne_free_from() const { return acne_free_from_; }
 
-  // At the point's own bias, for every placement, by the name of the metric: error, acne, ... as fractions.
-  std::map<std::string, std::vector<double>> shares() const;
+  PlacementShares shares() const;
 
  private:
   PlacementCounts(const Placements& placements, const BiasPart* varied, const ThresholdBins& bins, double whole);
@@ -146,14 +146,6 @@ class PlacementCounts {
 // silhouette: on_edge(lattice point) says so, and is asked only where something differs.
 uint64_t disagreements(const LookupEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
                        double ray_error, double clipped_ray_error, const std::function<bool(glm::ivec2)>& on_edge);
-
-// The placement with the largest error at the point's own bias; the first of several.
-int worst_placement(const PlacementCounts& counts);
-
-// Mean, worst, best and 95th percentile over the placements of every metric of shares(), and which placement has the
-// largest error (KindOfLight::placement_facts). Names: "acne_mean", "acne_worst", "acne_best",
-// "worst_shift_u_texels".
-std::map<std::string, double> placement_metrics(const PlacementCounts& counts, std::span<const PlacementFact> worst);
 
 // Adds bands and the window at every placement to a curve over the same part. maps: of one map, or of each cascade, whose
 // grids lie independently of each other: the worst of the point is where each cascade is at its own worst.

@@ -108,7 +108,7 @@ std::optional<ReductionWindow::Window> ReductionWindow::usable(double leak_bound
 std::map<std::string, double> reduction_metrics(ReductionWindow window, double leak_bound, double darkening_bound) {
   window.sort();
   const ReductionWindow::Best best = window.best();
-  std::map<std::string, double> metrics = {{"reduction_best", best.reduction}, {"reduction_best_error", best.error}};
+  std::map<std::string, double> metrics = {{"best_reduction", best.reduction}, {"best_reduction_error", best.error}};
   if (const auto usable = window.usable(leak_bound, darkening_bound))
     metrics.insert({{"reduction_min", usable->low}, {"reduction_max", usable->high}});
   return metrics;

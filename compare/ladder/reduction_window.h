@@ -59,7 +59,7 @@ class ReductionWindow {
 // The largest reduction that a setting can have.
 inline constexpr double most_reduction = 0.99;
 
-// Of the window in the order of its pixels: reduction_best, reduction_best_error, reduction_min, reduction_max: fractions. Of no receiver NaN; the window is left out if
+// Of the window in the order of its pixels: best_reduction, best_reduction_error, reduction_min, reduction_max: fractions. Of no receiver NaN; the window is left out if
 // there is none.
 std::map<std::string, double> reduction_metrics(ReductionWindow window, double leak_bound, double darkening_bound);
 

@@ -183,12 +183,12 @@ constexpr Metric measured_with_causes[] = {
      "comparison of the same depths (law 13). Above 1e-9 it is a defect. Not of lookups that are no bound "
      "(babylon_esm, babylon_close_esm, three_vsm).",
      false, false, false, false, false, false, true},
-    {"reduction_best", "",
+    {"best_reduction", "",
      "Of a map of moments: the lookup.reduction of least error against R1, on the exact map. Measured with a curve, "
      "but not with "
      "lookup.reduction_span or a blend band of cascades.",
      true, false, false, false, false, false, true},
-    {"reduction_best_error", "fraction", "Of a map of moments: mean |R4 - R1| at reduction_best.", true, false, false,
+    {"best_reduction_error", "fraction", "Of a map of moments: mean |R4 - R1| at best_reduction.", true, false, false,
      false, false, false, true},
     {"reduction_min", "",
      "Of a map of moments: the least lookup.reduction at which the leak is within curve.peter_panning_bound and what "
@@ -408,6 +408,12 @@ constexpr Metric of_several_lights[] = {
 };
 
 constexpr Metric over_placements[] = {
+    {"reduction_min_worst", "",
+     "Of a map of moments without cascades: the least lookup.reduction that is within both bounds of reduction_min at "
+     "every placement of the texel grid. Left out if no reduction is.",
+     true, true, false, false, false, false, true},
+    {"reduction_max_worst", "", "Of a map of moments without cascades: the largest such lookup.reduction.", true, true,
+     false, false, false, false, true},
     {"error_worst_shown", "fraction",
      "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.", true, true},
     {"worst_shift_u_texels", "texels",
@@ -429,7 +435,7 @@ constexpr Metric over_placements[] = {
      "Of a point light's cube: the z component of map.turn_deg of the placement with the largest error.", false, true},
     {"placement_disagreements", "count",
      "Number of taps at which the truth of all placements differs from the ladder's own, at the placements that are "
-     "rendered too. Above 0 it is a defect.",
+     "rendered too; of a map of moments, number of sums over its receivers. Above 0 it is a defect.",
      false, true},
 };
 
@@ -474,9 +480,15 @@ constexpr Metric of_given_frames[] = {
 };
 
 // Mean, worst and best over the placements of the texel grid of each of these.
-constexpr std::string_view placed[] = {"error",    "wrong",         "acne",           "peter_panning",
-                                       "aliasing", "aliasing_dark", "aliasing_light", "aliasing_rms",
-                                       "coverage", "coverage_dark", "coverage_light", "undecided"};
+constexpr std::string_view placed[] = {"error",    "wrong",          "acne",           "peter_panning",
+                                       "aliasing", "aliasing_dark",  "aliasing_light", "aliasing_rms",
+                                       "coverage", "coverage_dark",  "coverage_light", "undecided",
+                                       "leak",     "over_darkening", "reduction"};
+
+bool only_of_moments(std::string_view cause) {
+  return std::any_of(std::begin(cause_rows), std::end(cause_rows),
+                     [&](const CauseRow& row) { return row.name == cause && is_of_moments(row); });
+}
 
 struct MetricTable {
   std::deque<std::string> texts;  // of the rows that are made here
@@ -515,13 +527,15 @@ const MetricTable& table() {
     }
     for (std::string_view name : placed)
       for (const auto& [ending, what] :
-           {std::pair("mean", "Mean"), std::pair("worst", "Largest"), std::pair("best", "Least")})
+           {std::pair("mean", "Mean"), std::pair("worst", "Largest"), std::pair("best", "Least")}) {
         t.rows.push_back(
             {text(std::string(name) + "_" + ending), "fraction",
              text(std::string(what) + " over the placements of the texel grid (map.placements) of " +
                   std::string(name) + ", on the exact map" +
                   (std::string_view(ending) == "worst" ? ". The largest of all placements may be a tenth more." : ".")),
              true, true});
+        t.rows.back().of_moments = only_of_moments(name);
+      }
     t.rows.insert(t.rows.end(), std::begin(over_placements), std::end(over_placements));
     t.rows.insert(t.rows.end(), std::begin(from_frame_to_frame), std::end(from_frame_to_frame));
     t.rows.insert(t.rows.end(), std::begin(of_several_lights), std::end(of_several_lights));

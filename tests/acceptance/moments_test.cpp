@@ -331,7 +331,6 @@ TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {
            {{{"filter.step_texels", "2"}}, "set filter.step_texels = 1"},
            {{{"bias.reference", "receiver_plane"}}, "set bias.reference = own_depth"},
            {{{"bias.polygon_units", "4"}}, "bias.polygon_units moves the casters"},
-           {{{"map.placements", "4"}}, "set map.placements = 1"},
            {{{"lookup.kind", "evsm2"}, {"map.moments", "16"}}, "map.moments = 16 holds numbers from 0 to 1"},
            {{{"lookup.kind", "msm"}, {"map.moments", "16"}}, "with lookup.moments = plain"},
            {{{"lookup.kind", "evsm4"}, {"map.moments", "16f"}}, "so it goes up to 5.545"},

@@ -92,16 +92,6 @@ constexpr Series series[] = {
     {"peter_panning", &BiasCurve::peter_panning, &BiasCurve::peter_panning_band},
 };
 
-double error_on_exact_map(const Ladder& ladder) {
-  double error = 0, counted = 0;
-  for (size_t i = 0; i < ladder.flags.size(); ++i) {
-    if (!is_counted(ladder, i)) continue;
-    error += std::abs(static_cast<double>(ladder[Rung::on_exact_map][i]) - ladder.truth()[i]);
-    ++counted;
-  }
-  return error / counted;
-}
-
 // The sums of blended weights are added in another order, and shares of a receiver are floats in the ladder (2^-24). A
 // tap more or less is a difference of 7e-6 and more.
 constexpr double rounding = 0x1p-24;

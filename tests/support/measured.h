@@ -51,6 +51,17 @@ inline std::string model(const std::string& name) {
       .string();
 }
 
+// Mean |R4 - R1|.
+inline double error_on_exact_map(const Ladder& ladder) {
+  double error = 0, counted = 0;
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    if (!is_counted(ladder, i)) continue;
+    error += std::abs(static_cast<double>(ladder[Rung::on_exact_map][i]) - ladder.truth()[i]);
+    ++counted;
+  }
+  return error / counted;
+}
+
 inline double metric(const Measurement& m, const std::string& name) { return m.record.metrics.at(name); }
 
 }  // namespace noonmark::acceptance

@@ -27,9 +27,11 @@ TEST(ReportUnits, ShowResidualsPlainly) {
 
 TEST(ReportUnits, FollowTheMetricsTable) {
   const std::set<std::string_view> plain = {"below_comparison",
-                                            "reduction_best",
+                                            "best_reduction",
                                             "reduction_min",
                                             "reduction_max",
+                                            "reduction_min_worst",
+                                            "reduction_max_worst",
                                             "residual",
                                             "tap_residual",
                                             "rounding_excess",
