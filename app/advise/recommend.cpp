@@ -35,10 +35,7 @@ std::string answer_name(AnswerKind kind) {
 
 bool Tried::filtered() const { return reads_moments(settings); }
 
-int placements_of(const Tried& tried) {
-  const int along = tried.filtered() ? filtered_placements : searched_placements;
-  return along * along;
-}
+int placements_along(const Tried& tried) { return tried.filtered() ? filtered_placements : searched_placements; }
 
 bool is_fragile(const BiasChoice& bias) {
   return bias.window.low > (1 - fragile_below) * bias.value || bias.window.high < (1 + fragile_below) * bias.value;
@@ -190,7 +187,8 @@ class Search {
       return;
     }
     say_(fmt::format("confirming {}, under {} at {} placements", name_of(tried, request_),
-                     counted(request_.conditions.size(), "condition"), placements_of(tried)));
+                     counted(request_.conditions.size(), "condition"),
+                     placements_along(tried) * placements_along(tried)));
     // The condition that refuted the one before comes first, because it probably refutes this one too.
     std::map<size_t, PointRecord> of_condition;
     for (size_t i = 0; i < request_.conditions.size(); ++i) {
@@ -198,7 +196,7 @@ class Search {
       Settings there = small_picture(screening_.of_choice(request_.conditions[which], candidate.level, tried.place,
                                                           tried.settings.filter, tried.settings.map.resolution),
                                      request_.width_px);
-      there.map.placements = tried.filtered() ? 1 : searched_placements;
+      there.map.placements = placements_along(tried);
       PointRecord record = bench_.measure(there, searched_, metric_set_for(request_.accuracy)).record;
       if (nothing_judged(record)) {
         say_("a view in which nothing can be judged is left out");
@@ -217,7 +215,7 @@ class Search {
     for (auto& [which, record] : of_condition) points.push_back(std::move(record));
     candidate.conditions = points.size();
     if (tried.filtered())
-      judge_filtered(tried, std::move(points));
+      judge_reduction(bench_, tried, points, searched_, request_.accuracy);
     else
       judge_bias(bench_, tried, std::move(points), searched_, request_.accuracy);
     if (!candidate.holds()) return;
@@ -233,28 +231,6 @@ class Search {
     if (!candidate.holds()) say_(fmt::format("{}: {}", name_of(tried, request_), tried.why_not));
   }
 
-  // Of a filtered map no number holds at every placement at once: with the reduction that all conditions allow, it is measured
-  // at each.
-  void judge_filtered(Tried& tried, std::vector<PointRecord> points) {
-    judge_reduction(bench_, tried, std::move(points), searched_, request_.accuracy);
-    if (!tried.why_not.empty()) return;
-    for (const Settings& condition : under_conditions(tried, request_)) {
-      std::optional<PointRecord> own;  // at the condition's own placement, the first
-      for (const Settings& there : placed_on_grid(condition, filtered_placements, 0)) {
-        const PointRecord point = bench_.measure(there, std::nullopt, metric_set_for(request_.accuracy)).record;
-        if (nothing_judged(point)) break;
-        if (!own) own = point;
-        if (const double error = metric_of(point, request_.accuracy); !(error <= tried.error))
-          tried.error = error, tried.worst = own;
-        tried.why_not = why_not_filtered(filtered_shares(point), request_.curve);
-        if (tried.why_not.empty()) continue;
-        tried.why_not += ", at a placement of the grid";
-        tried.worst = point;
-        return;
-      }
-    }
-  }
-
   // A map over what some views show must not leave out what another one shows.
   std::string why_not_covered(const PointRecord& record, const Tried& tried) const {
     const double coverage = metric_of(record, "coverage");
@@ -264,7 +240,8 @@ class Search {
 
   void verify(Candidate& candidate, bool by_rendering) {
     Tried& tried = candidate.tried;
-    say_(fmt::format("verifying {} at {} other placements", name_of(tried, request_), placements_of(tried)));
+    say_(fmt::format("verifying {} at {} other placements", name_of(tried, request_),
+                     placements_along(tried) * placements_along(tried)));
     const Settings settings = settings_of(*tried.worst);
     candidate.verified = verify_at_fresh_placements(bench_, settings, request_.curve, request_.accuracy, request_.error,
                                                     by_rendering ? rendered_placements : 0, [&](int done, int of) {
@@ -308,7 +285,7 @@ class Search {
     answer.tried = one.tried;
     answer.doubled_cost = screening_.cost_at(one, 2 * one.tried.settings.map.resolution);
     answer.conditions = one.conditions;
-    answer.placements = placements_of(one.tried);
+    answer.placements = placements_along(one.tried) * placements_along(one.tried);
     if (const LightFrame frame = make_light_frame(bench_.scene(one.tried.settings.scene), one.tried.settings);
         frame.kind == LightKind::directional && one.tried.settings.cascades.count == 1)
       answer.extent_m = frame.extent_m;
@@ -409,7 +386,7 @@ std::vector<Settings> under_conditions(const Tried& tried, const AdviceRequest& 
     request.places[tried.place].apply(there);
     there.bias = chosen.bias, there.filter = chosen.filter, there.lookup = chosen.lookup;
     there.map.resolution = chosen.map.resolution, there.map.cull = chosen.map.cull;
-    there.map.placements = tried.filtered() ? 1 : searched_placements;
+    there.map.placements = placements_along(tried);
     all.push_back(std::move(there));
   }
   return all;

@@ -47,7 +47,7 @@ std::string answer_name(AnswerKind kind);  // "least"
 struct Tried;
 
 // Of a filtered map: the lookup.reduction that was chosen, and from where to where it keeps the bounds of the search under every
-// condition, at the settings' own place on the grid of texels.
+// condition, at every placement that was searched.
 struct ReductionChoice {
   double value = 0, low = 0, high = 0;
 };
@@ -94,8 +94,8 @@ struct Tried {
   bool usable() const { return bias || reduction; }  // it keeps the bounds on causes with some bias or reduction
 };
 
-// At how many placements these settings are searched.
-int placements_of(const Tried& tried);
+// At how many placements these settings are searched, along each axis.
+int placements_along(const Tried& tried);
 
 // An answer may not be sensitive to its bias: one that may vary by less than this share, up or down, is fragile.
 inline constexpr double fragile_below = 0.25;

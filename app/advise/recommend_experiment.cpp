@@ -51,7 +51,7 @@ std::string advice_experiment(const Answer& chosen, const Advice& advice, const 
   const auto acts = [&](const Setting& row) {
     return !row.why_idle || row.why_idle(settings, advice.request.light).empty();
   };
-  settings.map.placements = answer.filtered() ? 1 : static_cast<int>(std::lround(std::sqrt(chosen.placements)));
+  settings.map.placements = static_cast<int>(std::lround(std::sqrt(chosen.placements)));
   std::string scene = settings.scene.name;
   if (std::error_code none; std::filesystem::is_regular_file(scene, none))
     scene = std::filesystem::proximate(scene, folder);

@@ -110,47 +110,67 @@ std::vector<Settings> placed_on_grid(const Settings& settings, int n, double fro
   return placed;
 }
 
-void judge_reduction(Workbench& bench, Tried& tried, std::vector<PointRecord> points, const CurveOptions& searched,
-                     const std::string& accuracy) {
+namespace {
+
+// The window of the point's reductions, at every placement that was measured. Empty: none keeps both bounds.
+std::optional<ReductionChoice> window_of(const PointRecord& point) {
+  const char* const ending = has_placements(point) ? "_worst" : "";
+  const std::optional<double> low = quantity(point, fmt::format("reduction_min{}", ending)),
+                              high = quantity(point, fmt::format("reduction_max{}", ending));
+  if (!low || !high) return std::nullopt;
+  return ReductionChoice{metric_of(point, "best_reduction"), *low, *high};
+}
+
+// What no reduction can mend; and that none keeps both bounds.
+std::string why_no_reduction(const PointRecord& point, const CurveOptions& searched) {
+  FilteredShares shares = filtered_shares(point);
+  const double leak = shares.leak;
+  shares.leak = shares.reduction = 0;
+  if (std::string broken = why_not_filtered(shares, searched); !broken.empty()) return broken;
+  if (window_of(point)) return "";
+  return fmt::format(
+      "no lookup.reduction keeps the leak within {} and what it darkens within {}: without one it leaks {}",
+      percent(searched.peter_panning_bound), percent(searched.acne_bound), percent(leak));
+}
+
+}  // namespace
+
+void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
+                     const CurveOptions& searched, const std::string& accuracy) {
   tried.reduction.reset();
   tried.worst.reset();
   tried.why_not.clear();
   ReductionChoice choice{0, 0, most_reduction};
   double most_error = -1;
   for (const PointRecord& point : points) {
-    FilteredShares shares = filtered_shares(point);
-    shares.leak = shares.reduction = 0;  // these the reduction decides
-    tried.why_not = why_not_filtered(shares, searched);
-    if (tried.why_not.empty() && !quantity(point, "reduction_min"))
-      tried.why_not = fmt::format(
-          "no lookup.reduction keeps the leak within {} and what it darkens within {}: without one it leaks {}",
-          percent(searched.peter_panning_bound), percent(searched.acne_bound), percent(metric_of(point, "leak")));
-    if (!tried.why_not.empty()) {
-      tried.worst = point;
-      return;
-    }
-    choice.low = std::max(choice.low, metric_of(point, "reduction_min"));
-    choice.high = std::min(choice.high, metric_of(point, "reduction_max"));
+    tried.why_not = why_no_reduction(point, searched);
+    tried.worst = point;
+    if (!tried.why_not.empty()) return;
+    const ReductionChoice window = *window_of(point);
+    choice.low = std::max(choice.low, window.low);
+    choice.high = std::min(choice.high, window.high);
     // The least error in the condition that errs most.
-    if (const double error = metric_of(point, "reduction_best_error"); error > most_error)
-      most_error = error, choice.value = metric_of(point, "reduction_best");
+    if (const double error = metric_of(point, "best_reduction_error"); error > most_error)
+      most_error = error, choice.value = window.value;
   }
   if (choice.low > choice.high) {
     tried.why_not = "no lookup.reduction is usable under every condition";
-    tried.worst = points.front();
     return;
   }
   choice.value = std::clamp(choice.value, choice.low, choice.high);
   choice.value = short_decimal(choice.value, choice.low, choice.high);
   tried.settings.lookup["reduction"] = choice.value;
   tried.reduction = choice;
-  tried.error = 0;
-  for (PointRecord& point : points) {
+  tried.worst.reset();
+  for (const PointRecord& point : points) {
     Settings there = settings_of(point);
     there.lookup["reduction"] = choice.value;
-    if (choice.value != 0) point = bench.measure(there, std::nullopt, metric_set_for(accuracy)).record;
-    const double error = metric_of(point, accuracy);
-    if (!tried.worst || !(error <= tried.error)) tried.error = error, tried.worst = point;
+    PointRecord shown = bench.measure(there, std::nullopt, metric_set_for(accuracy)).record;
+    const double error = worst_placed(shown, placed_accuracy(bench, there, accuracy));
+    tried.why_not = why_not_filtered(filtered_shares(shown), searched);
+    const bool broken = !tried.why_not.empty();
+    if (broken || !tried.worst || !(error <= tried.error)) tried.error = error, tried.worst = std::move(shown);
+    if (broken) return;
   }
 }
 

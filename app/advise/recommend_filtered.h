@@ -33,12 +33,13 @@ void raise(FilteredShares& most, const FilteredShares& other);
 // Which bounds these break, as a clause: "it leaks 0.2%". Empty: none.
 std::string why_not_filtered(const FilteredShares& shares, const CurveOptions& bounds);
 
-// The settings at n x n places of the grid of texels, the first of them `from` of a step off.
+// The settings at n x n places of the grid of texels, the first of them `from` of a step off, each a point that OpenGL renders.
 std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from);
 
-// Chooses the reduction for the points, one for each condition, which are measured with a curve of the bounds of the search, and
-// measures what it gives there: fills Tried::reduction, error and worst, or why_not and worst. Throws Error.
-void judge_reduction(Workbench& bench, Tried& tried, std::vector<PointRecord> points, const CurveOptions& searched,
-                     const std::string& accuracy);
+// Chooses the reduction for the points, one for each condition, which are measured with a curve of the bounds of the search and no
+// reduction, and measures what it gives there: fills Tried::reduction, error and worst, or why_not and worst. With placements
+// the window is that of all of them, and the error the largest. Throws Error.
+void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
+                     const CurveOptions& searched, const std::string& accuracy);
 
 }  // namespace noonmark

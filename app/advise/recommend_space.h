@@ -28,7 +28,7 @@ std::vector<FilterSettings> filters_to_try(LightKind light);
 
 // Placements of a search, along each axis.
 inline constexpr int searched_placements = 8;
-// Of a filtered map: each is measured by itself. 4 x 4 have its error within 0.3% of itself, and its leak within 4%, of 16 x 16.
+// Of a filtered map, where each is measured by itself. 4 x 4 have its error within 0.3% of itself, and its leak within 4%, of 16 x 16.
 inline constexpr int filtered_placements = 4;
 
 // The width of the pictures that are searched on, in pixels: at least least_searched_px, and as much as it takes to judge

@@ -392,12 +392,14 @@ std::vector<std::string> advice_text(const Advice& advice) {
                     100 * fragile_below));
   if (tried.reduction)
     lines.push_back(fmt::format(
-        "lookup.reduction keeps the leak within {} and what it darkens within {} from {:.3g} to {:.3g} under {}, on "
-        "the exact map "
-        "({}). With {:g} the bounds hold under all of them at {} placements of the map's grid.",
+        "lookup.reduction keeps the leak within {} and what it darkens within {} from {:.3g} to {:.3g} under {} and at "
+        "all {} "
+        "placements of the map's grid that were searched, on the exact map. That is {}, because conditions that were "
+        "not searched "
+        "may be a little worse.",
         percent(searched_bounds(advice.request.curve).peter_panning_bound),
         percent(searched_bounds(advice.request.curve).acne_bound), tried.reduction->low, tried.reduction->high,
-        counted(answer.conditions, "condition"), searched_text(), tried.reduction->value, answer.placements));
+        counted(answer.conditions, "condition"), answer.placements, searched_text()));
   lines.push_back(
       fmt::format("Verified under the worst condition at {} other placements{}, {} pixels wide: the worst of them has "
                   "{} and {} error.",

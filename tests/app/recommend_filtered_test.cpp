@@ -32,8 +32,10 @@ AdviceRequest layers(const std::vector<std::string>& lookups, double peter_panni
   return request;
 }
 
+// At all placements that are searched.
 PointRecord shown(Workbench& bench, Settings settings, double reduction) {
   settings.lookup["reduction"] = reduction;
+  settings.map.placements = filtered_placements;
   return bench.measure(settings, std::nullopt).record;
 }
 
@@ -69,11 +71,11 @@ TEST(RecommendFiltered, TriesLookupsThatBoundTheLight) {
     }
 }
 
-// VSM leaks 0.03% and more of what is counted without a reduction, and the bound is 0.02%. The answer's reduction keeps it; with less
+// VSM leaks more than the bound of 0.01% without a reduction. The answer's reduction keeps it; with less
 // than its window the leak is above the searched share, and with more what it darkens is.
 TEST(RecommendFiltered, TheReductionKeepsWhatOthersBreak) {
   Workbench bench(gl::DebugMode::fatal);
-  const AdviceRequest request = layers({"vsm"}, 2e-4);
+  const AdviceRequest request = layers({"vsm"}, 1e-4);
   const Advice advice = search(bench, request, silent);
   ASSERT_NE(advice.answer(), nullptr);
   const Tried& tried = advice.answer()->tried;
@@ -116,16 +118,14 @@ TEST(RecommendFiltered, TheAnswerHoldsAtEachPlacement) {
     EXPECT_EQ(answer.placements, 16);
     EXPECT_EQ(answer.verified.placements, 16);
     EXPECT_EQ(answer.verified.rendered, 16);
-    double searched_error = 0;
-    FilteredShares fresh;
+    FilteredShares searched, fresh;
     for (const double from : {0.0, 0.5})
       for (const Settings& there : placed_on_grid(answer.tried.settings, filtered_placements, from)) {
-        const PointRecord point = bench.measure(there, std::nullopt).record;
-        EXPECT_EQ(why_not_filtered(filtered_shares(point), request.curve), "");
-        if (from == 0) searched_error = std::max(searched_error, metric_of(point, "error"));
-        if (from != 0) raise(fresh, filtered_shares(point));
+        const FilteredShares shares = filtered_shares(bench.measure(there, std::nullopt).record);
+        EXPECT_EQ(why_not_filtered(shares, request.curve), "");
+        raise(from == 0 ? searched : fresh, shares);
       }
-    EXPECT_EQ(answer.tried.error, searched_error);
+    EXPECT_EQ(why_not_filtered(searched, searched_bounds(request.curve)), "");
     EXPECT_EQ(answer.verified.filtered.leak, fresh.leak);
     EXPECT_EQ(answer.verified.filtered.reduction, fresh.reduction);
   }

@@ -78,21 +78,23 @@ for i, (name, (page, *shot), predictions) in enumerate(cases):
     compare(name, folder / str(i), page, model, SHOT + shot, [PREDICTED + settings for settings in predictions], POINTS)
 
 # What a report prints for one point, typed in: blur, exponent and bias are none of the defaults of the engines.
-TYPED = {"three.js": ("three/page.html", [["lookup.kind=three_vsm", "lookup.radius=2.5", "lookup.samples=6", "lookup.reduction=0.3",
-                                           "lookup.reduction_span=0.65", "bias.constant=0.001"]]),
-         "Babylon.js": ("babylon/page.html", [["lookup.kind=babylon_close_esm", "lookup.exponent=80", "bias.constant=0.0007", *box(5)],
-                                              ["lookup.kind=babylon_close_esm", "lookup.exponent=80", "bias.constant=0.0007",
-                                               "filter.kind=gaussian", "filter.size=5", "filter.sigma_texels=0.6666667"],
-                                              ["lookup.kind=babylon_esm", "lookup.exponent=60", "bias.constant=0.03", *box(7)]])}
-for engine, (page, points) in TYPED.items():
+TYPED = [("three.js, the lines of a report, `radius=2.5 blurSamples=6`", "three/page.html",
+          ["lookup.kind=three_vsm", "lookup.radius=2.5", "lookup.samples=6", "lookup.reduction=0.3", "lookup.reduction_span=0.65", "bias.constant=0.001"]),
+         ("Babylon.js, the lines of a report, close, `depthScale=80`, box of 5", "babylon/page.html",
+          ["lookup.kind=babylon_close_esm", "lookup.exponent=80", "bias.constant=0.0007", *box(5)]),
+         ("Babylon.js, the lines of a report, close, `depthScale=80`, Gaussian of 5", "babylon/page.html",
+          ["lookup.kind=babylon_close_esm", "lookup.exponent=80", "bias.constant=0.0007", "filter.kind=gaussian", "filter.size=5",
+           "filter.sigma_texels=0.6666667"]),
+         ("Babylon.js, the lines of a report, `depthScale=60`, box of 7", "babylon/page.html",
+          ["lookup.kind=babylon_esm", "lookup.exponent=60", "bias.constant=0.03", *box(7)])]
+for i, (name, page, settings) in enumerate(TYPED):
     if missing(page):
         continue
-    for i, settings in enumerate(points):
-        out = folder / f"typed-{page.split('/')[0]}-{i}"
-        out.mkdir()
-        settings = PREDICTED + [f"map.extent_m={EXTENT}"] + settings
-        (out / "typed.toml").write_text('scene = "cube-room"\n')
-        found(run(program, "run", out / "typed.toml", "--out", out / "run", *sets(settings)), "run")
-        (out / "lines.txt").write_text(lines_of(out / "run/report.html", engine))
-        compare(f"{engine}, the lines of a report, {settings[-1]}", out / "frame", page, model, [*VIEW, f"lines={out / 'lines.txt'}"], [settings], POINTS)
+    out = folder / f"typed-{i}"
+    out.mkdir()
+    settings = PREDICTED + [f"map.extent_m={EXTENT}"] + settings
+    (out / "typed.toml").write_text('scene = "cube-room"\n')
+    found(run(program, "run", out / "typed.toml", "--out", out / "run", *sets(settings)), "run")
+    (out / "lines.txt").write_text(lines_of(out / "run/report.html", name.split(",")[0]))
+    compare(name, out / "frame", page, model, [*VIEW, f"lines={out / 'lines.txt'}"], [settings], POINTS)
 end()
