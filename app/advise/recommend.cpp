@@ -204,7 +204,8 @@ class Search {
       }
       screening_.see(record);
       tried.why_not = why_not_covered(record, tried);
-      const bool fails = !candidate.holds() || (record.curve && !usable_window(*record.curve));
+      const bool fails = !candidate.holds() || (record.curve && !usable_window(*record.curve)) ||
+                         (tried.filtered() && !why_no_reduction(record, searched_).empty());
       of_condition.emplace(which, std::move(record));
       if (!fails) continue;
       hardest_ = which;

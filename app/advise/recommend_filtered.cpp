@@ -121,7 +121,8 @@ std::optional<ReductionChoice> window_of(const PointRecord& point) {
   return ReductionChoice{metric_of(point, "best_reduction"), *low, *high};
 }
 
-// What no reduction can mend; and that none keeps both bounds.
+}  // namespace
+
 std::string why_no_reduction(const PointRecord& point, const CurveOptions& searched) {
   FilteredShares shares = filtered_shares(point);
   const double leak = shares.leak;
@@ -132,8 +133,6 @@ std::string why_no_reduction(const PointRecord& point, const CurveOptions& searc
       "no lookup.reduction keeps the leak within {} and what it darkens within {}: without one it leaks {}",
       percent(searched.peter_panning_bound), percent(searched.acne_bound), percent(leak));
 }
-
-}  // namespace
 
 void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
                      const CurveOptions& searched, const std::string& accuracy) {

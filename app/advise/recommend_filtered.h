@@ -36,6 +36,10 @@ std::string why_not_filtered(const FilteredShares& shares, const CurveOptions& b
 // The settings at n x n places of the grid of texels, the first of them `from` of a step off, each a point that OpenGL renders.
 std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from);
 
+// Of a point that is measured with a curve of these bounds and no reduction: what no reduction can mend, or that none keeps both
+// bounds. Empty: one does.
+std::string why_no_reduction(const PointRecord& point, const CurveOptions& searched);
+
 // Chooses the reduction for the points, one for each condition, which are measured with a curve of the bounds of the search and no
 // reduction, and measures what it gives there: fills Tried::reduction, error and worst, or why_not and worst. With placements
 // the window is that of all of them, and the error the largest. Throws Error.
