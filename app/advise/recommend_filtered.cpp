@@ -8,6 +8,7 @@
 
 #include "app/advise/recommend_judge.h"
 #include "compare/judge/recommendation.h"
+#include "compare/ladder/reduction_window.h"
 #include "compare/results/quantities.h"
 #include "technique/filters.h"
 #include "technique/lookups.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/ladder/reduction_window.h"
 #include "compare/results/quantities.h"
 #include "technique/lookups.h"
 #include "technique/setting_rules.h"
