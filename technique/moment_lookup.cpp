@@ -40,7 +40,8 @@ MomentLookup::MomentLookup(const Settings& settings)
   if (!kind_->reads_moments()) throw std::logic_error("MomentLookup: the lookup compares depths");
   bare_ = exact_;
   bare_.v_min = bare_.floor = bare_.moment_bias = 0;
-  if (span_ == 0) span_ = 1 - reduction_;
+  given_span_ = span_ != 0;
+  if (!given_span_) span_ = 1 - reduction_;
   if (kind_->spread) {
     spread_ = spread_blur(settings.lookup);
     kernel_ = spread_->kernel_u;
@@ -90,8 +91,11 @@ double MomentLookup::bare(const Spread& fetched, double receiver) const {
 
 double MomentLookup::reduced(double lit) const { return std::clamp((lit - reduction_) / span_, 0.0, 1.0); }
 
+// With the span 1 - r of the rounded r: then what is lit stays exactly 1.
 float MomentLookup::reduced(float lit) const {
-  return std::clamp((lit - static_cast<float>(reduction_)) / static_cast<float>(span_), 0.0f, 1.0f);
+  const auto reduction = static_cast<float>(reduction_);
+  const float span = given_span_ ? static_cast<float>(span_) : 1 - reduction;
+  return std::clamp((lit - reduction) / span, 0.0f, 1.0f);
 }
 
 }  // namespace noonmark

@@ -60,6 +60,7 @@ class MomentLookup {
   in_float::LookupParameters parameters_;
   in_extended::LookupParameters exact_, bare_;
   double reduction_, span_;
+  bool given_span_ = false;  // otherwise it is 1 - r
   std::vector<double> kernel_;
   std::optional<SpreadBlur> spread_;
 };

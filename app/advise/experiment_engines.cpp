@@ -6,7 +6,6 @@
 #include "app/advise/engines/engine_settings.h"
 #include "app/advise/recommend_text.h"
 #include "technique/light_frame.h"
-#include "technique/lookups.h"
 
 namespace noonmark {
 
@@ -30,7 +29,6 @@ std::string experiment_engines(Workbench& bench, const Experiment& experiment, s
   if (!one_choice) return "";
   const double farthest_m = farthest_in_views_m(bench, points);
   const Settings& first = points.front();
-  if (reads_moments(first)) return "";  // the lines of engines are of lookups that compare depths
   const Scene& scene = bench.scene(first.scene);
   return advice_engines(engine_advice(first, make_light_frame(scene, first), scene, farthest_m));
 }

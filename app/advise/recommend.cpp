@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "app/advise/recommend_filtered.h"
 #include "app/advise/recommend_judge.h"
 #include "app/advise/recommend_screening.h"
 #include "app/advise/recommend_verify.h"
@@ -16,6 +17,7 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/results/quantities.h"
 #include "technique/light_frame.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 
@@ -30,6 +32,10 @@ std::string answer_name(AnswerKind kind) {
   }
   return "best";
 }
+
+bool Tried::filtered() const { return reads_moments(settings); }
+
+int placements_along(const Tried& tried) { return tried.filtered() ? filtered_placements : searched_placements; }
 
 bool is_fragile(const BiasChoice& bias) {
   return bias.window.low > (1 - fragile_below) * bias.value || bias.window.high < (1 + fragile_below) * bias.value;
@@ -64,8 +70,8 @@ class Search {
     else
       take_narrow(advice);
     take_the_others(advice);
-    if (const Answer* answer = advice.answer();
-        !request_.levels.empty() && (!answer || answer->tried.level != request_.levels.front().name))
+    if (const Answer* answer = advice.answer(); !request_.levels.empty() && !request_.levels.front().filtered() &&
+                                                (!answer || answer->tried.level != request_.levels.front().name))
       advice.least_resolution = least_resolution();
     if (!advice.answer()) advice.nearest = look_at_nearest(advice.tried);
     advice.shadowed = screening_.shadowed();
@@ -158,6 +164,7 @@ class Search {
     for (const Candidate& other : candidates())
       if (other.tried.eye && !other.holds() && other.tried.place == tried.place &&
           other.tried.settings.filter == tried.settings.filter &&
+          other.tried.settings.lookup == tried.settings.lookup &&
           other.tried.settings.map.resolution >= tried.settings.map.resolution &&
           other.tried.eye->edge_p95_pixels > most_edges(request_)) {
         tried.why_not = fmt::format("its shadow edges are no nearer to the true ones than those of {}",
@@ -180,7 +187,8 @@ class Search {
       return;
     }
     say_(fmt::format("confirming {}, under {} at {} placements", name_of(tried, request_),
-                     counted(request_.conditions.size(), "condition"), searched_placements * searched_placements));
+                     counted(request_.conditions.size(), "condition"),
+                     placements_along(tried) * placements_along(tried)));
     // The condition that refuted the one before comes first, because it probably refutes this one too.
     std::map<size_t, PointRecord> of_condition;
     for (size_t i = 0; i < request_.conditions.size(); ++i) {
@@ -188,7 +196,7 @@ class Search {
       Settings there = small_picture(screening_.of_choice(request_.conditions[which], candidate.level, tried.place,
                                                           tried.settings.filter, tried.settings.map.resolution),
                                      request_.width_px);
-      there.map.placements = searched_placements;
+      there.map.placements = placements_along(tried);
       PointRecord record = bench_.measure(there, searched_, metric_set_for(request_.accuracy)).record;
       if (nothing_judged(record)) {
         say_("a view in which nothing can be judged is left out");
@@ -196,7 +204,8 @@ class Search {
       }
       screening_.see(record);
       tried.why_not = why_not_covered(record, tried);
-      const bool fails = !candidate.holds() || (record.curve && !usable_window(*record.curve));
+      const bool fails = !candidate.holds() || (record.curve && !usable_window(*record.curve)) ||
+                         (tried.filtered() && !why_no_reduction(record, searched_).empty());
       of_condition.emplace(which, std::move(record));
       if (!fails) continue;
       hardest_ = which;
@@ -206,11 +215,14 @@ class Search {
     std::vector<PointRecord> points;
     for (auto& [which, record] : of_condition) points.push_back(std::move(record));
     candidate.conditions = points.size();
-    judge_bias(bench_, tried, std::move(points), searched_, request_.accuracy);
+    if (tried.filtered())
+      judge_reduction(bench_, tried, points, searched_, request_.accuracy);
+    else
+      judge_bias(bench_, tried, std::move(points), searched_, request_.accuracy);
     if (!candidate.holds()) return;
     tried.why_not = why_too_wrong(tried, request_);
     if (!candidate.holds()) return;
-    candidate.narrow = tried.bias->narrow;
+    candidate.narrow = tried.bias && tried.bias->narrow;
     if (candidate.narrow)
       tried.why_not =
           fmt::format("its window, {:.3g} to {:.3g} {}, is too narrow for a margin of {:.0f}% on both sides",
@@ -229,7 +241,8 @@ class Search {
 
   void verify(Candidate& candidate, bool by_rendering) {
     Tried& tried = candidate.tried;
-    say_(fmt::format("verifying {} at 64 other placements", name_of(tried, request_)));
+    say_(fmt::format("verifying {} at {} other placements", name_of(tried, request_),
+                     placements_along(tried) * placements_along(tried)));
     const Settings settings = settings_of(*tried.worst);
     candidate.verified = verify_at_fresh_placements(bench_, settings, request_.curve, request_.accuracy, request_.error,
                                                     by_rendering ? rendered_placements : 0, [&](int done, int of) {
@@ -238,6 +251,14 @@ class Search {
                                                     });
     const std::optional<PointRecord>& broken = candidate.verified->broken;
     if (!broken) return;
+    if (tried.filtered()) {
+      const std::string cause = why_not_filtered(filtered_shares(*broken), request_.curve);
+      tried.why_not = fmt::format(
+          "at another placement of the grid {}",
+          cause.empty() ? fmt::format("its error is {:.3g}%", 100 * worst_placed(*broken, request_.accuracy)) : cause);
+      tried.worst = broken;
+      return;
+    }
     tried.why_not =
         fmt::format("at another placement of the grid it has {:.3g}% acne, {:.3g}% Peter Panning and {:.3g}% error",
                     100 * worst_placed(*broken, "acne"), 100 * worst_placed(*broken, "peter_panning"),
@@ -265,7 +286,7 @@ class Search {
     answer.tried = one.tried;
     answer.doubled_cost = screening_.cost_at(one, 2 * one.tried.settings.map.resolution);
     answer.conditions = one.conditions;
-    answer.placements = searched_placements * searched_placements;
+    answer.placements = placements_along(one.tried) * placements_along(one.tried);
     if (const LightFrame frame = make_light_frame(bench_.scene(one.tried.settings.scene), one.tried.settings);
         frame.kind == LightKind::directional && one.tried.settings.cascades.count == 1)
       answer.extent_m = frame.extent_m;
@@ -322,7 +343,7 @@ class Search {
   // Of those with a window the one of least error, otherwise the one that leaves least, of several the cheapest.
   std::optional<Tried> look_at_nearest(const std::vector<Tried>& all) {
     const auto distance = [&](const Tried& tried) {
-      if (tried.bias) return std::pair(0, tried.error);
+      if (tried.usable()) return std::pair(0, tried.error);
       if (!tried.nearest) return std::pair(2, 0.0);
       return std::pair(1, excess(*tried.nearest, searched_));
     };
@@ -364,9 +385,9 @@ std::vector<Settings> under_conditions(const Tried& tried, const AdviceRequest& 
   for (const Settings& condition : request.conditions) {
     Settings there = small_picture(condition, request.width_px);
     request.places[tried.place].apply(there);
-    there.bias = chosen.bias, there.filter = chosen.filter;
+    there.bias = chosen.bias, there.filter = chosen.filter, there.lookup = chosen.lookup;
     there.map.resolution = chosen.map.resolution, there.map.cull = chosen.map.cull;
-    there.map.placements = searched_placements;
+    there.map.placements = placements_along(tried);
     all.push_back(std::move(there));
   }
   return all;

@@ -17,6 +17,8 @@
 // 3. Between the cheapest resolution that holds and its half, one more is tried: its half times the root of 2.
 // 4. Verification at 64 other placements (app/advise/recommend_verify.h). OpenGL renders the answer that was asked for at some of
 //    them; otherwise the exact map is judged.
+// A filtered map, if one is asked for, is chosen by its lookup.reduction in place of a bias, and placed at 4 x 4 places
+// (app/advise/recommend_filtered.h).
 // Screening and confirmation ask for a share of the bounds on acne and Peter Panning (searched_bounds), because other views than
 // the searched ones are a little worse.
 #pragma once
@@ -44,16 +46,22 @@ std::string answer_name(AnswerKind kind);  // "least"
 
 struct Tried;
 
+// Of a filtered map: the lookup.reduction that was chosen, and from where to where it keeps the bounds of the search under every
+// condition, at every placement that was searched.
+struct ReductionChoice {
+  double value = 0, low = 0, high = 0;
+};
+
 struct AdviceRequest {
   std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only
   LightKind light = LightKind::directional;
-  std::vector<MapPlace> places;   // of the map; at least the settings' own
-  std::vector<BiasLevel> levels;  // empty: the bias as the conditions give it
-  std::vector<FilterSettings> filters;
-  std::vector<int> resolutions;  // ascending
-  bool between = false;          // whether a resolution between two of them may be the answer
-  CurveOptions curve;            // the bounds on acne and Peter Panning
-  std::vector<Bound> eye;        // further bounds, judged at the first condition in full size
+  std::vector<MapPlace> places;         // of the map; at least the settings' own
+  std::vector<BiasLevel> levels;        // empty: the bias as the conditions give it
+  std::vector<FilterSettings> filters;  // of levels that compare
+  std::vector<int> resolutions;         // ascending
+  bool between = false;                 // whether a resolution between two of them may be the answer
+  CurveOptions curve;                   // the bounds on acne and Peter Panning
+  std::vector<Bound> eye;               // further bounds, judged at the first condition in full size
   std::string accuracy = "error_soft";
   std::optional<double> error;   // the most of `accuracy`
   std::optional<double> budget;  // the most texel_work; empty: budget_of_least times that of `least`
@@ -70,17 +78,24 @@ struct AdviceRequest {
 struct Tried {
   Settings settings;  // of full size, with the bias that was chosen
   std::string level;
-  size_t place = 0;                  // in AdviceRequest::places
-  double cost = 0;                   // texel_work of a picture with the size that the settings give
-  double screened_error = 0;         // accuracy under the first condition, by which answers are compared
-  double error = 0;                  // accuracy, largest over the conditions that were measured
-  std::optional<BiasChoice> bias;    // empty: no usable bias
-  std::string why_not;               // why it is not the answer; empty for the answer
-  std::optional<PointRecord> worst;  // where it failed, or the worst condition of the answer
+  size_t place = 0;                          // in AdviceRequest::places
+  double cost = 0;                           // texel_work of a picture with the size that the settings give
+  double screened_error = 0;                 // accuracy under the first condition, by which answers are compared
+  double error = 0;                          // accuracy, largest over the conditions that were measured
+  std::optional<BiasChoice> bias;            // empty: no usable bias, or a filtered map
+  std::optional<ReductionChoice> reduction;  // of a filtered map; empty: none is usable
+  std::string why_not;                       // why it is not the answer; empty for the answer
+  std::optional<PointRecord> worst;          // where it failed, or the worst condition of the answer
   // Without a usable bias: what comes nearest in the condition that failed.
   std::optional<NearestBias> nearest;
   std::optional<EyeErrors> eye;  // at the given view, in full size; empty: not looked at
+
+  bool filtered() const;                             // a lookup that reads moments
+  bool usable() const { return bias || reduction; }  // it keeps the bounds on causes with some bias or reduction
 };
+
+// At how many placements these settings are searched, along each axis.
+int placements_along(const Tried& tried);
 
 // An answer may not be sensitive to its bias: one that may vary by less than this share, up or down, is fragile.
 inline constexpr double fragile_below = 0.25;

@@ -8,11 +8,11 @@
 #include <optional>
 #include <string_view>
 
+#include "app/advise/recommend_judge.h"
 #include "base/error.h"
 #include "compare/results/quantities.h"
 #include "measure/memory_estimate.h"
 #include "technique/light_frame.h"
-#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -126,13 +126,6 @@ double spread(const TornadoRow& row, double error) {
   for (const TornadoEnd* end : {&row.half, &row.twice})
     if (end->why_not.empty()) most = std::max(most, std::abs(end->error - error));
   return most;
-}
-
-// error_soft of a light without a size is the error, which is measured at every placement.
-std::string placed_accuracy(Workbench& bench, const Settings& settings, const std::string& accuracy) {
-  if (accuracy != "error_soft") return accuracy;
-  const LightKind light = make_light_frame(bench.scene(settings.scene), settings).kind;
-  return setting_rules::without_size_of_light(settings, light).empty() ? accuracy : "error";
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ constexpr std::string_view relied_groups[] = {"scene.", "view.", "light.", "map.
 
 // Whether an answer depends on a setting also where it has its default: so that another default of a later version changes no
 // answer that was written. Parts of a bias that are not there, motion and frames of others are no part of it.
-bool relies_on(std::string_view setting) {
+bool relies_on(std::string_view setting, bool filtered) {
+  if (filtered && setting.starts_with("lookup.")) return true;
   if (setting == "bias.unit" || setting == "bias.reference") return true;
   return setting == "filter.kind" || std::any_of(std::begin(relied_groups), std::end(relied_groups),
                                                  [&](std::string_view group) { return setting.starts_with(group); });
@@ -67,7 +68,8 @@ std::string advice_experiment(const Answer& chosen, const Advice& advice, const 
             std::find(values.begin(), values.end(), one) == values.end())
           values.push_back(one);
       over += fmt::format("{} = [{}]\n", name, fmt::join(values, ", "));
-    } else if (name != "scene.name" && acts(row) && (value != row.get(Settings()) || relies_on(name))) {
+    } else if (name != "scene.name" && acts(row) &&
+               (value != row.get(Settings()) || relies_on(name, answer.filtered()))) {
       if (name.substr(0, dot) != group) text += fmt::format("\n[{}]\n", group = name.substr(0, dot));
       text += fmt::format("{} = {}\n", name.substr(dot + 1), toml_value(row, value));
     }
@@ -75,8 +77,12 @@ std::string advice_experiment(const Answer& chosen, const Advice& advice, const 
   if (!over.empty()) text += "\n[over]\n" + over;
   text += fmt::format("\n[curve]\nacne_bound = {}\npeter_panning_bound = {}\n", advice.request.curve.acne_bound,
                       advice.request.curve.peter_panning_bound);
-  for (const auto& [metric, max] : {std::pair("acne", advice.request.curve.acne_bound),
-                                    std::pair("peter_panning", advice.request.curve.peter_panning_bound)})
+  const double dark = advice.request.curve.acne_bound, light = advice.request.curve.peter_panning_bound;
+  using Kept = std::vector<std::pair<const char*, double>>;
+  for (const auto& [metric, max] :
+       answer.filtered()
+           ? Kept{{"over_darkening", dark}, {"reduction", dark}, {"leak", light}, {"peter_panning", light}}
+           : Kept{{"acne", dark}, {"peter_panning", light}})
     text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", metric, max);
   if (advice.request.error)
     text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", advice.request.accuracy, *advice.request.error);

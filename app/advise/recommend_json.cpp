@@ -61,6 +61,12 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
                      {"to", tried.bias->window.high},      {"narrow", tried.bias->narrow},
                      {"fragile", is_fragile(*tried.bias)}};
     }
+    if (tried.reduction) {
+      one["error"] = tried.error;
+      one["screened_error"] = tried.screened_error;
+      one["reduction"] = {
+          {"value", tried.reduction->value}, {"from", tried.reduction->low}, {"to", tried.reduction->high}};
+    }
     if (tried.eye)
       one["eye"] = {{"edge_displacement_mean_pixels", tried.eye->edge_mean_pixels},
                     {edge_metric, tried.eye->edge_p95_pixels},
@@ -84,6 +90,12 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
         {"placements", answer.verified.placements},  {"rendered_placements", answer.verified.rendered},
         {"worst_acne", answer.verified.worst_acne},  {"worst_peter_panning", answer.verified.worst_peter_panning},
         {"worst_error", answer.verified.worst_error}};
+    if (answer.tried.filtered()) {
+      const FilteredShares& worst = answer.verified.filtered;
+      one["verified"]["worst_leak"] = worst.leak;
+      one["verified"]["worst_over_darkening"] = worst.over_darkening;
+      one["verified"]["worst_reduction"] = worst.reduction;
+    }
     for (AnswerKind kind : answer.kinds) all["answers"][answer_name(kind)] = one;
     if (&answer == advice.answer()) all["answer"] = one, all["answer"]["kind"] = answer_name(advice.request.answer);
   }

@@ -7,6 +7,8 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
 #include "compare/results/quantities.h"
+#include "technique/light_frame.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -41,6 +43,12 @@ Settings settings_of(const PointRecord& point) {
   Settings settings;
   for (const Setting& row : settings_table()) row.set(settings, setting_of(point, std::string(row.name)));
   return settings;
+}
+
+std::string placed_accuracy(Workbench& bench, const Settings& settings, const std::string& accuracy) {
+  if (accuracy != "error_soft") return accuracy;
+  const LightKind light = make_light_frame(bench.scene(settings.scene), settings).kind;
+  return setting_rules::without_size_of_light(settings, light).empty() ? accuracy : "error";
 }
 
 void judge_bias(Workbench& bench, Tried& tried, std::vector<PointRecord> points, const CurveOptions& searched,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "app/advise/recommend_filtered.h"
 #include "app/advise/recommend_judge.h"
 #include "base/error.h"
 #include "compare/results/quantities.h"
@@ -20,7 +21,15 @@ std::string name_of(const Tried& tried, const AdviceRequest& request) {
                      tried.settings.cascades.count > 1 ? fmt::format(" in {} cascades", tried.settings.cascades.count)
                      : place.moves_with                ? " over " + place.covers
                                                        : "",
-                     filter.kind, filter.kind == "castano" ? fmt::format(" {}", filter.whole("size")) : "");
+                     filter.kind,
+                     filter.kind == "castano" || (tried.filtered() && filter.kind != "none")
+                         ? fmt::format(" {}", filter.whole("size"))
+                         : "");
+}
+
+const std::vector<FilterSettings>& filters_of(const AdviceRequest& request, size_t level) {
+  return level < request.levels.size() && request.levels[level].filtered() ? request.levels[level].blurs
+                                                                           : request.filters;
 }
 
 Settings Screening::of_choice(Settings settings, size_t level, size_t place, const FilterSettings& filter,
@@ -38,7 +47,7 @@ void Screening::run() {
   for (int resolution : request_.resolutions) {
     for (size_t level = 0; level < std::max<size_t>(1, request_.levels.size()); ++level)
       for (size_t place = 0; place < request_.places.size(); ++place)
-        for (const FilterSettings& filter : request_.filters) {
+        for (const FilterSettings& filter : filters_of(request_, level)) {
           const Choice choice{level, place, filter, resolution};
           if (!known(choice) && worth_measuring(choice)) measure(choice);
         }
@@ -71,6 +80,10 @@ const Candidate* Screening::known(const Choice& choice) const {
   });
 }
 
+bool Screening::is_filtered(const Choice& choice) const {
+  return !request_.levels.empty() && request_.levels[choice.level].filtered();
+}
+
 double Screening::cost_of(const Choice& choice) const {
   return full_texel_work(
       of_choice(request_.conditions.front(), choice.level, choice.place, choice.filter, choice.resolution), *seen_);
@@ -92,7 +105,7 @@ double Screening::most_cost() const {
 bool Screening::worth_measuring(const Choice& choice) const {
   if (!seen_) return true;
   if (cost_of(choice) > most_cost() || fails_for_good(choice) || lesser_filter_has_no_window(choice)) return false;
-  if (choice.level > 0 && !another_bias_can_pay(choice)) return false;
+  if (choice.level > 0 && !is_filtered(choice) && !another_bias_can_pay(choice)) return false;
   return !cannot_win(choice);
 }
 
@@ -127,7 +140,7 @@ bool Screening::another_bias_can_pay(const Choice& choice) const {
 // A kernel that reaches further needs more bias, so where a lesser one has no window, this one has none. The filters come in
 // the order of their reach.
 bool Screening::lesser_filter_has_no_window(const Choice& choice) const {
-  for (const FilterSettings& lesser : request_.filters) {
+  for (const FilterSettings& lesser : filters_of(request_, choice.level)) {
     if (lesser == choice.filter) return false;
     const Candidate* one = known({choice.level, choice.place, lesser, choice.resolution});
     if (one && one->tried.nearest) return true;
@@ -138,10 +151,10 @@ bool Screening::lesser_filter_has_no_window(const Choice& choice) const {
 // Once more blur is worse, still more is worse too. And a filter brings edges at most half as near again.
 bool Screening::more_blur_is_worse(const Choice& choice) const {
   double before = std::numeric_limits<double>::infinity();
-  for (const FilterSettings& lesser : request_.filters) {
+  for (const FilterSettings& lesser : filters_of(request_, choice.level)) {
     if (lesser == choice.filter) return false;
     const Candidate* one = known({choice.level, choice.place, lesser, choice.resolution});
-    if (!one || !one->tried.bias) continue;
+    if (!one || !one->tried.usable()) continue;
     if (one->tried.screened_error > before || one->edges_mean_pixels > 2 * most_edges(request_)) return true;
     before = one->tried.screened_error;
   }
@@ -153,7 +166,7 @@ bool Screening::more_blur_is_worse(const Choice& choice) const {
 bool Screening::finer_is_not_better(const Choice& choice) const {
   const Candidate* coarser = nullptr;
   for (const Candidate& one : candidates_)
-    if (one.level == choice.level && one.tried.place == choice.place && one.tried.bias &&
+    if (one.level == choice.level && one.tried.place == choice.place && one.tried.usable() &&
         one.tried.settings.map.resolution < choice.resolution && one.tried.settings.filter == choice.filter &&
         (!coarser || one.tried.settings.map.resolution > coarser->tried.settings.map.resolution))
       coarser = &one;
@@ -212,9 +225,12 @@ void Screening::measure(const Choice& choice) {
       throw Error(ErrorKind::usage, "nothing of the scene that faces the light is in view; choose another view");
     if (!seen_) seen_ = seen_share(record);
     see(record);
-    judge_bias(bench_, tried, {record}, searched_, request_.accuracy);
+    if (tried.filtered())
+      judge_reduction(bench_, tried, {record}, searched_, request_.accuracy);
+    else
+      judge_bias(bench_, tried, {record}, searched_, request_.accuracy);
     tried.screened_error = tried.error;
-    if (tried.bias) {
+    if (tried.usable()) {
       tried.why_not = why_too_wrong(tried, request_);
       judge_edges(made);
     }

@@ -69,6 +69,7 @@ class Screening {
   const Candidate* known(const Choice& choice) const;
   template <typename Is>
   const Candidate* find(const Is& is) const;
+  bool is_filtered(const Choice& choice) const;
   double cost_of(const Choice& choice) const;
   double most_cost() const;
   bool worth_measuring(const Choice& choice) const;
@@ -93,6 +94,9 @@ class Screening {
 
 // For people: "one constant bias, 512 texels, filter none".
 std::string name_of(const Tried& tried, const AdviceRequest& request);
+
+// What a level can be combined with: the filters, or its own blurs.
+const std::vector<FilterSettings>& filters_of(const AdviceRequest& request, size_t level);
 
 // The bound on how far 95% of the edges may lie off, in pixels; infinite without one.
 double most_edges(const AdviceRequest& request);

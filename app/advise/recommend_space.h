@@ -11,10 +11,14 @@
 
 namespace noonmark {
 
-// A kind of bias, from the least to the most complicated.
+// A kind of bias, from the least to the most complicated; or a lookup in a filtered map with its bias
+// (app/advise/recommend_filtered.h), which comes after all that compare.
 struct BiasLevel {
-  std::string name;  // "one constant bias"
-  std::function<void(Settings&)> apply;
+  std::string name;                        // "one constant bias"
+  std::function<void(Settings&)> apply;    // the settings have their filter already
+  std::string lookup = "compare";          // lookup.kind
+  std::vector<FilterSettings> blurs = {};  // of a filtered map, in the order of their reach
+  bool filtered() const { return !blurs.empty(); }
 };
 
 std::vector<BiasLevel> bias_levels();
@@ -24,6 +28,8 @@ std::vector<FilterSettings> filters_to_try(LightKind light);
 
 // Placements of a search, along each axis.
 inline constexpr int searched_placements = 8;
+// Of a filtered map, where each is measured by itself. 4 x 4 have its error within 0.3% of itself, and its leak within 4%, of 16 x 16.
+inline constexpr int filtered_placements = 4;
 
 // The width of the pictures that are searched on, in pixels: at least least_searched_px, and as much as it takes to judge
 // enough_receivers, but not more than the settings' own. So the default bound of 0.1% is 12 pixels, and not 2.

@@ -23,6 +23,19 @@ std::string filter_text(const FilterSettings& filter) {
   return fmt::format("the filter {}", filter.kind);
 }
 
+// "VSM with a box of 5 texels"
+std::string lookup_text(const Settings& settings) {
+  std::string name = settings.lookup.kind;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; });
+  if (name == "MSM_HAUSDORFF") name = "MSM (lookup.kind = msm_hausdorff)";
+  std::string text = settings.filter.kind == "none" ? name + " without a blur"
+                                                    : fmt::format("{} with a {} of {} texels", name,
+                                                                  settings.filter.kind, settings.filter.whole("size"));
+  if (settings.lookup.kind.starts_with("evsm")) text += fmt::format(", lookup.floor = {:g}", settings.lookup["floor"]);
+  return text;
+}
+
 // "19.5 mm", "1.2 m"
 std::string length_text(double metres) {
   return metres < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
@@ -46,13 +59,16 @@ std::string settings_text(const Tried& tried, const AdviceRequest& request, doub
   if (extent_m > 0)
     text += fmt::format("{} ({} a texel)", place.covers.empty() ? fmt::format(", {:.4g} m wide", extent_m) : "",
                         length_text(extent_m / tried.settings.map.resolution));
-  text += fmt::format(", {}", filter_text(tried.settings.filter));
+  text += fmt::format(", {}", tried.filtered() ? lookup_text(tried.settings) : filter_text(tried.settings.filter));
   if (tried.settings.bias.reference != "own_depth")
     text += fmt::format(", bias.reference = {}", tried.settings.bias.reference);
   if (const double offset = tried.settings.bias["normal_offset_axes"]; offset > 0)
     text += fmt::format(", bias.normal_offset_axes = {:g} texels", offset);
   if (tried.settings.map.cull != MapSettings().cull)
     text += fmt::format(", map.cull = {}", find_setting("map.cull").get(tried.settings));
+  if (const double tan = tried.settings.bias["tan"]; tried.filtered() && tan > 0)
+    text += fmt::format(", bias.tan = {:g} texels", tan);
+  if (tried.reduction) text += fmt::format(", and lookup.reduction = {:g}", tried.reduction->value);
   if (tried.bias) text += fmt::format(", and {} = {:g} {}", tried.bias->parameter, tried.bias->value, tried.bias->unit);
   return text;
 }
@@ -79,6 +95,20 @@ std::string glossed_bounds_text(const CurveOptions& bounds) {
   return fmt::format(
       "acne (a surface shadows itself) within {} and Peter Panning (a shadow leaves its object) within {}",
       percent(bounds.acne_bound), percent(bounds.peter_panning_bound));
+}
+
+// What the two bounds are about in a filtered map.
+std::string filtered_bounds_text(const CurveOptions& bounds) {
+  return fmt::format(
+      "A filtered map has no acne. It keeps its leak (light where shadows overlap) and its Peter Panning each within "
+      "{}, and its "
+      "over-darkening and what its reduction darkens each within {}.",
+      percent(bounds.peter_panning_bound), percent(bounds.acne_bound));
+}
+
+std::string shares_text(const FilteredShares& shares) {
+  return fmt::format("{} leak, {} Peter Panning, {} over-darkening, {} darkened by the reduction", percent(shares.leak),
+                     percent(shares.peter_panning), percent(shares.over_darkening), percent(shares.reduction));
 }
 
 std::string eye_bounds_text(const AdviceRequest& request) {
@@ -142,7 +172,7 @@ std::string condition_text(const PointRecord& point, const AdviceRequest& reques
 std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   const AdviceRequest& request = advice.request;
   std::vector<std::string> lines;
-  if (nearest.bias && request.error) {
+  if (nearest.usable() && request.error) {
     const int times = *request.error > 0 ? static_cast<int>(std::ceil(nearest.error / *request.error)) : 0;
     if (times == 0)
       lines.push_back("A map of texels cannot have an error of 0%: allow a larger --error.");
@@ -151,7 +181,7 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
           "A larger --error: {} holds with these settings. Or finer texels: errors fall as their width on average (law "
           "5), so some {} texels, or an extent {} times smaller.",
           percent(nearest.error), times * nearest.settings.map.resolution, times));
-  } else if (nearest.bias && nearest.eye) {
+  } else if (nearest.usable() && nearest.eye) {
     lines.push_back(fmt::format(
         "Larger bounds for the eye: --edges {:.3g} --patch {} on these settings. Or finer texels: edges come "
         "nearer to the true ones as texels do (law 5).",
@@ -167,12 +197,12 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   }
   if (advice.least_resolution)
     lines.push_back(constant_text(*advice.least_resolution));
-  else if (!nearest.bias)
+  else if (!nearest.usable())
     lines.push_back(
         fmt::format("Finer texels: a resolution above {}, or a smaller extent.", advice.request.resolutions.back()));
   if (request.levels.empty())
     lines.push_back("Another kind of bias: the experiment gives one; without it all kinds are tried.");
-  if (!nearest.bias)
+  if (!nearest.usable())
     lines.push_back(
         "Or the mesh: parts that are closed, and that stand further apart than the bias that its slopes need.");
   return lines;
@@ -209,15 +239,18 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
     for (const Tried& tried : advice.tried) {
       if (tried.level != level.name) continue;
       finest = std::max(finest, tried.settings.map.resolution);
-      any_window = any_window || tried.bias;
+      any_window = any_window || tried.usable();
     }
-    if (finest && !any_window)
+    if (finest && !any_window && level.filtered())
+      lines.push_back(fmt::format("With {} no lookup.reduction up to {} texels keeps the bounds under all conditions.",
+                                  level.name, finest));
+    else if (finest && !any_window)
       lines.push_back(fmt::format("With {} nothing up to {} texels keeps {} under all conditions{}.", level.name,
                                   finest, searched_text(),
                                   finest < advice.request.resolutions.back() ? ", and finer ones could not win" : ""));
     else if (finest)
       for (const Tried& tried : advice.tried)
-        if (tried.level == level.name && tried.bias) {
+        if (tried.level == level.name && tried.usable()) {
           lines.push_back(fmt::format("With {} the first that keeps the bounds is {}; {}.", level.name,
                                       settings_text(tried, advice.request), tried.why_not));
           break;
@@ -251,7 +284,10 @@ std::vector<std::string> answers_table(const Advice& advice) {
     rows.push_back(
         {kinds_text(answer), million(tried.cost), percent(tried.error),
          tried.eye ? fmt::format("{:.2f} and {:.3g}", tried.eye->edge_mean_pixels, tried.eye->edge_p95_pixels) : "-",
-         tried.eye ? percent(tried.eye->wrong_patch) : "-", tried.bias ? may_vary(*tried.bias) : "-",
+         tried.eye ? percent(tried.eye->wrong_patch) : "-",
+         tried.bias        ? may_vary(*tried.bias)
+         : tried.reduction ? fmt::format("reduction {:.3g} to {:.3g}", tried.reduction->low, tried.reduction->high)
+                           : "-",
          settings_text(tried, advice.request)});
   }
   std::vector<size_t> widths(rows.front().size());
@@ -269,12 +305,17 @@ std::vector<std::string> answers_table(const Advice& advice) {
 // Of which pictures the numbers of the table are. Others measure others: that is why their numbers differ.
 std::string pictures_text(const Advice& advice, const Answer& answer) {
   const Settings& settings = answer.tried.settings;
+  std::string other;
+  for (const Answer& one : advice.answers)
+    if (one.placements != answer.placements)
+      other = fmt::format(" ({} for {})", one.placements,
+                          one.tried.filtered() ? "filtered maps" : "maps that are compared with");
   std::string text = fmt::format(
       "Work is that of a picture of {} x {} pixels. Error is the largest under {} and at {} placements of the map's "
-      "grid, in "
+      "grid{}, in "
       "pictures {} pixels wide; recommended.toml measures full pictures, so its report has other numbers.",
       settings.view.width_px, settings.view.height_px, counted(answer.conditions, "condition"), answer.placements,
-      std::min(advice.request.width_px, settings.view.width_px));
+      other, std::min(advice.request.width_px, settings.view.width_px));
   if (answer.tried.eye)
     text +=
         " Edges and patch are measured at the given view, in full size: a camera that comes closer shows the texels.";
@@ -329,6 +370,8 @@ std::vector<std::string> advice_text(const Advice& advice) {
                            : "",
       advice.request.source_of_bounds.empty() ? "" : fmt::format(" (bounds: {})", advice.request.source_of_bounds)));
   for (std::string& line : answers_table(advice)) lines.push_back(std::move(line));
+  if (std::any_of(advice.answers.begin(), advice.answers.end(), [](const Answer& one) { return one.tried.filtered(); }))
+    lines.push_back(filtered_bounds_text(advice.request.curve));
   lines.push_back(pictures_text(advice, answer));
   if (std::string steps = steps_text(advice); !steps.empty()) lines.push_back(std::move(steps));
   if (tried.bias)
@@ -347,16 +390,28 @@ std::vector<std::string> advice_text(const Advice& advice) {
         fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider "
                     "was found that costs little more.",
                     100 * fragile_below));
+  if (tried.reduction)
+    lines.push_back(fmt::format(
+        "lookup.reduction keeps the leak within {} and what it darkens within {} from {:.3g} to {:.3g} under {} and at "
+        "all {} "
+        "placements of the map's grid that were searched, on the exact map. That is {}, because conditions that were "
+        "not searched "
+        "may be a little worse.",
+        percent(searched_bounds(advice.request.curve).peter_panning_bound),
+        percent(searched_bounds(advice.request.curve).acne_bound), tried.reduction->low, tried.reduction->high,
+        counted(answer.conditions, "condition"), answer.placements, searched_text()));
   lines.push_back(
       fmt::format("Verified under the worst condition at {} other placements{}, {} pixels wide: the worst of them has "
-                  "{} acne, {} Peter "
-                  "Panning and {} error.",
+                  "{} and {} error.",
                   answer.verified.placements,
                   answer.verified.rendered == answer.verified.placements
                       ? ", rendered by OpenGL"
                       : fmt::format(", {} of them rendered by OpenGL", answer.verified.rendered),
-                  std::min(advice.request.width_px, tried.settings.view.width_px), percent(answer.verified.worst_acne),
-                  percent(answer.verified.worst_peter_panning), percent(answer.verified.worst_error)));
+                  std::min(advice.request.width_px, tried.settings.view.width_px),
+                  tried.filtered() ? shares_text(answer.verified.filtered)
+                                   : fmt::format("{} acne, {} Peter Panning", percent(answer.verified.worst_acne),
+                                                 percent(answer.verified.worst_peter_panning)),
+                  percent(answer.verified.worst_error)));
   if (tried.worst) {
     const std::string causes = causes_text(*tried.worst);
     lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(tried.error),
@@ -390,8 +445,10 @@ std::vector<std::string> rejected_text(const Advice& advice) {
   std::vector<std::string> lines;
   if (advice.least_resolution)
     lines.push_back(constant_text(*advice.least_resolution) +
-                    fmt::format(" The bias of this answer keeps them at {} texels, under all conditions.",
-                                advice.answer()->tried.settings.map.resolution));
+                    (advice.answer()->tried.filtered()
+                         ? ""
+                         : fmt::format(" The bias of this answer keeps them at {} texels, under all conditions.",
+                                       advice.answer()->tried.settings.map.resolution)));
   for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
   return lines;
 }

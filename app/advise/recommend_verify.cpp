@@ -6,8 +6,10 @@
 #include <numbers>
 #include <random>
 
+#include "app/advise/recommend_filtered.h"
 #include "compare/results/quantities.h"
 #include "technique/light_frame.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -38,6 +40,7 @@ struct Limits {
   const CurveOptions& bounds;
   const std::string& accuracy;
   std::optional<double> most;
+  bool filtered = false;
 };
 
 void judge(PointRecord shown, const Limits& limits, Verified& verified) {
@@ -46,7 +49,13 @@ void judge(PointRecord shown, const Limits& limits, Verified& verified) {
   verified.worst_acne = std::max(verified.worst_acne, acne);
   verified.worst_peter_panning = std::max(verified.worst_peter_panning, panning);
   verified.worst_error = std::max(verified.worst_error, error);
-  if (!(acne <= limits.bounds.acne_bound && panning <= limits.bounds.peter_panning_bound) ||
+  bool held = true;
+  if (limits.filtered) {
+    const FilteredShares shares = filtered_shares(shown);
+    raise(verified.filtered, shares);
+    held = why_not_filtered(shares, limits.bounds).empty();
+  }
+  if (!held || !(acne <= limits.bounds.acne_bound && panning <= limits.bounds.peter_panning_bound) ||
       (limits.most && !(error <= *limits.most)))
     verified.broken = std::move(shown);
 }
@@ -57,10 +66,20 @@ Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, 
                                     const std::string& accuracy, std::optional<double> most, int rendered,
                                     const std::function<void(int, int)>& done) {
   Verified verified;
-  const Limits limits{bounds, accuracy, most};
+  const Limits limits{bounds, accuracy, most, reads_moments(settings)};
   constexpr int all = fresh_placements * fresh_placements;
   const bool flat = is_flat(bench, settings);
   const MetricSet metrics = metric_set_for(accuracy);
+  if (limits.filtered) {
+    const std::vector<Settings> placed = placed_on_grid(settings, filtered_placements, 0.5);
+    verified.placements = static_cast<int>(placed.size());
+    for (const Settings& there : placed) {
+      judge(bench.measure(there, std::nullopt, metrics).record, limits, verified);
+      done(++verified.rendered, verified.placements);
+      if (verified.broken) break;
+    }
+    return verified;
+  }
   verified.placements = all;
   if (flat) {
     Settings lattice = settings;

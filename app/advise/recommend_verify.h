@@ -9,16 +9,22 @@
 
 namespace noonmark {
 
+// What filtered maps do wrong in place of acne, as shares of the counted receivers.
+struct FilteredShares {
+  double leak = 0, over_darkening = 0, reduction = 0, peter_panning = 0;
+};
+
 struct Verified {
   int placements = 0;                                               // that were judged
   int rendered = 0;                                                 // of these, by OpenGL with its own map
   double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over all of these
+  FilteredShares filtered;                                          // the largest, of a filtered map
   std::optional<PointRecord> broken;                                // the first that breaks a bound
 };
 
 // 64 placements. Of a flat map they lie half a step between those of 8 x 8. They are judged on the exact map, which is one
 // measurement (technique/placements.h), and OpenGL renders `rendered` of them, spread over a texel. Of a cube they are random
-// turns, the same in every run, and OpenGL renders all. `accuracy` names the metric of worst_error. `most` is the largest value that
+// turns, the same in every run, and OpenGL renders all. Of a filtered map there are 4 x 4, and OpenGL renders all. `accuracy` names the metric of worst_error. `most` is the largest value that
 // this metric may have at each placement; without it the metric is only reported. done(n, of): n placements are rendered.
 // Throws Error.
 inline constexpr int rendered_placements = 16;

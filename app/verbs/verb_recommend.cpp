@@ -16,6 +16,7 @@
 #include "app/advise/experiment_engines.h"
 #include "app/advise/recommend_about.h"
 #include "app/advise/recommend_around.h"
+#include "app/advise/recommend_filtered.h"
 #include "app/advise/recommend_text.h"
 #include "app/definition/default_folder.h"
 #include "app/pictures/image_file.h"
@@ -36,6 +37,7 @@
 #include "compare/results/number_text.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
+#include "technique/lookups.h"
 #include "technique/setting_rules.h"
 #include "technique/tap_pattern.h"
 
@@ -160,6 +162,7 @@ struct RecommendOptions {
   std::optional<int64_t> texels;              // recommend_texels() is asked for
   std::optional<AnswerKind> answer;           // empty: best with a budget, otherwise least
   int views = 5;                              // of a scene; 1: its own only
+  std::vector<std::string> lookups;           // searched_lookups() to try; empty: those that compare
   bool cascades = false;                      // also tries cascade_counts
   bool around = false;                        // also what each setting does around the answer
   std::vector<std::string> engines;           // to try the lines in
@@ -250,12 +253,38 @@ void add_cascades(AdviceRequest& request, const Experiment& experiment, Workbenc
   for (MapPlace& place : cascades.places) request.places.push_back(std::move(place));
 }
 
+// --lookups: beside lookups that compare, or in their place, filtered maps.
+void add_lookups(AdviceRequest& request, const Experiment& experiment, const std::vector<std::string>& lookups) {
+  for (const char* group : {"lookup.", "bias.", "map.moments", "filter."})
+    if (gives(experiment, group))
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("--lookups chooses the lookup, its blur and its bias itself, and the experiment gives a setting "
+                      "{}; leave one of them out",
+                      group));
+  if (request.conditions.front().cascades.count > 1)
+    throw Error(ErrorKind::usage, "--lookups is of one map; set cascades.count = 1, or leave it out");
+  if (std::find(lookups.begin(), lookups.end(), "compare") == lookups.end()) request.levels.clear();
+  for (BiasLevel& level : filtered_levels(lookups)) {
+    if (kind_of_light(request.light).map_shape() == MapShape::cube)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--lookups {}: a point light's cube map has lookup.kind = compare alone; leave it out",
+                              level.lookup));
+    request.levels.push_back(std::move(level));
+  }
+}
+
 // What is searched: the conditions, the settings to try, and the bounds.
 AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& options, Workbench& bench,
                          const std::function<void(const std::string&)>& say) {
   AdviceRequest request;
   request.conditions = conditions_of(experiment);
-  for (const Settings& condition : request.conditions) require_compared(condition, "a recommendation");
+  for (const Settings& condition : request.conditions)
+    if (reads_moments(condition))
+      throw SettingConflict(
+          "lookup.kind",
+          fmt::format("recommend chooses the lookup: leave lookup.kind = {} out, and name it with --lookups",
+                      condition.lookup.kind));
   const Settings first = request.conditions.front();
   const Scene& scene = bench.scene(first.scene);
   if (request.conditions.size() == 1 && options.views > 1) {
@@ -272,6 +301,7 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
   request.between = light == LightKind::directional && !gives(experiment, "map.resolution");
   take_choices(request, experiment);
   request.width_px = searched_width_px(bench, request.conditions.front());
+  if (!options.lookups.empty()) add_lookups(request, experiment, options.lookups);
   if (options.cascades) add_cascades(request, experiment, bench, say);
   request.curve = experiment.curve;
   if (options.acne) request.curve.acne_bound = *options.acne;
@@ -323,13 +353,13 @@ int recommend(const RecommendOptions& options) {
   if (!is_experiment(what)) take_scene(arguments, what);
   const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
   const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
-  if (options.texels &&
-      (options.acne || options.peter_panning || options.error || options.budget || options.edges || options.patch ||
-       options.answer || options.lines || options.around || options.cascades || !options.engines.empty()))
+  if (options.texels && (options.acne || options.peter_panning || options.error || options.budget || options.edges ||
+                         options.patch || options.answer || options.lines || options.around || options.cascades ||
+                         !options.lookups.empty() || !options.engines.empty()))
     throw Error(
         ErrorKind::usage,
         "--texels divides texels and searches nothing else; leave out the bounds, --budget, --answer, --around, "
-        "--cascades, --lines and --engine");
+        "--cascades, --lookups, --lines and --engine");
   if (options.texels) return recommend_texels(whole, *options.texels, arguments, out);
   const Experiment& experiment = only_part(whole);
   require_room_to_start(true);
@@ -338,6 +368,10 @@ int recommend(const RecommendOptions& options) {
   const auto say = [&](const std::string& step) { progress.say(printable(step)); };
   AdviceRequest request = request_of(experiment, options, bench, say);
   if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
+  if (!options.lookups.empty() && (options.around || options.cascades))
+    throw Error(ErrorKind::usage,
+                "--lookups searches one map, and --around varies lookups that compare; leave out --lookups, or "
+                "--around and --cascades");
   const std::string no_lines = why_no_engine_lines(request.conditions);
   if (!options.engines.empty() && (options.cascades || request.conditions.front().cascades.count > 1))
     throw Error(ErrorKind::usage, "--engine tries the lines of one map; leave it out, or search no cascades");
@@ -459,6 +493,15 @@ RunVerb add_recommend(CLI::App& verb) {
       fmt::format("Beside one map, also try {} cascades that reach to map.reach_m, or as far as the views show, "
                   "with practical splits and a bias in texels",
                   fmt::join(cascade_counts, ", ")));
+  verb.add_option(
+          "--lookups", options->lookups,
+          "Also try filtered maps: lookups to choose among, compare and others (repeatable; or a list with commas)")
+      ->take_all()
+      ->expected(1)
+      ->delimiter(',')
+      ->check(one_of(searched_lookups()))
+      ->type_name(joined(searched_lookups()))
+      ->default_str("compare");
   verb.add_flag("--around", options->around,
                 "Also measure what each setting does around the answer: the error at its half and its double, and the "
                 "range in which the bounds hold");

@@ -61,6 +61,109 @@ TEST(Engines, BabylonGivesTheBiasBack) {
   expect_written(typed(advice(constant_m(0.06, LightChoice::spot), "Babylon.js"), ".bias = ") * (42 - 2), 0.06);
 }
 
+// Filtered maps.
+
+Settings filtered(const std::string& lookup, FilterSettings filter = {}) {
+  Settings s = constant_m(0.06);
+  s.lookup.kind = lookup;
+  s.filter = std::move(filter);
+  validate(s, LightKind::directional);
+  return s;
+}
+
+bool says(const EngineAdvice& advice, const std::string& text) {
+  return joined(advice.cannot).find(text) != std::string::npos;
+}
+
+// VSMShadowMap: the bias is of the receiver, as with comparisons; what the shader has as numbers is no setting there.
+TEST(Engines, ThreeHasItsOwnVariance) {
+  Settings s = filtered("three_vsm");
+  s.lookup["radius"] = 2.5;
+  s.lookup["samples"] = 9;
+  s.bias["normal_offset"] = 1.5;
+  EngineAdvice got = advice(s, "three.js");
+  EXPECT_NE(joined(got.lines).find("shadowMap.type = THREE.VSMShadowMap;  // lookup.kind = three_vsm"),
+            std::string::npos);
+  EXPECT_EQ(typed(got, "shadow.radius = "), 2.5);
+  EXPECT_EQ(typed(got, "shadow.blurSamples = "), 9);
+  expect_written(-typed(got, "shadow.bias = ") * (42 - 2), 0.06);
+  expect_written(typed(got, "shadow.normalBias = "), 1.5 * texel_m);
+  EXPECT_TRUE(says(got, "lookup.reduction = 0: the engine always computes with 0.3."));
+  EXPECT_TRUE(says(got, "lookup.reduction_span = 0: the engine always computes with 0.65."));
+  EXPECT_FALSE(says(got, "lookup.v_min"));
+  ASSERT_TRUE(got.emulated) << got.why_not_emulated;
+  const Settings there = as_engine(got, s);
+  EXPECT_EQ(there.lookup["reduction"], 0.3);
+  EXPECT_EQ(there.lookup["reduction_span"], 0.65);
+  EXPECT_EQ(there.lookup["radius"], 2.5);
+  expect_written(there.bias["constant"], 0.06);
+  validate(there, LightKind::directional);
+  s.lookup["reduction"] = 0.3, s.lookup["reduction_span"] = 0.65;
+  EXPECT_FALSE(says(advice(s, "three.js"), "lookup.reduction"));
+}
+
+// The exponential maps: `bias` is added to each stored depth, a share of near to far, and is the same as one of the receiver. The
+// texels of the blur are 2 blurBoxOffset + 1, or blurKernel, whose standard deviation is a sixth of its ways.
+TEST(Engines, BabylonHasItsOwnExponentials) {
+  Settings s = filtered("babylon_close_esm", {"box", {{"size", 7}}});
+  s.lookup["exponent"] = 35;
+  EngineAdvice got = advice(s, "Babylon.js");
+  EXPECT_NE(joined(got.lines).find("useBlurCloseExponentialShadowMap = true;"), std::string::npos);
+  EXPECT_EQ(typed(got, "depthScale = "), 35);
+  EXPECT_EQ(typed(got, "blurScale = "), 1);
+  EXPECT_EQ(2 * typed(got, "blurBoxOffset = ") + 1, 7);
+  expect_written(typed(got, "shadowGenerator.bias = ") * 40, 0.06);
+  ASSERT_TRUE(got.emulated) << got.why_not_emulated;
+  const Settings there = as_engine(got, s);
+  EXPECT_EQ(there.lookup, s.lookup);
+  EXPECT_EQ(there.filter, s.filter);
+  expect_written(there.bias["constant"], 0.06);
+  validate(there, LightKind::directional);
+
+  got = advice(filtered("babylon_esm"), "Babylon.js");
+  EXPECT_NE(joined(got.lines).find("useExponentialShadowMap = true;"), std::string::npos);
+  EXPECT_EQ(joined(got.lines).find("blur"), std::string::npos);
+
+  s = filtered("babylon_esm", {"gaussian", {{"size", 9}, {"sigma_texels", 8.0 / 6}}});
+  got = advice(s, "Babylon.js");
+  EXPECT_NE(joined(got.lines).find("useBlurExponentialShadowMap = true;"), std::string::npos);
+  EXPECT_EQ(typed(got, "blurKernel = "), 9);
+  EXPECT_EQ(got.emulated->filter, s.filter);
+  s.filter["sigma_texels"] = 2;
+  got = advice(s, "Babylon.js");
+  EXPECT_TRUE(says(got, "the nearest blur here is a Gaussian of 9 texels"));
+  expect_written(got.emulated->filter["sigma_texels"], 8.0 / 6);
+
+  // A normal bias moves the casters: what the map of moments shows then is not measured.
+  s.bias["tan"] = 0.01;
+  got = advice(s, "Babylon.js");
+  expect_written(typed(got, "shadowGenerator.normalBias = "), 0.01);
+  EXPECT_FALSE(got.emulated);
+  EXPECT_NE(got.why_not_emulated.find("shadowGenerator.normalBias"), std::string::npos);
+}
+
+TEST(Engines, SayWhichFilteredMapsTheyLack) {
+  for (const char* lookup : {"vsm", "esm", "evsm2", "evsm4", "msm", "msm_hausdorff"}) {
+    const Case c = make(filtered(lookup));
+    for (const EngineAdvice& one : engine_advice(c.settings, c.frame, c.scene)) {
+      EXPECT_TRUE(one.lines.empty()) << one.engine << ", " << lookup;
+      EXPECT_TRUE(one.cannot.front().starts_with("There are no lines for lookup.kind = " + std::string(lookup) + ". "))
+          << one.engine;
+      EXPECT_FALSE(one.emulated);
+      EXPECT_EQ(one.why_not_emulated, "there are no lines");
+    }
+  }
+  EXPECT_TRUE(says(advice(filtered("vsm"), "three.js"), "three_vsm"));
+  EXPECT_TRUE(says(advice(filtered("esm"), "Babylon.js"), "babylon_close_esm"));
+  EXPECT_TRUE(advice(filtered("three_vsm"), "Babylon.js").lines.empty());
+  EXPECT_TRUE(advice(filtered("babylon_esm"), "three.js").lines.empty());
+  Settings cascades = filtered("three_vsm");
+  cascades.cascades.count = 2;
+  cascades.map.extent_m = cascades.map.near_m = cascades.map.far_m = std::nullopt;
+  cascades.map.fit = MapFit::sphere;
+  EXPECT_TRUE(says(advice(cascades, "three.js"), "There are no lines for cascades with lookup.kind = three_vsm."));
+}
+
 // Godot: bias / 100 * range * blur * quality radius, with a range of the cascade's diameter and 20 m; a spot light's
 // clip depth (near 0.025 m) times range / distance.
 TEST(Engines, GodotGivesTheBiasBack) {

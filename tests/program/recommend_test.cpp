@@ -75,6 +75,48 @@ TEST_F(Recommend, WhatItWritesPassesWhereItWasNotSearched) {
   EXPECT_EQ(found(), first);
 }
 
+// The plates of `layers` leak, so its answer is a reduction. Without it, and with more than its window has, a bound breaks.
+TEST_F(Recommend, AFilteredMapHoldsByItsReduction) {
+  ASSERT_EQ(
+      recommend("layers", {"--lookups", "vsm", "--views", "1", "--peter-panning", "0.015%", "--set",
+                           "map.resolution=256", "--set", "scene.gap_m=0.3", "--set", "light.angular_diameter_deg=0"}),
+      0)
+      << output_;
+  EXPECT_TRUE(says("VSM without a blur, and lookup.reduction = ")) << output_;
+  EXPECT_TRUE(says("A filtered map has no acne. It keeps its leak")) << output_;
+  EXPECT_TRUE(says("16 other placements, rendered by OpenGL")) << output_;
+  EXPECT_TRUE(says("There are no lines for lookup.kind = vsm.")) << output_;
+  const json answer = found()["answer"];
+  EXPECT_EQ(answer["settings"]["lookup.kind"], "vsm");
+  const double reduction = answer["reduction"]["value"], low = answer["reduction"]["from"],
+               high = answer["reduction"]["to"];
+  EXPECT_GT(low, 0);
+  EXPECT_GE(reduction, low);
+  EXPECT_LE(reduction, high);
+  EXPECT_FALSE(answer.contains("bias"));
+  EXPECT_GT(answer["verified"]["worst_reduction"], 0);
+  EXPECT_LE(answer["verified"]["worst_leak"], 1.5e-4);
+  const auto check = [&](const std::string& set) { return run({"check", "out/recommended.toml", "--set", set}); };
+  EXPECT_EQ(check("lookup.reduction=" + std::to_string(reduction)), 0) << output_;
+  EXPECT_EQ(check("lookup.reduction=0"), 1) << output_;
+  EXPECT_TRUE(says("broken: leak <= 0.015%")) << output_;
+  EXPECT_EQ(check("lookup.reduction=0.9"), 1) << output_;
+  EXPECT_TRUE(says("broken: reduction <= 0.1%")) << output_;
+}
+
+// What a search of lookups cannot be combined with is said.
+TEST_F(Recommend, LookupsAreChosenByTheSearch) {
+  EXPECT_EQ(recommend("layers", {"--lookups", "three_vsm"}), 2);
+  EXPECT_EQ(recommend("layers", {"--lookups", "vsm", "--around"}), 2);
+  EXPECT_TRUE(says("--around varies lookups that compare")) << output_;
+  EXPECT_EQ(recommend("layers", {"--lookups", "vsm", "--set", "bias.constant=0.1"}), 2);
+  EXPECT_TRUE(says("--lookups chooses the lookup, its blur and its bias itself")) << output_;
+  EXPECT_EQ(recommend("layers", {"--set", "lookup.kind=vsm"}), 2);
+  EXPECT_TRUE(says("name it with --lookups")) << output_;
+  EXPECT_EQ(recommend("point-room", {"--lookups", "vsm"}), 2);
+  EXPECT_TRUE(says("a point light's cube map")) << output_;
+}
+
 // A wide sun has soft shadows, which a filter comes nearer to. Under a sun without a size blur is an error.
 TEST_F(Recommend, AFilterOnlyWhereTheLightHasASize) {
   ASSERT_EQ(recommend("cube-room", {"--views", "1", "--set", "light.angular_diameter_deg=0"}), 0) << output_;

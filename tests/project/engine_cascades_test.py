@@ -2,11 +2,10 @@
 error that Noonmark measures with the engine's splits, fit, bias and filter, to 0.05 points.
    engine_cascades_test.py NOONMARK SOURCE FOLDER
 And the lines that a report prints for the engine lay these cascades, typed in as they are."""
-import html
 import json
 import re
 
-from engine_predictions import able, bad, compare, end, folder, found, missing, program, run, sets
+from engine_predictions import able, bad, compare, end, folder, found, lines_of, missing, program, run, sets
 
 POINTS = 0.05  # of a hundred: how far the prediction may be from the frame
 
@@ -83,12 +82,11 @@ ENDS, TEXELS = [9, 20, 37], 2.3
 TYPED = ["cascades.count=4", "cascades.splits=manual", f"cascades.bounds_m={','.join(map(str, ENDS))}", "bias.unit=texel", f"bias.constant={TEXELS}"]
 (folder / "typed.toml").write_text('scene = "street"\n')
 found(run(program, "run", folder / "typed.toml", "--out", folder / "typed", *sets(PREDICTED + TYPED + ["map.fit=sphere"])), "run")
-report = html.unescape(re.sub("<[^>]+>", "", (folder / "typed/report.html").read_text()))
 
 
 def typed(engine, page, fit):
     """fit: the settings that predict the frame, from the text of the lines."""
-    lines = re.search(rf"^{re.escape(engine)} \(.*\n((?:    .*\n)+)", report, re.M).group(1)
+    lines = lines_of(folder / "typed/report.html", engine)
     (folder / "lines.txt").write_text(lines)
     # The lines' own ends and biases, by which the frame is predicted.
     laid = compared(f"{engine}, the lines of a report", folder / f"typed-{page.split('/')[0]}", page, [f"lines={folder / 'lines.txt'}"], [TYPED + fit(lines)])

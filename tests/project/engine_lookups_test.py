@@ -1,10 +1,11 @@
 """The filtered maps of engines against Noonmark's prediction: each frame of the cube room that an engine draws with its VSM or its
-exponential shadow map has the error that Noonmark measures with the same map and lookup, to 0.1 points.
+exponential shadow map has the error that Noonmark measures with the same map and lookup, to 0.1 points. And the lines that a report prints
+for the engine make these maps, typed in as they are.
    engine_lookups_test.py NOONMARK SOURCE FOLDER"""
 import json
 import struct
 
-from engine_predictions import able, compare, end, folder, found, program, run
+from engine_predictions import able, compare, end, folder, found, lines_of, missing, program, run, sets
 
 POINTS = 0.1  # of a hundred: how far the prediction may be from the frame
 
@@ -17,7 +18,8 @@ def words(numbers):
     return ",".join(map(repr, numbers))
 
 
-SHOT = [f"eye={words(EYE)}", f"target={words(TARGET)}", "fov_y_deg=45", f"resolution={RESOLUTION}", f"extent={EXTENT}", f"depth={NEAR},{FAR}"]
+VIEW = [f"eye={words(EYE)}", f"target={words(TARGET)}", "fov_y_deg=45"]
+SHOT = VIEW + [f"resolution={RESOLUTION}", f"extent={EXTENT}", f"depth={NEAR},{FAR}"]
 
 
 def three(bias, *, radius, samples, lookup=()):
@@ -74,4 +76,25 @@ PREDICTED = ["scene.name=cube-room", f"view.eye_m={words(EYE)}", f"view.target_m
              f"map.near_m={NEAR}", f"map.far_m={FAR}", *light_through_the_middle(model)]
 for i, (name, (page, *shot), predictions) in enumerate(cases):
     compare(name, folder / str(i), page, model, SHOT + shot, [PREDICTED + settings for settings in predictions], POINTS)
+
+# What a report prints for one point, typed in: blur, exponent and bias are none of the defaults of the engines.
+TYPED = [("three.js, the lines of a report, `radius=2.5 blurSamples=6`", "three/page.html",
+          ["lookup.kind=three_vsm", "lookup.radius=2.5", "lookup.samples=6", "lookup.reduction=0.3", "lookup.reduction_span=0.65", "bias.constant=0.001"]),
+         ("Babylon.js, the lines of a report, close, `depthScale=80`, box of 5", "babylon/page.html",
+          ["lookup.kind=babylon_close_esm", "lookup.exponent=80", "bias.constant=0.0007", *box(5)]),
+         ("Babylon.js, the lines of a report, close, `depthScale=80`, Gaussian of 5", "babylon/page.html",
+          ["lookup.kind=babylon_close_esm", "lookup.exponent=80", "bias.constant=0.0007", "filter.kind=gaussian", "filter.size=5",
+           "filter.sigma_texels=0.6666667"]),
+         ("Babylon.js, the lines of a report, `depthScale=60`, box of 7", "babylon/page.html",
+          ["lookup.kind=babylon_esm", "lookup.exponent=60", "bias.constant=0.03", *box(7)])]
+for i, (name, page, settings) in enumerate(TYPED):
+    if missing(page):
+        continue
+    out = folder / f"typed-{i}"
+    out.mkdir()
+    settings = PREDICTED + [f"map.extent_m={EXTENT}"] + settings
+    (out / "typed.toml").write_text('scene = "cube-room"\n')
+    found(run(program, "run", out / "typed.toml", "--out", out / "run", *sets(settings)), "run")
+    (out / "lines.txt").write_text(lines_of(out / "run/report.html", name.split(",")[0]))
+    compare(name, out / "frame", page, model, [*VIEW, f"lines={out / 'lines.txt'}"], [settings], POINTS)
 end()

@@ -3,9 +3,11 @@ error, and `noonmark render` predicts it. They are called as
    TEST NOONMARK SOURCE FOLDER
 and print the rows of the tables in examples/engines/README.md. They skip (77) where no engine can run: node, Chromium or the
 packages of examples/engines/package.json (npm install in that folder, or NODE_MODULES names another one) are not installed."""
+import html
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -66,6 +68,12 @@ def compare(name, out, page, model, shot, predictions, points):
     if not (abs(errors[0] - of_frame) <= points if len(errors) == 1 else errors[0] <= of_frame <= errors[-1]):
         bad.append(f"{name}: the frame has {of_frame:.3f}%, the prediction {errors}")
     return measured
+
+
+def lines_of(report, engine):
+    """The lines that a report prints for an engine."""
+    text = html.unescape(re.sub("<[^>]+>", "", report.read_text()))
+    return re.search(rf"^{re.escape(engine)} \(.*\n((?:    .*\n)+)", text, re.M).group(1)
 
 
 def end():

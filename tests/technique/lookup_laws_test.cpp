@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "technique/lookup_truth.h"
+#include "technique/moment_lookup.h"
 #include "tests/technique/random_depths.h"
 
 namespace noonmark {
@@ -269,6 +270,18 @@ TEST(LookupLaws, Law22MonotoneInTheBias) {
       const long double with = lookup.truth(given.depths, given.weights, before, p);
       ASSERT_GE(static_cast<double>(with - without), -rounding) << lookup.name << ", set " << set;
     }
+  }
+}
+
+// Whatever the reduction: 1 - r is rounded as the lookup's own 1 - r is.
+TEST(LightBleedReduction, LeavesWhatIsLit) {
+  for (int hundredths = 0; hundredths <= 99; ++hundredths) {
+    Settings settings;
+    settings.lookup = LookupSettings("vsm", {{"reduction", hundredths / 100.0}});
+    const MomentLookup lookup(settings);
+    EXPECT_EQ(lookup.reduced(1.0f), 1.0f) << hundredths;
+    EXPECT_EQ(lookup.reduced(1.0), 1.0) << hundredths;
+    EXPECT_EQ(lookup.reduced(0.0f), 0.0f) << hundredths;
   }
 }
 

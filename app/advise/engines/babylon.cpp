@@ -4,6 +4,7 @@
 // to it; a point light stores the distance divided by near + far.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -53,6 +54,53 @@ EngineFilter filter(const AdvicePlace& place) {
       place, {none, pcf("LOW", "one linear fetch", 1, filter_is(place, "hardware"), {"hardware", {}}),
               pcf("MEDIUM", "Castano's kernel of 3 x 3", 2, filter_is(place, "castano", 3), {"castano", {{"size", 3}}}),
               pcf("HIGH", "Castano's kernel of 5 x 5", 3, filter_is(place, "castano", 5), {"castano", {{"size", 5}}})});
+}
+
+// The exponential maps, with the filter of Noonmark that is their blur. `bias` is added to each stored depth before the exponential
+// (ShadersInclude/shadowMapVertexMetric), which is the same as a receiver's depth less the bias. There is no light-bleed
+// reduction (shadowsFragmentFunctions). The blurred map has the map's texels divided by blurScale (shadowGenerator.ts), 2 by default.
+// The box has blurBoxOffset texels on either side (depthBoxBlur). The Gaussian of blurKernel n = 5, 9, 13 ... has a
+// standard deviation of a third of its half width, (n - 1) / 6 texels (thinBlurPostProcess.ts).
+double kernel_sigma(int size) { return (size - 1) / 6.0; }
+
+int nearest_kernel(int size) { return std::max(5, 4 * static_cast<int>(std::lround((size - 1) / 4.0)) + 1); }
+
+EngineFilter blur(const AdvicePlace& place) {
+  const FilterSettings& asked = place.settings.filter;
+  EngineFilter made;
+  made.reach_texels = place.reach_texels;  // no law asks for more bias: nothing is compared
+  made.as = asked;
+  made.same = true;
+  if (asked.kind == "none") return made;
+  made.lines = {"shadowGenerator.blurScale = 1;"};
+  if (asked.kind == "box") {
+    made.lines.push_back(fmt::format("shadowGenerator.blurBoxOffset = {};", (asked.whole("size") - 1) / 2));
+    return made;
+  }
+  const int kernel = nearest_kernel(asked.whole("size"));
+  made.lines.push_back(fmt::format("shadowGenerator.useKernelBlur = true; shadowGenerator.blurKernel = {};", kernel));
+  made.what = fmt::format("a Gaussian of {} texels with a standard deviation of {} texels, a sixth of {}", kernel,
+                          number(kernel_sigma(kernel)), kernel - 1);
+  made.same = number(asked["sigma_texels"]) == number(kernel_sigma(kernel)) && asked.whole("size") == kernel;
+  if (!made.same) made.as = FilterSettings("gaussian", {{"size", kernel}, {"sigma_texels", kernel_sigma(kernel)}});
+  return made;
+}
+
+std::optional<EngineMoments> moments(const AdvicePlace& place) {
+  const LookupSettings& asked = place.settings.lookup;
+  if (asked.kind != "babylon_esm" && asked.kind != "babylon_close_esm") return std::nullopt;
+  EngineMoments made{blur(place), asked};
+  made.as["reduction"] = made.as["reduction_span"] = 0;
+  made.filter.lines.insert(
+      made.filter.lines.begin(),
+      {fmt::format("shadowGenerator.use{}{}ExponentialShadowMap = true;",
+                   place.settings.filter.kind == "none" ? "" : "Blur", asked.kind == "babylon_esm" ? "" : "Close"),
+       fmt::format("shadowGenerator.depthScale = {};", number(asked["exponent"]))});
+  if (asked.kind == "babylon_esm")
+    made.cannot.push_back(
+        "What is drawn into the map is lit by no more than 1 - e^(-depthScale bias): leave meshes out of the map that "
+        "receive shadows, or take useBlurCloseExponentialShadowMap.");
+  return made;
 }
 
 // A glTF file's light is a child of a node, and its position and direction are that node's until the parent is null; those in the
@@ -211,7 +259,11 @@ Engine babylon_js() {
                      cascade_lines,
                      cascade_limits,
                      "@babylonjs/core Lights/Shadows/cascadedShadowGenerator and Shaders/ShadersInclude/lightFragment",
-                     CascadeBlendOf::slice}};
+                     CascadeBlendOf::slice},
+      {},
+      nullptr,
+      moments,
+      "Its exponential shadow maps are lookup.kind = babylon_esm and babylon_close_esm."};
 }
 
 }  // namespace noonmark

@@ -57,6 +57,14 @@ struct EngineFilter {
   std::optional<FilterSettings> as = {};  // the filter of Noonmark that has its taps and weights, if there is one
 };
 
+// A lookup in a map of moments, as an engine makes it.
+struct EngineMoments {
+  EngineFilter filter;  // its blur; the lines also choose the lookup. `same`: it is the recommended one
+  LookupSettings as;    // what the engine computes
+  MomentFormat format = MomentFormat::f32;
+  std::vector<std::string> cannot = {};  // sentences
+};
+
 // The map that the engine draws.
 struct EngineMap {
   int resolution = 0;
@@ -78,14 +86,15 @@ struct SeenFrustum {
 struct AdvicePlace {
   const Settings& settings;
   const LightFrame& frame;
-  double distance_m = 0;                   // spot and point: along the axis of the map's tile
-  double texel_m = 0;                      // of the map there
-  double depth_slope = 0;                  // window depth for each metre there
-  double cone_tan = 1;                     // spot: tangent of half the light's cone
-  double reach_texels = 0;                 // of the recommended filter
-  CulledFaces unseen = CulledFaces::none;  // the faces that the scene's materials do not show: back, or none
-  EngineFilter filter = {};                // of the engine
-  EngineMap map = {};                      // of the engine
+  double distance_m = 0;                      // spot and point: along the axis of the map's tile
+  double texel_m = 0;                         // of the map there
+  double depth_slope = 0;                     // window depth for each metre there
+  double cone_tan = 1;                        // spot: tangent of half the light's cone
+  double reach_texels = 0;                    // of the recommended filter
+  CulledFaces unseen = CulledFaces::none;     // the faces that the scene's materials do not show: back, or none
+  EngineFilter filter = {};                   // of the engine
+  std::optional<EngineMoments> moments = {};  // of the engine; of settings whose lookup reads moments
+  EngineMap map = {};                         // of the engine
   SeenFrustum seen = {};
 
   LightKind kind() const { return frame.kind; }
@@ -143,6 +152,10 @@ struct Engine {
   std::optional<EngineCascades> cascades = {};
   std::string no_cascades = {};              // without lines for cascades: why, a sentence
   std::string (*literal)(double) = nullptr;  // a number as the engine's language takes it; null: number()
+  // The lookup of place.settings, which reads moments; empty: the engine has none that computes this, and no_moments says what
+  // it has. Null: Noonmark knows of none.
+  std::optional<EngineMoments> (*moments)(const AdvicePlace&) = nullptr;
+  std::string no_moments = {};  // sentences
 };
 
 // The map of an engine that fits a square of diameter_m(seen, reach_m, resolution) to the picture's frustum from the camera
@@ -165,6 +178,9 @@ std::string_view placed_of_light(const AdvicePlace& place);
 
 // What to know of a map that fitted_to_view() describes. field: which sets how far it reaches.
 std::string fitted_text(const AdvicePlace& place, const std::string& field);
+
+// Why an engine has no lines for a lookup that reads moments. of_engine: Engine::no_moments.
+std::string no_lines_for_moments(const std::string& lookup_kind, const std::string& of_engine);
 
 // OpenGL has no fields: the application's shader computes each part. So it has no knobs.
 EngineAdvice opengl_cascades();

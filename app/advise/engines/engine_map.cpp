@@ -17,10 +17,14 @@ namespace {
 // 6 digits are printed, so a texel that is wider by less than half a unit of the last is the recommended one.
 constexpr double same_texel = 1 + 5e-6;
 
-// Of several parts with one law on one side, the first; null if there is none.
-const BiasPart* part_of(const EngineKnob& knob) {
+// Of several parts with one law on one side, the first; null if there is none. A map of moments has no casters that move: a depth
+// that is added to each stored one is the same as one that is taken from the receiver's, because lookups see their difference.
+const BiasPart* part_of(const EngineKnob& knob, bool moments) {
+  const bool added = moments && knob.target == BiasTarget::caster && knob.form == BiasForm::constant;
+  const BiasTarget target = added ? BiasTarget::compared_depth : knob.target;
+  if (moments && target == BiasTarget::caster) return nullptr;
   for (const BiasPart& part : bias_parts())
-    if (part.acts_on == knob.target && form_of(part) == knob.form) return &part;
+    if (part.acts_on == target && form_of(part) == knob.form) return &part;
   return nullptr;
 }
 
@@ -98,14 +102,17 @@ void emulate(const Engine& engine, const AdvicePlace& place, const std::vector<E
       settings.bias["slope"] += metres[i];
       continue;
     }
-    const BiasPart* part = part_of(knobs[i]);
+    const BiasPart* part = part_of(knobs[i], place.moments.has_value());
     if (!part) {
-      advice.why_not_emulated = "Noonmark has no part of a bias with the form of " + knobs[i].field;
+      advice.why_not_emulated = place.moments
+                                    ? "Noonmark does not measure what a map of moments shows with " + knobs[i].field
+                                    : "Noonmark has no part of a bias with the form of " + knobs[i].field;
       return;
     }
     settings.bias[part->name] += amount_in_unit(*part, metres[i], place.map.texel_m);
   }
   for (const auto& [part, amount] : engine.always) settings.bias[part] += amount;
+  if (place.moments) settings.lookup = place.moments->as, settings.map.moments = place.moments->format;
   settings.map.resolution = place.map.resolution;
   if (place.map.reach_m) {
     settings.map.fit = MapFit::sphere;
@@ -124,6 +131,7 @@ Settings as_engine(const EngineAdvice& advice, Settings condition) {
   const Settings& engine = *advice.emulated;
   condition.bias = engine.bias;
   condition.filter = engine.filter;
+  condition.lookup = engine.lookup;
   if (engine.map.fit == MapFit::sphere) {
     const int placements = condition.map.placements;
     condition.map = engine.map;
@@ -139,6 +147,7 @@ Settings as_engine(const EngineAdvice& advice, Settings condition) {
   condition.map.resolution = engine.map.resolution;
   condition.map.cull = engine.map.cull;
   condition.map.format = engine.map.format;
+  condition.map.moments = engine.map.moments;
   condition.map.pancake = engine.map.pancake;
   return condition;
 }

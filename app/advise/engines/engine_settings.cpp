@@ -15,6 +15,7 @@
 #include "app/advise/engines/unexpressed.h"
 #include "technique/cascades.h"
 #include "technique/filters.h"
+#include "technique/lookups.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -220,9 +221,10 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
     advice.lines = cascades ? engine.cascades->lines(*cascades) : engine.map_lines(place);
     for (const std::string& line : place.filter.lines) {
       const bool each = cascades && !engine.cascades->each.empty() && line.starts_with(engine.cascades->each_begins);
-      advice.lines.push_back(
-          fmt::format("{}  {} {}filter.kind = {}", each ? fmt::format(fmt::runtime(engine.cascades->each), line) : line,
-                      engine.comment, place.filter.same ? "" : "in place of ", place.settings.filter.kind));
+      advice.lines.push_back(fmt::format(
+          "{}  {} {}{}filter.kind = {}", each ? fmt::format(fmt::runtime(engine.cascades->each), line) : line,
+          engine.comment, place.moments ? fmt::format("lookup.kind = {}, ", place.settings.lookup.kind) : "",
+          place.filter.same ? "" : "in place of ", place.settings.filter.kind));
     }
     for (size_t i = 0; i < knobs.size(); ++i) {
       std::vector<double> numbers;
@@ -250,7 +252,7 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
   if (knobs.empty())
     advice.cannot.push_back(fmt::format("filter.kind = {} is not written, either.", place.settings.filter.kind));
   else
-    say(unexpressed_filter(place));
+    say(place.moments ? unexpressed_moments(place) : unexpressed_filter(place));
   std::vector<std::string_view> maps = engine.maps;
   if (cascades) maps.insert(maps.end(), {"map.snap", "map.depth_clamp", "map.pancake"});  // part of the engine's fit
   say(unexpressed_map(place, maps));
@@ -262,15 +264,31 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
   return advice;
 }
 
+EngineAdvice without_lines(const Engine& engine, std::string why) {
+  EngineAdvice advice{engine.name, engine.version, {}, {std::move(why)}, engine.source, engine.comment};
+  advice.why_not_emulated = "there are no lines";
+  return advice;
+}
+
 EngineAdvice advice_of_map(const Engine& engine, AdvicePlace place, const std::vector<AdvisedPart>& parts) {
-  place.filter = engine.filter(place);
+  if (reads_moments(place.settings)) {
+    if (engine.moments) place.moments = engine.moments(place);
+    if (!place.moments)
+      return without_lines(engine, no_lines_for_moments(place.settings.lookup.kind, engine.no_moments));
+    place.filter = place.moments->filter;
+  } else {
+    place.filter = engine.filter(place);
+  }
   place.map = engine.fit && place.kind() == LightKind::directional
                   ? engine.fit(place)
                   : EngineMap{place.frame.resolution, place.frame.extent_m, place.texel_m};
   return advice_of(engine, {place}, {parts}, nullptr);
 }
 
-std::string no_cascades(const Engine& engine, int count) {
+std::string no_cascades(const Engine& engine, const Settings& settings) {
+  const int count = settings.cascades.count;
+  if (reads_moments(settings))
+    return fmt::format("There are no lines for cascades with lookup.kind = {}.", settings.lookup.kind);
   if (!engine.cascades) return "There are no lines for cascades. " + engine.no_cascades;
   const std::vector<int>& counts = engine.cascades->counts;
   if (std::find(counts.begin(), counts.end(), count) != counts.end()) return "";
@@ -279,12 +297,7 @@ std::string no_cascades(const Engine& engine, int count) {
 }
 
 EngineAdvice advice_of_cascades(const Engine& engine, const Settings& settings, const Scene& scene) {
-  EngineAdvice advice{engine.name, engine.version, {}, {}, engine.source, engine.comment};
-  if (const std::string none = no_cascades(engine, settings.cascades.count); !none.empty()) {
-    advice.cannot.push_back(none);
-    advice.why_not_emulated = "there are no lines";
-    return advice;
-  }
+  if (std::string none = no_cascades(engine, settings); !none.empty()) return without_lines(engine, std::move(none));
   const std::vector<Technique> recommended = cascades_of(scene, settings);
   AdvisedCascades cascades;
   for (const ViewSlice& slice : recommended.front().cascade->slices) cascades.ends_m.push_back(slice.end_m);
@@ -382,6 +395,11 @@ std::string placed_comment(std::string_view of_light) {
 
 std::string_view placed_of_light(const AdvicePlace& place) {
   return place.kind() == LightKind::point ? "position" : "position and direction";
+}
+
+std::string no_lines_for_moments(const std::string& lookup_kind, const std::string& of_engine) {
+  return fmt::format("There are no lines for lookup.kind = {}. {}", lookup_kind,
+                     of_engine.empty() ? "Noonmark knows of no field of this engine for it." : of_engine);
 }
 
 EngineFilter nearest_reach(const AdvicePlace& place, std::vector<EngineFilter> offered) {

@@ -93,22 +93,29 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 
 Engine filament() {
   using namespace filament_engine;
-  return {"Filament",
-          "since February 2026 (pull request 9734)",
-          "filament include/filament/LightManager.h, src/ShadowMapManager.cpp, src/ShadowMap.cpp and "
-          "shaders/src/surface_shadowing.glsl",
-          "//",
-          knobs,
-          filter,
-          map_lines,
-          limits,
-          {},
-          fit,
-          {},
-          nullptr,
-          {"lights.setShadowOptions(instance, options);"},
-          {},
-          "options.shadowCascades and cascadeSplitPositions are not written, nor what its bias is in each cascade."};
+  return {
+      "Filament",
+      "since February 2026 (pull request 9734)",
+      "filament include/filament/LightManager.h, src/ShadowMapManager.cpp, src/ShadowMap.cpp and "
+      "shaders/src/surface_shadowing.glsl",
+      "//",
+      knobs,
+      filter,
+      map_lines,
+      limits,
+      {},
+      fit,
+      {},
+      nullptr,
+      {"lights.setShadowOptions(instance, options);"},
+      {},
+      "options.shadowCascades and cascadeSplitPositions are not written, nor what its bias is in each cascade.",
+      nullptr,
+      nullptr,
+      "Its ShadowType::VSM is exponential variance with one warp or two, whose least variance grows with the slope of "
+      "the receiver (evaluateEVSM in shaders/src/surface_shadowing.fs, commit 128523a2). No lookup of Noonmark "
+      "computes "
+      "that."};
 }
 
 }  // namespace noonmark

@@ -176,6 +176,17 @@ EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPa
                       {},
                       "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)",
                       "//"};
+  if (reads_moments(place.settings)) {
+    advice.lines.clear();
+    advice.cannot.push_back(no_lines_for_moments(
+        place.settings.lookup.kind,
+        fmt::format(
+            "The passes and the lookup are the application's own shaders; technique/lookups/{}.glsl of Noonmark "
+            "has the formulas.",
+            place.settings.lookup.kind)));
+    advice.why_not_emulated = "there are no lines";
+    return advice;
+  }
   advice.emulated = place.settings;  // the application's shader does exactly this
   advice.lines.push_back(sampler_line(place.settings.filter));
   bool polygon_offset = false, shader = false;

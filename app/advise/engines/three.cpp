@@ -44,6 +44,31 @@ EngineFilter filter(const AdvicePlace& place) {
           as};
 }
 
+// VSMShadowMap, lookup.kind = three_vsm. ShaderLib/vsm.glsl.js blurs with shadow.radius and shadow.blurSamples; getShadow() of
+// shadowmap_pars_fragment.glsl.js has a variance of at least 0.0000001 and clamp((p - 0.3) / 0.65, 0, 1). WebGLShadowMap.js stores
+// half floats (RGFormat, HalfFloatType), and has no such map for a PointLight.
+std::optional<EngineMoments> moments(const AdvicePlace& place) {
+  const LookupSettings& asked = place.settings.lookup;
+  if (asked.kind != "three_vsm") return std::nullopt;
+  LookupSettings as = asked;
+  as["v_min"] = 1e-7;
+  as["reduction"] = 0.3;
+  as["reduction_span"] = 0.65;
+  return EngineMoments{{{"renderer.shadowMap.type = THREE.VSMShadowMap;",
+                         fmt::format("light.shadow.radius = {};", number(asked["radius"])),
+                         fmt::format("light.shadow.blurSamples = {};", asked.whole("samples"))},
+                        "VSMShadowMap",
+                        place.reach_texels,
+                        true,
+                        1,
+                        FilterSettings()},
+                       as,
+                       MomentFormat::f32,
+                       {"map.moments: VSMShadowMap stores half floats. The error is measured with floats of 32 bits, "
+                        "which are nearer to what "
+                        "a device shows that rounds to the nearest than half floats of one that rounds towards 0."}};
+}
+
 std::string_view side_of(CulledFaces cull) {
   return cull == CulledFaces::none ? "DoubleSide" : cull == CulledFaces::back ? "FrontSide" : "BackSide";
 }
@@ -174,31 +199,36 @@ std::vector<std::string> cascade_limits(const AdvisedCascades&) {
 
 Engine three_js() {
   using namespace three_engine;
-  return {"three.js",
-          "0.187",
-          "three.js src/renderers/shaders/ShaderChunk/shadowmap_pars_fragment.glsl.js and shadowmap_vertex.glsl.js",
-          "//",
-          knobs,
-          filter,
-          map_lines,
-          limits,
-          {"map.cull", "map.fov_deg"},
-          nullptr,
-          {},
-          nullptr,
-          {},
-          EngineCascades{{2, 3, 4, 5, 6, 7, 8},
-                         "the square as wide as its slice's longest diagonal",
-                         lay_cascades,
-                         cascade_lines,
-                         cascade_limits,
-                         "three/addons/csm CSM.js, CSMFrustum.js and CSMShader.js",
-                         {},
-                         "but csm.fade, whose width is a quarter of the square of the end",
-                         "depth",
-                         "light.",
-                         "csm.lights.forEach((light, i) => {{ {} }});",
-                         [](const AdvisedCascades& cascades) { return light_far_m(cascades) - light_near_m; }}};
+  return {
+      "three.js",
+      "0.187",
+      "three.js src/renderers/shaders/ShaderChunk/shadowmap_pars_fragment.glsl.js and shadowmap_vertex.glsl.js",
+      "//",
+      knobs,
+      filter,
+      map_lines,
+      limits,
+      {"map.cull", "map.fov_deg"},
+      nullptr,
+      {},
+      nullptr,
+      {},
+      EngineCascades{{2, 3, 4, 5, 6, 7, 8},
+                     "the square as wide as its slice's longest diagonal",
+                     lay_cascades,
+                     cascade_lines,
+                     cascade_limits,
+                     "three/addons/csm CSM.js, CSMFrustum.js and CSMShader.js",
+                     {},
+                     "but csm.fade, whose width is a quarter of the square of the end",
+                     "depth",
+                     "light.",
+                     "csm.lights.forEach((light, i) => {{ {} }});",
+                     [](const AdvisedCascades& cascades) { return light_far_m(cascades) - light_near_m; }},
+      {},
+      nullptr,
+      moments,
+      "Its VSMShadowMap is lookup.kind = three_vsm: it blurs deviations, not squares, and always reduces the light."};
 }
 
 }  // namespace noonmark

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "technique/lookups.h"
+
 namespace noonmark {
 namespace {
 
@@ -79,6 +81,22 @@ std::vector<std::string> unexpressed_filter(const AdvicePlace& place) {
     said += fmt::format(" Law 1 needs a bias in proportion to k: the lines hold {} times the recommended one.",
                         number(place.filter.reach_texels / place.reach_texels));
   return {said};
+}
+
+std::vector<std::string> unexpressed_moments(const AdvicePlace& place) {
+  const LookupSettings &asked = place.settings.lookup, &as = place.moments->as;
+  std::vector<std::string> said;
+  for (const auto& read : find_lookup(asked.kind).reads) {
+    const std::string name(read.parameter->name());
+    if (asked[name] != as[name])
+      said.push_back(fmt::format("{} = {}: the engine always computes with {}.", read.parameter->setting,
+                                 number(asked[name]), number(as[name])));
+  }
+  if (!place.filter.same)
+    said.push_back(
+        fmt::format("filter.kind = {}: the nearest blur here is {}.", place.settings.filter.kind, place.filter.what));
+  said.insert(said.end(), place.moments->cannot.begin(), place.moments->cannot.end());
+  return said;
 }
 
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed) {

@@ -1,0 +1,177 @@
+#include "app/advise/recommend_filtered.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/advise/recommend_judge.h"
+#include "compare/judge/recommendation.h"
+#include "compare/ladder/reduction_window.h"
+#include "compare/results/quantities.h"
+#include "technique/filters.h"
+#include "technique/lookups.h"
+
+namespace noonmark {
+namespace {
+
+// As docs/how-to/filtered-maps.md advises for 32-bit floats. Other parameters have their defaults.
+constexpr double evsm_floor = 1e-4;
+
+// VSM, ESM and EVSM with one warp need no bias on a lit plane; the others are too dark there without one (law 17).
+bool darkens_planes(std::string_view lookup) { return lookup == "evsm4" || lookup.starts_with("msm"); }
+
+std::vector<FilterSettings> blurs() {
+  return {{"none", {}}, {"box", {{"size", 3}}}, {"box", {{"size", 5}}}, {"box", {{"size", 7}}}};
+}
+
+// Three digits, and no less than it is.
+double rounded_up(double value) { return std::ceil(value * 100) / 100; }
+
+BiasLevel filtered_level(const std::string& lookup, bool with_bias) {
+  BiasLevel level;
+  level.name = lookup + (with_bias ? " with a bias of the blur's deviation by the slope's tangent" : " without a bias");
+  level.lookup = lookup;
+  level.blurs = blurs();
+  level.apply = [lookup, with_bias](Settings& settings) {
+    bias_levels().front().apply(settings);
+    settings.lookup = LookupSettings(lookup, {});
+    if (lookup.starts_with("evsm")) settings.lookup["floor"] = evsm_floor;
+    if (!with_bias) return;
+    settings.bias.unit = BiasUnit::texel;
+    settings.bias["tan"] = rounded_up(blur_deviation_texels(settings.filter));
+  };
+  return level;
+}
+
+std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
+
+}  // namespace
+
+std::vector<std::string> searched_lookups() {
+  std::vector<std::string> names;
+  for (const LookupKind& lookup : lookups())
+    if (lookup.bound) names.emplace_back(lookup.name);
+  return names;
+}
+
+double blur_deviation_texels(const FilterSettings& blur) {
+  const std::vector<double> weights = find_filter(blur.kind).blur(blur);
+  const double middle = (static_cast<double>(weights.size()) - 1) / 2;
+  double variance = 0.25;  // of a linear fetch half way between two texels, the most
+  for (size_t i = 0; i < weights.size(); ++i)
+    variance += weights[i] * (static_cast<double>(i) - middle) * (static_cast<double>(i) - middle);
+  return std::sqrt(variance);
+}
+
+std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups) {
+  std::vector<BiasLevel> levels;
+  for (const std::string& lookup : lookups) {
+    if (!find_lookup(lookup).reads_moments()) continue;
+    levels.push_back(filtered_level(lookup, false));
+    if (darkens_planes(lookup)) levels.push_back(filtered_level(lookup, true));
+  }
+  return levels;
+}
+
+FilteredShares filtered_shares(const PointRecord& point) {
+  return {worst_placed(point, "leak"), worst_placed(point, "over_darkening"), worst_placed(point, "reduction"),
+          worst_placed(point, "peter_panning")};
+}
+
+void raise(FilteredShares& most, const FilteredShares& other) {
+  most.leak = std::max(most.leak, other.leak);
+  most.over_darkening = std::max(most.over_darkening, other.over_darkening);
+  most.reduction = std::max(most.reduction, other.reduction);
+  most.peter_panning = std::max(most.peter_panning, other.peter_panning);
+}
+
+std::string why_not_filtered(const FilteredShares& shares, const CurveOptions& bounds) {
+  std::vector<std::string> broken;
+  const auto hold = [&](const char* what, double share, double bound) {
+    if (!(share <= bound)) broken.push_back(fmt::format("{} {}, more than {}", what, percent(share), percent(bound)));
+  };
+  hold("it leaks", shares.leak, bounds.peter_panning_bound);
+  hold("its Peter Panning is", shares.peter_panning, bounds.peter_panning_bound);
+  hold("its over-darkening is", shares.over_darkening, bounds.acne_bound);
+  hold("its reduction darkens", shares.reduction, bounds.acne_bound);
+  return fmt::format("{}", fmt::join(broken, "; "));
+}
+
+std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from) {
+  std::vector<Settings> placed;
+  for (int v = 0; v < n; ++v)
+    for (int u = 0; u < n; ++u) {
+      placed.push_back(settings);
+      placed.back().map.placements = 1;
+      placed.back().map.shift_u_texels += (u + from) / n;
+      placed.back().map.shift_v_texels += (v + from) / n;
+    }
+  return placed;
+}
+
+namespace {
+
+// The window of the point's reductions, at every placement that was measured. Empty: none keeps both bounds.
+std::optional<ReductionChoice> window_of(const PointRecord& point) {
+  const char* const ending = has_placements(point) ? "_worst" : "";
+  const std::optional<double> low = quantity(point, fmt::format("reduction_min{}", ending)),
+                              high = quantity(point, fmt::format("reduction_max{}", ending));
+  if (!low || !high) return std::nullopt;
+  return ReductionChoice{metric_of(point, "best_reduction"), *low, *high};
+}
+
+}  // namespace
+
+std::string why_no_reduction(const PointRecord& point, const CurveOptions& searched) {
+  FilteredShares shares = filtered_shares(point);
+  const double leak = shares.leak;
+  shares.leak = shares.reduction = 0;
+  if (std::string broken = why_not_filtered(shares, searched); !broken.empty()) return broken;
+  if (window_of(point)) return "";
+  return fmt::format(
+      "no lookup.reduction keeps the leak within {} and what it darkens within {}: without one it leaks {}",
+      percent(searched.peter_panning_bound), percent(searched.acne_bound), percent(leak));
+}
+
+void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
+                     const CurveOptions& searched, const std::string& accuracy) {
+  tried.reduction.reset();
+  tried.worst.reset();
+  tried.why_not.clear();
+  ReductionChoice choice{0, 0, most_reduction};
+  double most_error = -1;
+  for (const PointRecord& point : points) {
+    tried.why_not = why_no_reduction(point, searched);
+    tried.worst = point;
+    if (!tried.why_not.empty()) return;
+    const ReductionChoice window = *window_of(point);
+    choice.low = std::max(choice.low, window.low);
+    choice.high = std::min(choice.high, window.high);
+    // The least error in the condition that errs most.
+    if (const double error = metric_of(point, "best_reduction_error"); error > most_error)
+      most_error = error, choice.value = window.value;
+  }
+  if (choice.low > choice.high) {
+    tried.why_not = "no lookup.reduction is usable under every condition";
+    return;
+  }
+  choice.value = std::clamp(choice.value, choice.low, choice.high);
+  choice.value = short_decimal(choice.value, choice.low, choice.high);
+  tried.settings.lookup["reduction"] = choice.value;
+  tried.reduction = choice;
+  tried.worst.reset();
+  for (const PointRecord& point : points) {
+    Settings there = settings_of(point);
+    there.lookup["reduction"] = choice.value;
+    PointRecord shown = bench.measure(there, std::nullopt, metric_set_for(accuracy)).record;
+    const double error = worst_placed(shown, placed_accuracy(bench, there, accuracy));
+    tried.why_not = why_not_filtered(filtered_shares(shown), searched);
+    const bool broken = !tried.why_not.empty();
+    if (broken || !tried.worst || !(error <= tried.error)) tried.error = error, tried.worst = std::move(shown);
+    if (broken) return;
+  }
+}
+
+}  // namespace noonmark

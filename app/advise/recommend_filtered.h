@@ -1,0 +1,49 @@
+// Filtered maps in a recommendation (docs/how-to/filtered-maps.md). Nothing is compared, so there is no acne, and what decides is
+// lookup.reduction in place of a bias: too small, and shadows leak; too large, and it darkens what is lit.
+//
+//   for (BiasLevel& level : filtered_levels({"vsm", "msm"})) request.levels.push_back(level);
+//
+// What leaks and what a bias, a floor or a moment bias lifts is held to the bound on Peter Panning, because both are light in a
+// shadow. What the bound of the lookup and its reduction darken is held to the bound on acne.
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/advise/recommend.h"
+
+namespace noonmark {
+
+// The lookups that can be chosen among, by name: those that compare or that bound the lit share. Forms of engines, whose blur or
+// reduction is their own, cannot.
+std::vector<std::string> searched_lookups();
+
+// The levels of lookups that read moments, from searched_lookups(), in this order. A lookup that darkens lit slopes (law 17) comes
+// without a bias and with one of a standard deviation of the blur.
+std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups);
+
+// The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope.
+double blur_deviation_texels(const FilterSettings& blur);
+
+// Of these shares the largest over points and placements.
+FilteredShares filtered_shares(const PointRecord& point);
+void raise(FilteredShares& most, const FilteredShares& other);
+
+// Which bounds these break, as a clause: "it leaks 0.2%". Empty: none.
+std::string why_not_filtered(const FilteredShares& shares, const CurveOptions& bounds);
+
+// The settings at n x n places of the grid of texels, the first of them `from` of a step off, each a point that OpenGL renders.
+std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from);
+
+// Of a point that is measured with a curve of these bounds and no reduction: what no reduction can mend, or that none keeps both
+// bounds. Empty: one does.
+std::string why_no_reduction(const PointRecord& point, const CurveOptions& searched);
+
+// Chooses the reduction for the points, one for each condition, which are measured with a curve of the bounds of the search and no
+// reduction, and measures what it gives there: fills Tried::reduction, error and worst, or why_not and worst. With placements
+// the window is that of all of them, and the error the largest. Throws Error.
+void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
+                     const CurveOptions& searched, const std::string& accuracy);
+
+}  // namespace noonmark

@@ -1,0 +1,165 @@
+// Filtered maps in a recommendation: what is tried, and that the reduction is one that keeps the bounds, where others do not.
+#include "app/advise/recommend_filtered.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/ladder/reduction_window.h"
+#include "compare/results/quantities.h"
+#include "technique/lookups.h"
+#include "technique/setting_rules.h"
+
+namespace noonmark {
+namespace {
+
+const auto silent = [](const std::string&) {};
+
+// Plates 0.3 m apart under a light that shines straight down: VSM leaks where their edges overlap.
+AdviceRequest layers(const std::vector<std::string>& lookups, double peter_panning_bound) {
+  AdviceRequest request;
+  Settings settings;
+  settings.scene.name = "layers";
+  find_setting("scene.gap_m").set(settings, "0.3");
+  settings.view.width_px = 160, settings.view.height_px = 90;
+  settings.map.fit = MapFit::casters;
+  request.conditions = {settings};
+  request.places = {place_as_given()};
+  request.levels = filtered_levels(lookups);
+  request.resolutions = {256};
+  request.curve.peter_panning_bound = peter_panning_bound;
+  request.accuracy = "error";
+  return request;
+}
+
+// At all placements that are searched.
+PointRecord shown(Workbench& bench, Settings settings, double reduction) {
+  settings.lookup["reduction"] = reduction;
+  settings.map.placements = filtered_placements;
+  return bench.measure(settings, std::nullopt).record;
+}
+
+// A box of n texels has the variance (n^2 - 1) / 12, and the fetch adds at most 1/4.
+TEST(RecommendFiltered, TheDeviationIsThatOfTheBlur) {
+  EXPECT_EQ(blur_deviation_texels({"none", {}}), 0.5);
+  for (const int n : {3, 5, 7})
+    EXPECT_NEAR(blur_deviation_texels({"box", {{"size", n}}}), std::sqrt((n * n - 1) / 12.0 + 0.25), 1e-12);
+}
+
+TEST(RecommendFiltered, TriesLookupsThatBoundTheLight) {
+  const std::vector<std::string> names = searched_lookups();
+  for (const char* one : {"compare", "vsm", "esm", "evsm2", "evsm4", "msm"})
+    EXPECT_NE(std::find(names.begin(), names.end(), one), names.end()) << one;
+  for (const char* one : {"three_vsm", "babylon_esm", "babylon_close_esm"})
+    EXPECT_EQ(std::find(names.begin(), names.end(), one), names.end()) << one;
+  EXPECT_TRUE(filtered_levels({"compare"}).empty());
+  EXPECT_EQ(filtered_levels({"compare", "vsm", "esm"}).size(), 2u);
+  // Where lit planes are too dark without a bias, it is tried with one: law 17.
+  EXPECT_EQ(filtered_levels({"evsm4"}).size(), 2u);
+  for (const BiasLevel& level : filtered_levels(names))
+    for (const FilterSettings& blur : level.blurs) {
+      Settings settings;
+      settings.scene.name = "plane";
+      settings.filter = blur;
+      level.apply(settings);
+      EXPECT_NO_THROW(validate(settings, LightKind::directional)) << level.name;
+      EXPECT_EQ(settings.lookup.kind, level.lookup);
+      if (settings.bias["tan"] == 0) continue;
+      EXPECT_EQ(settings.bias.unit, BiasUnit::texel);
+      EXPECT_GE(settings.bias["tan"], blur_deviation_texels(blur));
+      EXPECT_LE(settings.bias["tan"], blur_deviation_texels(blur) + 0.01);
+    }
+}
+
+// VSM leaks more than the bound of 0.01% without a reduction. The answer's reduction keeps it; with less
+// than its window the leak is above the searched share, and with more what it darkens is.
+TEST(RecommendFiltered, TheReductionKeepsWhatOthersBreak) {
+  Workbench bench(gl::DebugMode::fatal);
+  const AdviceRequest request = layers({"vsm"}, 1e-4);
+  const Advice advice = search(bench, request, silent);
+  ASSERT_NE(advice.answer(), nullptr);
+  const Tried& tried = advice.answer()->tried;
+  ASSERT_TRUE(tried.reduction.has_value());
+  const ReductionChoice& chosen = *tried.reduction;
+  EXPECT_GT(chosen.low, 0);
+  EXPECT_LT(chosen.high, most_reduction);
+  EXPECT_GE(chosen.value, chosen.low);
+  EXPECT_LE(chosen.value, chosen.high);
+  EXPECT_EQ(tried.settings.lookup["reduction"], chosen.value);
+  EXPECT_FALSE(tried.bias.has_value());
+
+  const CurveOptions searched = searched_bounds(request.curve);
+  const auto broken_at = [&](double reduction) {
+    return why_not_filtered(filtered_shares(shown(bench, tried.settings, reduction)), searched);
+  };
+  EXPECT_EQ(broken_at(chosen.value), "");
+  EXPECT_EQ(broken_at(chosen.low + 1e-6), "");
+  EXPECT_EQ(broken_at(chosen.high - 1e-6), "");
+  EXPECT_TRUE(broken_at(chosen.low - 1e-3).starts_with("it leaks"));
+  EXPECT_TRUE(broken_at(chosen.high + 1e-3).starts_with("its reduction darkens"));
+
+  // Of a wider blur no reduction does: the least that stops the leak darkens too much.
+  const auto wider = std::find_if(advice.tried.begin(), advice.tried.end(), [](const Tried& one) {
+    return one.settings.filter == FilterSettings("box", {{"size", 7}});
+  });
+  ASSERT_NE(wider, advice.tried.end());
+  EXPECT_TRUE(wider->why_not.starts_with("no lookup.reduction keeps the leak within"));
+  for (double reduction = 0; reduction <= 0.95; reduction += 0.05)
+    EXPECT_NE(why_not_filtered(filtered_shares(shown(bench, wider->settings, reduction)), searched), "") << reduction;
+}
+
+// What the lattices of placements see: every one of them keeps the bounds, and the error is the largest of those searched.
+TEST(RecommendFiltered, TheAnswerHoldsAtEachPlacement) {
+  Workbench bench(gl::DebugMode::fatal);
+  const AdviceRequest request = layers({"vsm", "evsm2"}, 2e-4);
+  const Advice advice = search(bench, request, silent);
+  ASSERT_NE(advice.answer(), nullptr);
+  for (const Answer& answer : advice.answers) {
+    EXPECT_EQ(answer.placements, 16);
+    EXPECT_EQ(answer.verified.placements, 16);
+    EXPECT_EQ(answer.verified.rendered, 16);
+    FilteredShares searched, fresh;
+    for (const double from : {0.0, 0.5})
+      for (const Settings& there : placed_on_grid(answer.tried.settings, filtered_placements, from)) {
+        const FilteredShares shares = filtered_shares(bench.measure(there, std::nullopt).record);
+        EXPECT_EQ(why_not_filtered(shares, request.curve), "");
+        raise(from == 0 ? searched : fresh, shares);
+      }
+    EXPECT_EQ(why_not_filtered(searched, searched_bounds(request.curve)), "");
+    EXPECT_EQ(answer.verified.filtered.leak, fresh.leak);
+    EXPECT_EQ(answer.verified.filtered.reduction, fresh.reduction);
+  }
+}
+
+// A comparison that costs and errs hardly more is simpler, so it is taken; without it among the lookups a filtered map is.
+TEST(RecommendFiltered, ComparesWhereThatDoes) {
+  Workbench bench(gl::DebugMode::fatal);
+  AdviceRequest request = layers({"vsm"}, 1e-3);
+  request.filters = {{"none", {}}};
+  const BiasLevel compared = bias_levels().front();
+  request.levels.insert(request.levels.begin(), compared);
+  const Advice both = search(bench, request, silent);
+  ASSERT_NE(both.answer(), nullptr);
+  EXPECT_EQ(both.answer()->tried.settings.lookup.kind, "compare");
+  EXPECT_EQ(both.answer()->placements, 64);
+  request.levels.erase(request.levels.begin());
+  const Advice filtered = search(bench, request, silent);
+  ASSERT_NE(filtered.answer(), nullptr);
+  EXPECT_EQ(filtered.answer()->tried.settings.lookup.kind, "vsm");
+}
+
+TEST(RecommendFiltered, SaysWhichBoundsBreak) {
+  CurveOptions bounds;
+  bounds.acne_bound = 0.001, bounds.peter_panning_bound = 0.002;
+  EXPECT_EQ(why_not_filtered({0.002, 0.001, 0.001, 0.002}, bounds), "");
+  EXPECT_EQ(why_not_filtered({0.003, 0.001, 0.001, 0.002}, bounds), "it leaks 0.3%, more than 0.2%");
+  EXPECT_EQ(why_not_filtered({0, 0.0015, 0.004, 0.01}, bounds),
+            "its Peter Panning is 1%, more than 0.2%; its over-darkening is 0.15%, more than 0.1%; its reduction "
+            "darkens 0.4%, "
+            "more than 0.1%");
+  EXPECT_NE(why_not_filtered({std::nan(""), 0, 0, 0}, bounds), "");
+}
+
+}  // namespace
+}  // namespace noonmark
