@@ -112,9 +112,7 @@ function tunedSpan(rows, row) {
     return r.entry.technique === row.entry.technique && r.x === row.x && r.counts;
   });
   if (same.length < 2) return null;
-  return [
-    Math.min.apply(null, same.map(errorIn)), Math.max.apply(null, same.map(errorIn))
-  ];
+  return [Math.min.apply(null, same.map(errorIn)), Math.max.apply(null, same.map(errorIn))];
 }
 function errorIn(row) {
   return row.v;
@@ -216,7 +214,7 @@ var self = kit.chart('cost', function(width) {
   });
   curves.forEach(function(curve, technique) {
     rowsAt(rows, curve).forEach(function(r) {
-      if (!r.ahead) return;
+      if (!r.ahead || bars.indexOf(r) >= 0) return;
       var tuned = tunedSpan(rows, r);
       if (!r.span && !tuned) return;
       bars.push({
@@ -239,11 +237,7 @@ var self = kit.chart('cost', function(width) {
       padding: {left: left, right: right, top: 10, bottom: 46},
       autosize: 'none',
       data: [
-        {name: 'rows', values: marks}, {
-          name: 'spans',
-          values: bars
-        },
-        {
+        {name: 'rows', values: marks}, {name: 'spans', values: bars}, {
           name: 'intervals',
           values: only(function(r) {
             return r.high > r.low;
@@ -432,7 +426,9 @@ function legend() {
   self.legend.append(kit.make('span', {class: 'title'}, 'Marks'));
   line('stroke="var(--accent)" stroke-width="1.6" stroke-dasharray="2 3"', 'Pareto front');
   symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable bias');
-  symbol('<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>', 'over the usable window, or what was tried');
+  symbol(
+      '<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>',
+      'over the usable window, or what was tried');
   symbol(
       '<circle cx="6" cy="6" r="4" fill="var(--grid)" stroke="var(--ink)"/><text x="12" y="9.5" font-size="10" fill="var(--soft)">+2</text>',
       'several at one place');
