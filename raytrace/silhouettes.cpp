@@ -167,8 +167,17 @@ void Silhouettes::list_in(const Rectangle& rectangle, Nearby& nearby) const {
   for (size_t cell = first; cell <= last; cell += row)
     edges.insert(edges.end(), grid.listed.begin() + grid.begin[cell],
                  grid.listed.begin() + grid.begin[cell + columns + 1]);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  // Each edge once, in order. A wide rectangle lists an edge in many cells, and then a mark for each edge is quicker than sorting.
+  if (edges.size() > edges_.size()) {
+    std::vector<bool> is_listed(edges_.size());
+    for (const uint32_t index : edges) is_listed[index] = true;
+    edges.clear();
+    for (uint32_t index = 0; index < edges_.size(); ++index)
+      if (is_listed[index]) edges.push_back(index);
+  } else {
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  }
   // Most of these edges pass beside the rectangle.
   std::erase_if(edges, [&](uint32_t index) {
     const auto segment = view_.rays().in_chart(chart, edges_[index].a, edges_[index].b, reach_m_);

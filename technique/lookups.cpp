@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -67,12 +68,26 @@ constexpr KindParameter reduction{
         "light-bleed reduction r: the lit fraction p becomes (p − r) / (1 − r), at least 0. It removes every leak up "
         "to r and darkens the edges of shadows."};
 
+// 0.35 + 0.65 is 1 to a reader, but its doubles may sum to the next number above 1.
+constexpr double rounding_of_decimals = 2 * std::numeric_limits<double>::epsilon();
+
 constexpr KindParameter reduction_span{
     .setting = "lookup.reduction_span",
     .unit = "fraction",
     .max = 1,
     .help =
-        "the lit fraction p becomes (p − r) / span instead, at most 1, as three.js does with 0.3 and 0.65; 0: 1 − r."};
+        "the lit fraction p becomes (p − r) / span instead, at most 1, as three.js does with 0.3 and 0.65; 0: 1 − r. "
+        "At most 1 − r, because all light would be less than 1 above it."};
+
+std::string darkens_all(const LookupSettings& settings) {
+  const double r = settings["reduction"], span = settings["reduction_span"];
+  if (span <= 1 - r || span - (1 - r) <= rounding_of_decimals) return "";
+  return fmt::format(
+      "lookup.reduction_span = {}: with lookup.reduction = {} all light becomes (1 - {}) / {} = {:.3g}, so that "
+      "nothing is "
+      "fully lit; lower one of them, so that their sum is at most 1",
+      span, r, r, span, (1 - r) / span);
+}
 
 // e^(2 c) is the square of the largest warped depth.
 template <const KindParameter& of>
@@ -116,7 +131,7 @@ std::vector<LookupKind> make_lookups() {
                "how much of the depths is behind the receiver",
        .law = "never darker than the comparison (law 13); leak at most (a / (a + 2b))² (law 15); no bias on planes "
               "(law 17)",
-       .reads = {{&v_min}, {&reduction}, {&reduction_span}},
+       .reads = {{&v_min}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(vsm),
        .channels = 2,
        .within_one = always},
@@ -125,7 +140,7 @@ std::vector<LookupKind> make_lookups() {
                "to 1, "
                "Markov's bound",
        .law = "never darker than the comparison (law 13); a lit gap of ln 2 / c at a contact (law 19)",
-       .reads = {{&exponent}, {&reduction}, {&reduction_span}},
+       .reads = {{&exponent}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(esm),
        .channels = 1,
        .warp_power = 1},
@@ -134,7 +149,7 @@ std::vector<LookupKind> make_lookups() {
                "with z "
                "from -1 to 1",
        .law = "never darker than the comparison (law 13); leak at most 1 / (2 e^(c b) − 1)² (law 15)",
-       .reads = {{&exponent, beyond_float<exponent>}, {&variance_floor}, {&reduction}, {&reduction_span}},
+       .reads = {{&exponent, beyond_float<exponent>}, {&variance_floor}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(evsm2),
        .channels = 2,
        .warp_power = 2},
@@ -145,7 +160,7 @@ std::vector<LookupKind> make_lookups() {
                  {&negative_exponent, beyond_float<negative_exponent>},
                  {&variance_floor},
                  {&reduction},
-                 {&reduction_span}},
+                 {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(evsm4),
        .channels = 4,
        .warp_power = 2},
@@ -156,14 +171,14 @@ std::vector<LookupKind> make_lookups() {
        .law = "never darker than the comparison (law 13); leak at most 1 / (2 (1 + 2b/a)² − 1)² (law 15); lit planes "
               "need a "
               "bias of one standard deviation (law 17)",
-       .reads = {{&moment_bias}, {&moments}, {&reduction}, {&reduction_span}},
+       .reads = {{&moment_bias}, {&moments}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(msm),
        .channels = 4,
        .within_one = within_one},
       {.name = "msm_hausdorff",
        .help = "moment shadow map over the distributions within the map's range (Hausdorff's problem)",
        .law = "never darker than the comparison (law 13), nor lighter than msm",
-       .reads = {{&moment_bias}, {&moments}, {&reduction}, {&reduction_span}},
+       .reads = {{&moment_bias}, {&moments}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(msm_hausdorff),
        .channels = 4,
        .within_one = within_one},
@@ -171,7 +186,7 @@ std::vector<LookupKind> make_lookups() {
        .help = "Babylon.js's exponential shadow map (useBlurExponentialShadowMap): from the blurred e^(-c z), the lit "
                "fraction 1 - e^(c d) E[e^(-c z)]. What is in the map itself is dark without a bias",
        .law = "no bound: a receiver in the map is lit by 1 - e^(-c b) with the bias b",
-       .reads = {{&exponent}, {&reduction}, {&reduction_span}},
+       .reads = {{&exponent}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(babylon_esm),
        .channels = 1,
        .warp_power = 1,
@@ -182,7 +197,7 @@ std::vector<LookupKind> make_lookups() {
                "blurred depth z",
        .law = "no bound: shadows grow with the gap between caster and receiver; a caster that covers ln 2 / (c gap) of "
               "the blur makes half shade",
-       .reads = {{&exponent}, {&reduction}, {&reduction_span}},
+       .reads = {{&exponent}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(babylon_close_esm),
        .channels = 1,
        .within_one = always,
@@ -193,7 +208,7 @@ std::vector<LookupKind> make_lookups() {
                "map.moments = 16f and filter.kind = none for what three.js shows",
        .law = "as vsm where the taps stand on texels; between them a linear fetch blends deviations, which is less "
               "variance, and it is no bound",
-       .reads = {{&v_min}, {&radius}, {&samples}, {&reduction}, {&reduction_span}},
+       .reads = {{&v_min}, {&radius}, {&samples}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MomentFormulas{in_float::three_vsm_moments, in_float::three_vsm_lit, LookupTruth{},
                                  in_bounds::three_vsm_lit, in_counts::three_vsm_lit},
        .spread =

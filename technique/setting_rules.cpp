@@ -212,8 +212,10 @@ std::string moments_beyond_format(const Settings& s, std::optional<LightKind>) {
   if (!kind.reads_moments()) return "";
   if (s.map.moments == MomentFormat::u16 && !(kind.within_one && kind.within_one(s.lookup)))
     return fmt::format(
-        "map.moments = 16 holds numbers from 0 to 1, and lookup.kind = {} stores others{}; set 16f or 32f", kind.name,
-        kind.within_one ? " with lookup.moments = plain" : "");
+        "map.moments = 16 holds numbers from 0 to 1, and lookup.kind = {} stores others{} 16f or 32f", kind.name,
+        kind.within_one ? " with lookup.moments = plain; set lookup.moments = 2017, whose moments are made "
+                          "for 16 bits, and lookup.moment_bias = 6e-5, or map.moments ="
+                        : "; set");
   // The largest number that is stored: e^c of a depth of 1, or the square e^(2 c).
   if (s.map.moments != MomentFormat::f16 || kind.warp_power == 0 || kind.within_one) return "";
   const double largest_half = 65504, most = std::log(largest_half) / kind.warp_power;

@@ -53,8 +53,12 @@ int examine_machine() {
     fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
     fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform,
                device.software ? "software" : "hardware", device.max_map_resolution);
-    fmt::print("          times by {}; half floats are rounded {}\n", gl::text_of(device.times),
-               gl::text_of(renderer.half_rounding()));
+    const gl::HalfRounding half = renderer.half_rounding();
+    fmt::print("          times by {}; half floats are rounded {}\n", gl::text_of(device.times), gl::text_of(half));
+    if (half != gl::HalfRounding::to_nearest)
+      fmt::print(
+          "          (map.moments = 16f: each stored number errs by up to a step of 16f, twice what a device errs that "
+          "rounds to nearest)\n");
   } catch (const Error& error) {
     fmt::print("OpenGL    NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;
@@ -86,9 +90,11 @@ int examine_machine() {
   for (const LibraryVersion& library : facts.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : "; ", library.name, library.version);
   fmt::print("Libraries {}\n", libraries);
-  fmt::print("{}\n", !can_measure          ? "Nothing can be measured here until this is fixed."
-                     : !can_read_pictures ? "All can be measured here; PNG and EXR files of other programs cannot be read until this is fixed."
-                                           : "Everything that a measurement needs is here.");
+  fmt::print("{}\n",
+             !can_measure ? "Nothing can be measured here until this is fixed."
+             : !can_read_pictures
+                 ? "All can be measured here; PNG and EXR files of other programs cannot be read until this is fixed."
+                 : "Everything that a measurement needs is here.");
   if (!agree) return static_cast<int>(ErrorKind::defect);
   return can_measure && can_read_pictures ? 0 : static_cast<int>(ErrorKind::device);
 }

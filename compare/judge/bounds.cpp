@@ -21,6 +21,11 @@
 namespace noonmark {
 namespace {
 
+bool is_of_moments(std::string_view name) {
+  return std::any_of(metrics_table().begin(), metrics_table().end(),
+                     [&](const Metric& metric) { return metric.name == name && metric.of_moments; });
+}
+
 constexpr std::string_view joins[] = {"worst", "mean", "median"};
 constexpr std::string_view placements[] = {"worst", "first"};
 
@@ -356,6 +361,11 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
   }
 
   if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
+  if (point && !point->metrics.contains(bound.metric) && is_of_moments(bound.metric))
+    text += fmt::format(
+        "  {} is measured only of a lookup in a map of moments; give those lookups a [[part]] and the bound as "
+        "[[part.bound]]\n",
+        bound.metric);
   if (const std::string poor = point ? why_poor_view(*point) : ""; !poor.empty()) text += fmt::format("  {}\n", poor);
   if (const std::string why =
           point && std::isnan(bound.found) && bound.metric.starts_with("flicker") ? why_no_flicker(*point) : "";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "compare/results/number_text.h"
@@ -10,6 +11,10 @@
 
 namespace noonmark {
 namespace {
+
+constexpr const char* tuned_of_moments[] = {
+    "lookup.v_min", "lookup.reduction",   "lookup.reduction_span",    "lookup.exponent",
+    "lookup.floor", "lookup.moment_bias", "lookup.negative_exponent", "bias.constant"};
 
 // The part and the texts of the settings, without the named ones.
 std::string key_of(const Choice& choice, const std::vector<std::string>& settings,
@@ -66,13 +71,21 @@ Techniques techniques_of(const ComparedGroup& group, const Results& results) {
   std::map<std::string, size_t> known;
   for (size_t i = 0; i < group.choices.size(); ++i) {
     const Choice& choice = group.choices[i].choice;
-    std::vector<std::string> without{found.scale};
-    if (has_curves(choice)) without.push_back(choice.first().curve->parameter);
+    std::vector<std::string> without = tuned_settings(choice);
+    without.push_back(found.scale);
     const auto [at, is_new] = known.emplace(key_of(choice, settings, without), found.first.size());
     if (is_new) found.first.push_back(i);
     found.of.push_back(at->second);
   }
   return found;
+}
+
+std::vector<std::string> tuned_settings(const Choice& choice) {
+  if (has_curves(choice)) return {choice.first().curve->parameter};
+  const std::string& kind = setting_of(choice.first(), "lookup.kind");
+  const bool of_moments = !kind.empty() && kind != "compare";
+  if (!of_moments) return {};
+  return {std::begin(tuned_of_moments), std::end(tuned_of_moments)};
 }
 
 std::optional<MoreOf> more_of(const ComparedChoice& one, const ComparedChoice& other, AtBias at) {

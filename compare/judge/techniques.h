@@ -19,9 +19,14 @@ struct Techniques {
   std::vector<size_t> of;     // of each choice its technique
   std::vector<size_t> first;  // of each technique its first choice; in this order
 };
-// Choices are of one technique if they have the same part and the same swept settings, but for the scale and for the bias that
-// their curves vary, because a choice stands at its best bias.
+// Choices are of one technique if they have the same part and the same swept settings, but for the scale and for tuned_settings():
+// a technique stands at its best numbers.
 Techniques techniques_of(const ComparedGroup& group, const Results& results);
+
+// The numbers of a choice that cost nothing and that a user tunes, so that they make no technique of their own: the bias that its
+// curves vary; of a lookup in a map of moments its exponents, its reduction and its least variance, and bias.constant, because such a
+// lookup has no bias curve. What blurs (filter.*, lookup.radius, lookup.samples) is not among them.
+std::vector<std::string> tuned_settings(const Choice& choice);
 
 // The cause of which one choice has more than another, and how much of it both have: the cause with the largest difference of the
 // means over the conditions, at the bias. Empty if the first has more of no cause.

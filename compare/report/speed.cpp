@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/techniques.h"
 #include "compare/report/findings.h"
 #include "compare/report/speed_reading.h"
 #include "compare/report/text.h"
@@ -282,7 +283,7 @@ std::string ChoiceNames::of(const Choice& choice, AtBias at) const {
 std::string ChoiceNames::technique(const Choice& choice, const std::string& scale) const {
   const auto found = differing_.find(choice.first().part);
   std::vector<std::string> settings = found == differing_.end() ? std::vector<std::string>() : found->second;
-  settings = without_curve_parameter(choice.first(), std::move(settings));
+  for (const std::string& tuned : tuned_settings(choice)) std::erase(settings, tuned);
   std::erase(settings, scale);
   return named(choice, std::move(settings));
 }

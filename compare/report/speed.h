@@ -56,7 +56,8 @@ class ChoiceNames {
   explicit ChoiceNames(const Results& results);
   // best: without the setting that the curves of the choice vary, because its own bias is said beside the name.
   std::string of(const Choice& choice, AtBias at = AtBias::as_set) const;
-  // The technique of the choice: at its own bias, and without the setting along the curve (Techniques::scale).
+  // The technique of the choice: without what it is tuned by (tuned_settings) and without the setting along the curve
+  // (Techniques::scale).
   std::string technique(const Choice& choice, const std::string& scale) const;
 
  private:

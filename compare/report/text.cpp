@@ -114,6 +114,10 @@ std::string_view head_unit(std::string_view unit) {
 
 std::string cell(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return "not finite";
+  // Shares and lit fractions are sums and differences of doubles around 1, which are 2^-52 apart. What is below four such
+  // steps is their rounding, and no measured amount.
+  constexpr double least_share = 0x1p-50;
+  if ((unit == "fraction" || unit.empty()) && std::abs(value) < least_share) return "0";
   if (unit == "count") return grouped(std::round(few_digits(value)));
   return number(unit == "fraction" ? 100 * value : unit == "bytes" ? 1e-6 * value : value, digits);
 }

@@ -349,6 +349,7 @@ TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {
     return std::string();
   };
   EXPECT_EQ(why({}), "");
+  EXPECT_EQ(why({{"lookup.reduction", "0.35"}, {"lookup.reduction_span", "0.65"}}), "");
   // It stores e^(-c z), which is at most 1.
   EXPECT_EQ(why({{"lookup.kind", "babylon_esm"}, {"lookup.exponent", "50"}, {"map.moments", "16f"}}), "");
   for (const auto& [settings, says] : std::vector<std::pair<std::vector<Assignment>, std::string>>{
@@ -360,7 +361,8 @@ TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {
            {{{"bias.reference", "receiver_plane"}}, "set bias.reference = own_depth"},
            {{{"bias.polygon_units", "4"}}, "bias.polygon_units moves the casters"},
            {{{"lookup.kind", "evsm2"}, {"map.moments", "16"}}, "map.moments = 16 holds numbers from 0 to 1"},
-           {{{"lookup.kind", "msm"}, {"map.moments", "16"}}, "with lookup.moments = plain"},
+           {{{"lookup.kind", "msm"}, {"map.moments", "16"}}, "with lookup.moments = plain; set lookup.moments = 2017"},
+           {{{"lookup.reduction", "0.3"}, {"lookup.reduction_span", "0.75"}}, "(1 - 0.3) / 0.75 = 0.933"},
            {{{"lookup.kind", "evsm4"}, {"map.moments", "16f"}}, "so it goes up to 5.545"},
            {{{"lookup.kind", "esm"}, {"map.moments", "16f"}}, "so it goes up to 11.09"},
            {{{"lookup.kind", "evsm2"}, {"lookup.exponent", "50"}}, "above 44.36"}})

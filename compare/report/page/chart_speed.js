@@ -105,6 +105,19 @@ function rowsAt(rows, indices) {
       .filter(Boolean);
 }
 
+// From the least to the largest error of what was tried: the choices of the row's technique that cost the same differ only in
+// what tunes it. Null if there is one.
+function tunedSpan(rows, row) {
+  var same = rows.filter(function(r) {
+    return r.entry.technique === row.entry.technique && r.x === row.x && r.counts;
+  });
+  if (same.length < 2) return null;
+  return [Math.min.apply(null, same.map(errorIn)), Math.max.apply(null, same.map(errorIn))];
+}
+function errorIn(row) {
+  return row.v;
+}
+
 function tip(event, row) {
   var e = row.entry, of = errorOf(e), cost = e.costs[state.cost], many = e.conditions > 1;
   function both(v, measure) {
@@ -150,7 +163,7 @@ var self = kit.chart('cost', function(width) {
   var entries = g.entries, rows = rowsOf(entries), all = [];
   shownRows = rows;
   rows.forEach(function(r) {
-    all = all.concat([r.v], r.entry === described() && r.span || []);
+    all = all.concat([r.v], (r.ahead || r.entry === described()) && r.span || []);
   });
   var floor = kit.logFloor(all);
   self.plot.textContent = '';
@@ -194,6 +207,24 @@ var self = kit.chart('cost', function(width) {
     ends.push(
         {text: g.techniques[technique], must: end.ahead, colour: colourOf(technique), at: pixels(end), from: end.px});
   });
+  // The bars: of the described choice, and along the curves that err least somewhere, so that they hide nothing else.
+  var bars = rows.filter(function(r) {
+    r.colour = 'var(--soft)';
+    return r.span && r.entry === described();
+  });
+  curves.forEach(function(curve, technique) {
+    rowsAt(rows, curve).forEach(function(r) {
+      if (!r.ahead || bars.indexOf(r) >= 0) return;
+      var tuned = tunedSpan(rows, r);
+      if (!r.span && !tuned) return;
+      bars.push({
+        px: r.px,
+        bottom: r.span ? r.bottom : height_of(tuned[0]),
+        top: r.span ? r.top : height_of(tuned[1]),
+        colour: colourOf(technique)
+      });
+    });
+  });
   lines.sort(function(a, b) {
     return a.ahead - b.ahead;  // those that err least somewhere lie above the others
   });
@@ -206,13 +237,7 @@ var self = kit.chart('cost', function(width) {
       padding: {left: left, right: right, top: 10, bottom: 46},
       autosize: 'none',
       data: [
-        {name: 'rows', values: marks}, {
-          name: 'spans',
-          values: only(function(r) {
-            return r.span && r.entry === described();
-          })
-        },
-        {
+        {name: 'rows', values: marks}, {name: 'spans', values: bars}, {
           name: 'intervals',
           values: only(function(r) {
             return r.high > r.low;
@@ -401,7 +426,9 @@ function legend() {
   self.legend.append(kit.make('span', {class: 'title'}, 'Marks'));
   line('stroke="var(--accent)" stroke-width="1.6" stroke-dasharray="2 3"', 'Pareto front');
   symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable bias');
-  symbol('<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>', 'over the usable window');
+  symbol(
+      '<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>',
+      'over the usable window, or what was tried');
   symbol(
       '<circle cx="6" cy="6" r="4" fill="var(--grid)" stroke="var(--ink)"/><text x="12" y="9.5" font-size="10" fill="var(--soft)">+2</text>',
       'several at one place');

@@ -62,6 +62,8 @@ function unitBehind(v, unit) {
   return v === 1 && unit === 'texels' ? 'texel' : unit;
 }
 function shown(v, unit) {
+  // As cell() in report/text.cpp: less than 2^-50 of a share is the rounding of its sum.
+  if ((unit === 'fraction' || !unit) && finite(v) && Math.abs(v) < Math.pow(2, -50)) v = 0;
   return !finite(v)       ? 'not finite' :
       unit === 'fraction' ? digits(100 * v) + thin + '%' :
       unit === 'bytes'    ? digits(1e-6 * v) + thin + 'MB' :

@@ -158,9 +158,9 @@ function marksOf(w, floor, right) {
           x: {field: 'px'},
           y: {scale: 'y', field: 'top'},
           y2: {scale: 'y', field: 'bottom'},
-          stroke: {value: 'var(--soft)'},
+          stroke: {field: 'colour'},
           strokeOpacity: {value: 0.55},
-          strokeWidth: {value: 1.6}
+          strokeWidth: {value: 2.2}
         }
       }
     },

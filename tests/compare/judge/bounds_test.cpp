@@ -309,6 +309,21 @@ TEST(Bounds, ABrokenBoundSaysWhereAndHowToSeeIt) {
   EXPECT_EQ(describe(ask({0.1}, bound), &points[0], swept), "held: acne <= 40%; found 10% (worst of 1 point)\n");
 }
 
+// A point that compares depths has no metric of a map of moments: what to do is said.
+TEST(Bounds, AMetricOfAnotherLookupAsksForAPart) {
+  std::vector<PointRecord> points = points_with({0, 0});
+  points[0].metrics.erase("leak");
+  Bound bound = at_most(1);
+  bound.metric = "leak";
+  const auto told = [&] {
+    const BoundResult result = evaluate_bounds(points, std::span(&bound, 1), command_of).at(0);
+    return describe(result, result.point < 0 ? nullptr : &points[static_cast<size_t>(result.point)]);
+  };
+  EXPECT_NE(told().find("give those lookups a [[part]] and the bound as [[part.bound]]"), std::string::npos) << told();
+  points[0].metrics["leak"] = nan_value;
+  EXPECT_EQ(told().find("[[part]]"), std::string::npos) << "measured, but not finite\n" << told();
+}
+
 // The definition: a bound holds exactly if every value is finite and none is beyond the limit.
 RC_GTEST_PROP(BoundsProperty, WorstHoldsExactlyWhenEveryPointDoes, (const std::vector<double>& values, double max)) {
   RC_PRE(!values.empty());

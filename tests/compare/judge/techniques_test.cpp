@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
+
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {
@@ -76,6 +79,43 @@ TEST(Techniques, TheBiasOfTheCurveIsNone) {
     point.curve->window_min_depth = 0, point.curve->window_max_depth = 1;
   }
   EXPECT_EQ(techniques_of(compared_groups(results).at(0), results).of, (Indices{0, 0, 0, 0}));
+}
+
+// A lookup in a map of moments is tuned by numbers that cost nothing. Its blur is no such number.
+TEST(Techniques, TheNumbersOfALookupAreNone) {
+  Results results = grid({64, 128}, {"none", "box"});
+  results.info.swept = {"lookup.reduction", "map.resolution"};
+  for (PointRecord& point : results.points) {
+    point.metrics["texel_work"] = std::stod(point.settings["map.resolution"]);
+    point.settings["lookup.reduction"] = point.id < 2 ? "0" : "0.2";
+    point.settings["filter.kind"] = "box";
+    point.settings["lookup.kind"] = "vsm";
+  }
+  const auto techniques = [&] { return techniques_of(compared_groups(results).at(0), results).of; };
+  EXPECT_EQ(techniques(), (Indices{0, 0, 0, 0}));
+  results.info.swept.push_back("lookup.kind");
+  for (PointRecord& point : results.points) point.settings["lookup.kind"] = point.id < 2 ? "vsm" : "esm";
+  EXPECT_EQ(techniques(), (Indices{0, 0, 1, 1})) << "two lookups";
+  for (PointRecord& point : results.points) point.settings["lookup.kind"] = "compare";
+  EXPECT_EQ(techniques(), (Indices{0, 0, 1, 1})) << "a lookup that compares does not read it";
+  results.info.swept = {"lookup.radius", "map.resolution"};
+  for (PointRecord& point : results.points) {
+    point.settings["lookup.kind"] = "three_vsm";
+    point.settings["lookup.radius"] = point.id < 2 ? "1" : "2";
+  }
+  EXPECT_EQ(techniques(), (Indices{0, 0, 1, 1})) << "another blur";
+}
+
+// A new number of a lookup has to be sorted: is it tuned, or is it another technique?
+TEST(Techniques, EachNumberOfALookupIsTunedOrBlurs) {
+  Results results = grid({64}, {"none"});
+  results.points[0].settings["lookup.kind"] = "vsm";
+  std::vector<std::string> sorted = tuned_settings(compared_groups(results).at(0).choices.at(0).choice);
+  sorted.insert(sorted.end(), {"lookup.kind", "lookup.moments", "lookup.radius", "lookup.samples"});
+  for (const Setting& row : settings_table()) {
+    if (!row.name.starts_with("lookup.")) continue;
+    EXPECT_EQ(std::count(sorted.begin(), sorted.end(), row.name), 1) << row.name;
+  }
 }
 
 TEST(Techniques, TheCauseIsTheOneWithTheLargestDifference) {

@@ -51,6 +51,10 @@ TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(report::quantity(0.0042, "fraction"), "0.42\u202f%");
   EXPECT_EQ(report::quantity(infinity, "fraction"), "not finite");
   EXPECT_EQ(report::cell(not_a_number, "count"), "not finite");
+  EXPECT_EQ(report::cell(2.2e-17, "fraction"), "0") << "the rounding of a sum of shares";
+  EXPECT_EQ(report::quantity(-2.2e-17, ""), "0");
+  EXPECT_EQ(report::cell(1e-15, "fraction"), "1×10⁻¹³");
+  EXPECT_EQ(report::cell(2.2e-17, "depth"), "2.2×10⁻¹⁷") << "a depth may be as small";
   EXPECT_EQ(report::setting_label("map.extent_m"), "extent");
   EXPECT_EQ(report::setting_label("filter.kind"), "filter");
   EXPECT_EQ(report::setting_label("bias.constant"), "bias constant");
