@@ -30,13 +30,21 @@ constexpr KindParameter variance_floor{
         "about a "
         "distance in the depth from -1 to 1; a larger one lifts shadows off their casters."};
 
-constexpr KindParameter exponent{
-    .setting = "lookup.exponent", .unit = "", .min = 0.01, .max = 88, .initial = 40, .help = "c of the warp e^(c z)."};
+// The largest c for which float holds both e^c and e^-c without a loss: above 87.33 e^-c is below the normal floats, which
+// GLSL allows a device to take as 0 (GLSL 4.50, 4.7.1), and llvmpipe does.
+constexpr double most_exponent = 87;
+
+constexpr KindParameter exponent{.setting = "lookup.exponent",
+                                 .unit = "",
+                                 .min = 0.01,
+                                 .max = most_exponent,
+                                 .initial = 40,
+                                 .help = "c of the warp e^(c z)."};
 
 constexpr KindParameter negative_exponent{.setting = "lookup.negative_exponent",
                                           .unit = "",
                                           .min = 0.01,
-                                          .max = 88,
+                                          .max = most_exponent,
                                           .initial = 5,
                                           .help = "c of the second warp, -e^(-c z)."};
 

@@ -5,7 +5,7 @@ struct LookupParameters {
   // EVSM: the least variance is (floor * exponent * W)^2, W the warped depth of the receiver. So the floor is about a
   // distance in depth on [-1, 1], 0 ... 1. Lauritzen and McCool 2008.
   real floor;
-  // The exponent c of the warp e^(c z), above 0. ESM, on depth in [0, 1]: at most 88, above which float overflows. EVSM, on
+  // The exponent c of the warp e^(c z), above 0. ESM, on depth in [0, 1]: at most 87, above which e^-c is below the normal floats. EVSM, on
   // depth in [-1, 1]: at most 44.36 in 32-bit float and 5.545 in 16-bit float, above which e^(2 c) overflows.
   real exponent;
   // EVSM4: the exponent of the second warp -e^(-c z), above 0, with the limits of `exponent`.

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
                   {{"lookup.kind", "babylon_esm"}, {"lookup.exponent", "50"}, {"map.moments", "16f"}}},
         SceneCase{"BabylonCloseEsm",
                   "cube-room",
-                  {{"lookup.kind", "babylon_close_esm"}, {"lookup.exponent", "88"}, {"map.moments", "16"}}},
+                  {{"lookup.kind", "babylon_close_esm"}, {"lookup.exponent", "87"}, {"map.moments", "16"}}},
         SceneCase{"ThreeVsm", "cube-room", {{"lookup.kind", "three_vsm"}, {"filter.kind", "none"}}},
         SceneCase{"ThreeVsmAsShown",
                   "cube-room",

@@ -2,11 +2,14 @@
 // whose storage makes them something else.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/gtc/packing.hpp>
 #include <random>
 
+#include "base/error.h"
 #include "technique/lookup_formulas.h"
 #include "technique/lookup_truth.h"
+#include "technique/settings.h"
 #include "technique/spread_blur.h"
 
 namespace noonmark {
@@ -135,9 +138,14 @@ TEST(LookupStorage, Law20WindowsOfTheExponent) {
   // Nine taps summed before the division.
   EXPECT_TRUE(std::isfinite(9 * greatest_square(43.26f)));
   EXPECT_FALSE(std::isfinite(9 * greatest_square(43.27f)));
-  // ESM's depth is on [0, 1].
+  // ESM's depth is on [0, 1]. A device may take floats below the normal ones as 0.
   EXPECT_TRUE(std::isfinite(in_float::esm_moments(1, with_float_exponent(88)).x));
   EXPECT_FALSE(std::isfinite(in_float::esm_moments(1, with_float_exponent(89)).x));
+  EXPECT_TRUE(std::isnormal(std::exp(-87.0f)));
+  EXPECT_FALSE(std::isnormal(std::exp(-88.0f)));
+  Settings settings;
+  EXPECT_NO_THROW(find_setting("lookup.exponent").set(settings, "87"));
+  EXPECT_THROW(find_setting("lookup.exponent").set(settings, "88"), Error);
 }
 
 TEST(LookupStorage, Law20BabylonsHalfFloatsLoseFarCasters) {
