@@ -310,11 +310,15 @@ std::string pictures_text(const Advice& advice, const Answer& answer) {
     if (one.placements != answer.placements)
       other = fmt::format(" ({} for {})", one.placements,
                           one.tried.filtered() ? "filtered maps" : "maps that are compared with");
+  const bool filtered =
+      std::any_of(advice.answers.begin(), advice.answers.end(), [](const Answer& one) { return one.tried.filtered(); });
   std::string text = fmt::format(
-      "Work is that of a picture of {} x {} pixels. Error is the largest under {} and at {} placements of the map's "
-      "grid{}, in "
-      "pictures {} pixels wide; recommended.toml measures full pictures, so its report has other numbers.",
-      settings.view.width_px, settings.view.height_px, counted(answer.conditions, "condition"), answer.placements,
+      "Work is that of a picture of {} x {} pixels. Error is the largest under {}, with the map's grid where the "
+      "settings put it{}; acne, Peter Panning and their like are held at {} placements of the grid{}. Both are "
+      "measured "
+      "in pictures {} pixels wide; recommended.toml measures full pictures, so its report has other numbers.",
+      settings.view.width_px, settings.view.height_px, counted(answer.conditions, "condition"),
+      filtered ? " (of filtered maps, where the light has no size, at their worst placement)" : "", answer.placements,
       other, std::min(advice.request.width_px, settings.view.width_px));
   if (answer.tried.eye)
     text +=
