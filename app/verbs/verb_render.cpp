@@ -43,7 +43,7 @@ void print_placements(const Measurement& m) {
   const std::map<std::string, double>& metrics = m.record.metrics;
   if (!metrics.contains("error_mean")) return;
   const int side = m.technique.settings.map.placements;
-  fmt::print("\n  {:<32}{:>12}{:>12}\n", fmt::format("over {} placements of the grid", side * side), "mean", "worst");
+  fmt::print("\n  {:<32}{:>12}{:>12}\n", fmt::format("over {} placements, exact map", side * side), "mean", "worst");
   constexpr std::string_view ending = "_mean";
   for (const Metric& metric : metrics_table()) {
     if (!metric.of_placements || !metric.name.ends_with(ending)) continue;
@@ -131,7 +131,9 @@ void print_reductions(const Measurement& m) {
   if (!metrics.contains("best_reduction")) return;
   fmt::print("  lookup.reduction of least error: {:.4g} ({:.5f}% on the exact map, without rounding)\n",
              metrics.at("best_reduction"), 100 * metrics.at("best_reduction_error"));
-  constexpr const char* bounds = "the leak within curve.peter_panning_bound and the darkening within curve.acne_bound";
+  constexpr const char* bounds =
+      "the leak within curve.peter_panning_bound, and over-darkening and what the reduction darkens each within "
+      "curve.acne_bound";
   if (metrics.contains("reduction_min"))
     fmt::print("  reductions from {:.4g} to {:.4g} keep {}\n", metrics.at("reduction_min"), metrics.at("reduction_max"),
                bounds);

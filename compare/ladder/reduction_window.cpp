@@ -109,10 +109,14 @@ ReductionWindow::Best ReductionWindow::best() const {
 }
 
 std::optional<ReductionWindow::Window> ReductionWindow::usable(double leak_bound, double darkening_bound) const {
-  if (count() == 0 || at(most_reduction).leak > leak_bound || at(0).reduction > darkening_bound) return std::nullopt;
-  const double low = first_that(0, most_reduction, [&](double r) { return at(r).leak <= leak_bound; });
-  const double beyond = first_that(0, most_reduction, [&](double r) { return at(r).reduction > darkening_bound; });
-  const double high = at(most_reduction).reduction <= darkening_bound ? most_reduction : beyond - 0x1p-30;
+  const auto leaks = [&](double r) { return !(at(r).leak <= leak_bound); };
+  const auto darkens = [&](double r) {
+    const At there = at(r);
+    return !(there.reduction <= darkening_bound && there.over_darkening <= darkening_bound);
+  };
+  if (count() == 0 || leaks(most_reduction) || darkens(0)) return std::nullopt;
+  const double low = first_that(0, most_reduction, [&](double r) { return !leaks(r); });
+  const double high = darkens(most_reduction) ? first_that(0, most_reduction, darkens) - 0x1p-30 : most_reduction;
   return low <= high ? std::optional(Window{low, high}) : std::nullopt;
 }
 

@@ -49,9 +49,9 @@ class ReductionWindow {
   // no minimum. The smallest of equal ones.
   Best best() const;
 
-  // The reductions at which the mean leak is at most leak_bound and what the reduction darkens at most darkening_bound: from
-  // `low` to `high`, to within 2^-30. The leak never grows with the reduction, and what it darkens never falls. Empty if there
-  // are none.
+  // The reductions at which the mean leak is at most leak_bound, and over-darkening and what the reduction darkens are each at
+  // most darkening_bound: from `low` to `high`, to within 2^-30. The leak never grows with the reduction, the
+  // other two never fall. Empty if there are none.
   struct Window {
     double low = 0, high = 0;
   };

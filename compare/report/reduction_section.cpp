@@ -69,13 +69,12 @@ nlohmann::json reductions_of(const PointRecord& point, size_t points) {
 
 Markup reduction_section(const Results& results, const ShownPoints& shown) {
   if (points_with_reductions(results.points) == 0) return "";
-  Markup out =
-      paragraph(prose("{} r removes leaks of up to r and darkens the rest: (L − r) / (1 − r). It is arithmetic on the "
-                      "result, so the curve "
-                      "is exact for every r, on the exact map and without rounding. In the usable window the leak is "
-                      "within the bound on "
-                      "Peter Panning ({}) and what the reduction darkens within that on acne ({}).",
-                      code("lookup.reduction"), code("curve.peter_panning_bound"), code("curve.acne_bound")));
+  Markup out = paragraph(prose(
+      "{} r removes leaks of up to r and darkens the rest: (L − r) / (1 − r). It is arithmetic on the result, so the "
+      "curve is exact for every r, on the exact map and without rounding. In the usable window the leak is within the "
+      "bound on Peter Panning ({}), and over-darkening and what the reduction darkens are each within that on acne "
+      "({}).",
+      code("lookup.reduction"), code("curve.peter_panning_bound"), code("curve.acne_bound")));
   out += shown.note;
   out += chart_place(
       "reduction", "Error and causes of a filtered shadow map against lookup.reduction; the usable window is shaded.");
@@ -87,7 +86,7 @@ Markup reduction_section(const Results& results, const ShownPoints& shown) {
     if (!point.lookup_curve.empty()) rows += window_row(point, results.info.swept, placed);
   Markup head = th(css("text"), "Point") + th("As set") + th("Usable from") + th("to");
   if (placed) head += th("At every placement from") + th("to");
-  head += th("Least error at") + th(with_small("Error", "%"));
+  head += th("Least error at") + th(with_small("Error there", "%"));
   const size_t count = points_with_reductions(points);
   out += folded("", count <= open_rows, "Every window of the reduction",
                 div(css("scroll"), table("numbers", head, rows)) + "\n");

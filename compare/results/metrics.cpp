@@ -191,9 +191,9 @@ constexpr Metric measured_with_causes[] = {
     {"best_reduction_error", "fraction", "Of a map of moments: mean |R4 - R1| at best_reduction.", true, false, false,
      false, false, false, true},
     {"reduction_min", "",
-     "Of a map of moments: the least lookup.reduction at which the leak is within curve.peter_panning_bound and what "
-     "the "
-     "reduction darkens within curve.acne_bound. Left out if no reduction is. Measured with a curve.",
+     "Of a map of moments: the least lookup.reduction at which the leak is within curve.peter_panning_bound, and "
+     "over-darkening and what the reduction darkens are each within curve.acne_bound. Left out if no reduction is. "
+     "Measured with a curve.",
      true, false, false, false, false, false, true},
     {"reduction_max", "", "Of a map of moments: the largest such lookup.reduction, at most 0.99.", true, false, false,
      false, false, false, true},

@@ -24,7 +24,7 @@ function phraseOf(point) {
 
 var stops, self = kit.chart('reduction', function(width) {
   var point = kit.byId[id], curve = point.reductions, values = curve.value, metrics = point.metrics;
-  var left = 64, right = 16, w = width - left - right, h = width < 520 ? 260 : 340;
+  var left = 76, right = 16, w = width - left - right, h = width < 520 ? 260 : 340;
   var series = ['error'].concat(causes).filter(function(s) {
     return curve[s].some(function(v) {
       return v > 0;
@@ -34,10 +34,10 @@ var stops, self = kit.chart('reduction', function(width) {
     self.plot.append(kit.make('p', {class: 'small'}, 'The value is 0 at every reduction.'));
     return null;
   }
-  // Five decades below the largest value; smaller ones are drawn on the axis.
+  // Four decades below the largest value; smaller ones are drawn on the axis.
   var top = 1.3 * Math.max.apply(null, series.map(function(s) {
     return Math.max.apply(null, curve[s]);
-  })), bottom = top / 1e5, rows = [];
+  })), bottom = top / 1e4, rows = [];
   series.forEach(function(s) {
     values.forEach(function(r, i) {
       var v = curve[s][i];

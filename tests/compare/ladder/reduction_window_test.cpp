@@ -43,6 +43,7 @@ TEST(ReductionWindow, HoldsBothBoundsAndNoWiderOneDoes) {
     const ReductionWindow window = random_window(seed, 300);
     const double leak = window.at(0.1).leak, darkened = window.at(0.3).reduction;
     ASSERT_GT(leak, 0);
+    ASSERT_LT(window.at(0.3).over_darkening, darkened);
     const auto usable = window.usable(leak, darkened);
     ASSERT_TRUE(usable) << seed;
     ++windows;
@@ -68,6 +69,27 @@ TEST(ReductionWindow, RemovesALeakOfPFromP) {
   ASSERT_TRUE(usable);
   EXPECT_NEAR(usable->low, 0.25, 1e-8);
   EXPECT_EQ(usable->high, most_reduction);
+}
+
+// What is too dark without any reduction is in no window, however little the reduction darkens.
+TEST(ReductionWindow, HoldsOverDarkeningToo) {
+  ReductionWindow window;
+  window.add({0, 1, {.from = 1, .texels = 1, .bare = 0.75, .bound = 0.75}});
+  window.add({1, 1, {.from = 0.5, .texels = 0.5, .bare = 0.25, .bound = 0.5}});  // what the floors lift again
+  EXPECT_DOUBLE_EQ(window.at(0).over_darkening, 0.125);
+  EXPECT_FALSE(window.usable(1, 0.124));
+  const auto usable = window.usable(1, 0.2);
+  ASSERT_TRUE(usable);
+  EXPECT_EQ(usable->low, 0);
+  const ReductionWindow::At last = window.at(usable->high);
+  EXPECT_NEAR(std::max(last.over_darkening, last.reduction), 0.2, 1e-8);
+  double before = 0;
+  for (int i = 0; i <= 99; ++i) {
+    const double dark = window.at(i / 100.0).over_darkening;
+    EXPECT_GE(dark, before);
+    before = dark;
+  }
+  EXPECT_DOUBLE_EQ(before, 0.125) << "of the first receiver alone";
 }
 
 // Threads add receivers in any order.
