@@ -28,7 +28,7 @@ for verb in $verbs; do
   for option in $(sed -n '/^Options:/,/^$/p' <<<"$help" | words); do
     [[ $option == --help ]] && continue
     options=$((options + 1))
-    grep -qE "^\.B $option( [A-Za-z=/.|,]+)?$" <<<"$text" || complain "the page's section of $verb lacks $option"
+    grep -qE "^\.B $option( [A-Za-z0-9_=/.|,]+)?$" <<<"$text" || complain "the page's section of $verb lacks $option"
   done
   while read -r option; do
     grep -q -- "  $option" <<<"$help" || complain "the page gives $verb an option $option that it does not have"
