@@ -17,8 +17,8 @@
 // 3. Between the cheapest resolution that holds and its half, one more is tried: its half times the root of 2.
 // 4. Verification at 64 other placements (app/advise/recommend_verify.h). OpenGL renders the answer that was asked for at some of
 //    them; otherwise the exact map is judged.
-// A filtered map, if one is asked for, is chosen by its lookup.reduction in place of a bias, and placed at 4 x 4 places
-// (app/advise/recommend_filtered.h).
+// If filtered maps are asked for, their lookup.reduction is chosen in place of a bias. They are measured at 4 x 4 placements,
+// and verified at 16 others (app/advise/recommend_filtered.h).
 // Screening and confirmation ask for a share of the bounds on acne and Peter Panning (searched_bounds), because other views than
 // the searched ones are a little worse.
 #pragma once

@@ -18,7 +18,7 @@ struct Verified {
   int placements = 0;                                               // that were judged
   int rendered = 0;                                                 // of these, by OpenGL with its own map
   double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over all of these
-  FilteredShares filtered;                                          // the largest, of a filtered map
+  FilteredShares filtered;                                          // of a filtered map: the largest of each
   std::optional<PointRecord> broken;                                // the first that breaks a bound
 };
 

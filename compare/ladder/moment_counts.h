@@ -67,7 +67,7 @@ class MomentCounts {
   std::optional<ReductionBounds> bounds_;
   double receivers_ = 0;
   std::vector<std::array<double, sums>> of_;  // [placement]
-  ReductionWindow reductions_;                // of a single placement
+  ReductionWindow reductions_;                // receivers, in the counts of a single placement
   ReductionWindow::Window usable_;            // of the placements that were put
   ReceiverTaps taps_;                         // its memory is used again
   MomentScratch scratch_;

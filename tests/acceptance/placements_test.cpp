@@ -28,7 +28,7 @@ std::vector<Case> cases() {
     return name;
   };
   // Shifted where edges of the scene would pass exactly through centres of texels: a verdict there is a tie, which
-  // rounding decides. In layers and crease the light stands straight above edges at whole metres, 27.5 texels each.
+  // rounding decides. In layers and crease the light shines straight down on edges at whole metres, and a metre is 27.5 texels.
   const std::vector<Assignment> beside_edges = {{"map.shift_u_texels", "0.013"}, {"map.shift_v_texels", "0.029"}};
   for (const BuiltinScene& scene : builtin_scenes()) {
     if (scene.name == "point-room") continue;

@@ -59,7 +59,7 @@ struct EngineFilter {
 
 // A lookup in a map of moments, as an engine makes it.
 struct EngineMoments {
-  EngineFilter filter;  // its blur; the lines also choose the lookup. `same`: it is the recommended one
+  EngineFilter filter;  // the engine's blur. Its lines choose the lookup too; `same`: it is the blur that was asked for
   LookupSettings as;    // what the engine computes
   MomentFormat format = MomentFormat::f32;
   std::vector<std::string> cannot = {};  // sentences
@@ -152,8 +152,8 @@ struct Engine {
   std::optional<EngineCascades> cascades = {};
   std::string no_cascades = {};              // without lines for cascades: why, a sentence
   std::string (*literal)(double) = nullptr;  // a number as the engine's language takes it; null: number()
-  // The lookup of place.settings, which reads moments; empty: the engine has none that computes this, and no_moments says what
-  // it has. Null: Noonmark knows of none.
+  // How the engine makes a lookup that reads moments, that of place.settings. The result is empty if the engine has no such
+  // lookup; then no_moments says what it has. The function is null if the engine has no map of moments that Noonmark knows.
   std::optional<EngineMoments> (*moments)(const AdvicePlace&) = nullptr;
   std::string no_moments = {};  // sentences
 };
