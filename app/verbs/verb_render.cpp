@@ -38,7 +38,7 @@
 namespace noonmark {
 namespace {
 
-// "over 64 placements of the grid            mean      worst", and a line for each metric.
+// "over 64 placements, exact map              mean      worst", and a line for each metric.
 void print_placements(const Measurement& m) {
   const std::map<std::string, double>& metrics = m.record.metrics;
   if (!metrics.contains("error_mean")) return;

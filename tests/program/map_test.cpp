@@ -81,7 +81,7 @@ TEST_F(Map, RenderPrintsWhatHoldsOverAllPlacements) {
     return nlohmann::json::parse(text("out/point.json")).at("metrics");
   };
   const nlohmann::json all = render({"--set", "map.placements=4", "--out", "out"});
-  EXPECT_TRUE(says("over 16 placements of the grid")) << output_;
+  EXPECT_TRUE(says("over 16 placements, exact map")) << output_;
   EXPECT_TRUE(says("texels from this point; OpenGL shows")) << output_;
   EXPECT_FALSE(says("acne_mean")) << output_;
   const auto shift = [&](const char* name) { return fmt::format("{}", all.at(name).get<double>()); };
@@ -105,7 +105,7 @@ TEST_F(Map, RenderNamesTheWorstTurnOfACube) {
     return fmt::format("{}", all.at(fmt::format("worst_turn_{}_deg", axis)).get<double>());
   };
   const std::string worst = turn("x") + "," + turn("y") + "," + turn("z");
-  EXPECT_TRUE(says("over 4 placements of the grid")) << output_;
+  EXPECT_TRUE(says("over 4 placements, exact map")) << output_;
   EXPECT_TRUE(says("the worst is map.turn_deg=" + worst + "; OpenGL shows")) << output_;
   EXPECT_FALSE(all.contains("worst_shift_u_texels"));
   const nlohmann::json one = render("map.turn_deg", worst);
