@@ -181,7 +181,7 @@ MapResults Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, s
 
 ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
                               std::span<const AskedMap> asked, std::span<const Technique> techniques,
-                              const ChosenCascades* chosen) {
+                              const ChosenCascades* chosen, bool keep_fetched) {
   ShownMaps shown;
   shown.moments.resize(asked.size());
   shown.ties.resize(asked.size());
@@ -189,9 +189,10 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
   const auto check_stages = [&](const gl::ShadowMap& of, const MapResults& results, const auto& depths_of) {
     for (size_t k = 0; k < asked.size() && techniques[k].moments; ++k) {
       const MapDepths& depths = depths_of(k);
-      const MomentEvidence moments = renderer.read_moments(of, techniques, *depths.texels, k);
+      MomentEvidence moments = renderer.read_moments(of, techniques, *depths.texels, k);
       shown.moments[k] += check_moments(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k]), depths,
                                         moments, result_in_map(results, chosen, static_cast<int>(k)));
+      if (keep_fetched && &results == &shown.r5) shown.fetched.push_back(std::move(moments.fetched));
     }
   };
   shown.r5 = look_up(renderer, *map.map, techniques);
@@ -227,7 +228,8 @@ ShownStage ShownMaps::take(const ChosenCascades* chosen, size_t map) {
           tie_lookup.own.size() ? result_in_map(tie_lookup, chosen, cascade) : Image<float>(),
           std::move(stored[map]),
           std::move(ties[map]),
-          moments[map]};
+          moments[map],
+          fetched.empty() ? Image<glm::vec4>() : std::move(fetched[map])};
 }
 
 ShownStage Pipeline::show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,

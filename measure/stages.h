@@ -80,6 +80,7 @@ struct ShownStage {
   MapDepths stored;  // the drawn map as the lookup's sampler returns it
   MapDepths ties;
   MomentContractCounts moments{};  // of a lookup in a map of moments, which has no tie map
+  Image<glm::vec4> fetched{};      // the moments that its lookups fetched; empty unless asked for
 };
 
 // The same in all maps of a point, each kind of them looked up in one pass.
@@ -87,6 +88,7 @@ struct ShownMaps {
   MapResults r5, r4, tie_lookup;
   std::vector<MapDepths> stored, ties;  // of each map
   std::vector<MomentContractCounts> moments;
+  std::vector<Image<glm::vec4>> fetched;  // from the drawn maps of moments; empty unless asked for
 
   // What is shown in one of them, whose depths it takes. chosen: null with one map.
   ShownStage take(const ChosenCascades* chosen, size_t map);
@@ -143,10 +145,10 @@ class Pipeline {
   // One lookup of all receivers, in all maps. show_maps() calls it for the drawn, the exact and the tie maps.
   virtual MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques);
   // map: has its maps; afterwards they and the exact maps on the device are kept only if they are small. exact_map: those of
-  // an earlier call for the same lookups, or none. chosen: null with one map.
+  // an earlier call for the same lookups, or none. chosen: null with one map. keep_fetched: of maps of moments.
   ShownMaps show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
                       std::span<const AskedMap> asked, std::span<const Technique> techniques,
-                      const ChosenCascades* chosen);
+                      const ChosenCascades* chosen, bool keep_fetched = false);
   // The same of one map, whose exact map is not kept.
   ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
                   const Technique& technique);

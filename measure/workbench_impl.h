@@ -159,7 +159,7 @@ struct Workbench::Impl {
   // The lookups of all maps, and what OpenGL shows in them. truths: of each map. of_receivers: null with one map.
   ShownMaps show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
                       std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
-                      const ChosenCascades* of_receivers, MetricSet metrics);
+                      const ChosenCascades* of_receivers, MetricSet metrics, bool keep_fetched = false);
 
   // Frees the receivers of a large picture on the device; see() brings them back.
   void free_large_picture(const ReceiverImage& receivers) {

@@ -7,6 +7,8 @@
 #include "compare/ladder/law_metrics.h"
 #include "compare/ladder/measure.h"
 #include "compare/ladder/numbers.h"
+#include "compare/ladder/parameter_curve.h"
+#include "compare/ladder/receiver_taps.h"
 #include "compare/ladder/seams.h"
 #include "compare/results/quantities.h"
 #include "measure/flicker_stage.h"
@@ -226,7 +228,7 @@ const ChoiceStage& Workbench::Impl::choose(const Asked& asked, const ViewStage& 
 
 ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
                                      std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
-                                     const ChosenCascades* of_receivers, MetricSet metrics) {
+                                     const ChosenCascades* of_receivers, MetricSet metrics, bool keep_fetched) {
   const SceneStage& loaded = asked.loaded;
   if (!kept.exact.has(asked.keys.lookup)) kept.exact.forget();
   std::vector<AskedMap> of_each;
@@ -242,7 +244,7 @@ ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, 
   // A search does not read it, and it costs a pass over the map.
   if (metrics == MetricSet::all && !map.used) map.used = renderer.used_texels(*map.map);
   std::optional<gl::ShadowMap>& exact = kept.exact.get(asked.keys.lookup, [] { return std::nullopt; });
-  return stages->show_maps(renderer, map, exact, of_each, techniques, of_receivers);
+  return stages->show_maps(renderer, map, exact, of_each, techniques, of_receivers, keep_fetched);
 }
 
 // OpenGL renders the worst placement of a map too: the counts are compared with it, and what it shows there is a metric of
@@ -358,8 +360,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
   // Only for a curve that is not known yet.
   const BiasScale scale = unknown ? bias_scale(scaled, view.receivers, settings.bias.unit) : BiasScale();
-  // Whether lookup.reduction alone turns a bound into the result.
-  const bool reduces = technique.moments && curve_options && settings.lookup["reduction_span"] == 0;
+  const bool reduces = curve_options && has_reduction_curve(settings);
   std::vector<std::unique_ptr<PlacementStage>> placements;  // of each map
   const auto with_placements = [&](LookupStage& lookup) -> EachStrip {
     const size_t k = placements.size();
@@ -372,15 +373,25 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   };
   b.see(asked);
   const ChosenCascades* const of_receivers = cascaded ? &choice->chosen : nullptr;
-  ShownMaps shown = b.show_maps(asked, view, kept, truths, techniques, of_receivers, metrics);
+  std::optional<ParameterCurve> over;
+  if (curve_options && has_curve_over(settings, curve_options->over.setting))
+    over.emplace(curve_options->over, settings);
+  ShownMaps shown = b.show_maps(asked, view, kept, truths, techniques, of_receivers, metrics, over.has_value());
   std::vector<OneMap> maps;
   for (size_t k = 0; k < techniques.size(); ++k) {
     LookupStage& lookup = *kept.each[k].lookup.value();
     // What is not needed again is freed before the point's numbers are computed, because it is large.
     ShownStage one = shown.take(of_receivers, k);
     if (k + 1 == techniques.size()) shown = {};
-    Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, *truths[k], one, techniques[k], unknown,
-                                             settings.map.placements > 1 ? with_placements(lookup) : EachStrip());
+    const EachStrip placed = settings.map.placements > 1 ? with_placements(lookup) : EachStrip();
+    const EachStrip each_strip = [&](const LookupEvidence& evidence, PixelRange strip) {
+      if (placed) placed(evidence, strip);
+      if (!over) return;
+      ParameterCurve::Adding adding(*over, evidence, one.fetched);
+      read_taps(evidence, strip, adding);
+    };
+    Climbed climbed =
+        b.stages->climb_strips(b.renderer, lookup, view, *truths[k], one, techniques[k], unknown, each_strip);
     maps.push_back({lookup, techniques[k], *truths[k], std::move(one.stored), std::move(climbed)});
     if (!placements.empty()) placements.back()->finish();
   }
@@ -435,14 +446,18 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   }
   m.record.metrics.merge(laws);
   m.record.metrics.merge(soundness);
-  // In a blend band a result is a mix of two lookups, which another reduction would change both.
-  if (reduces && !m.cascades.blends()) {
+  if (reduces) {
     ReductionWindow reductions;
     for (OneMap& map : maps) reductions.add(std::exchange(map.climbed.reductions, {}));
     reductions.sort();
     m.record.metrics.merge(
         reduction_metrics(reductions, curve_options->peter_panning_bound, curve_options->acne_bound));
     m.record.lookup_curve = reduction_curve(reductions);
+    m.record.reduction_bounds = *curve_options;
+  }
+  if (over) {
+    const std::vector<LookupCurvePoint> more = over->curve();
+    m.record.lookup_curve.insert(m.record.lookup_curve.end(), more.begin(), more.end());
   }
   add_maps(m.record, maps, *kept.drawn.value(), truth, metrics);
   m.record.cascades = std::move(cascades);

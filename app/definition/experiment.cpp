@@ -342,10 +342,13 @@ std::string points_text(const Experiment& experiment) {
   if (experiment.curve_enabled) {
     const auto& [acne_bound, peter_panning_bound] = static_cast<const CauseBounds&>(experiment.curve);
     const std::vector<double>& bias_depth = experiment.curve.bias_depth;
-    static_assert(sizeof(CurveOptions) == sizeof(CauseBounds) + sizeof bias_depth, "every member must stand here");
+    const auto& [over, over_values] = experiment.curve.over;
+    static_assert(sizeof(CurveOptions) == sizeof(CauseBounds) + sizeof bias_depth + sizeof(ParameterValues),
+                  "every member must stand here");
     text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", acne_bound, peter_panning_bound);
     text += bias_depth.empty() ? "curve.bias_depth = auto\n"
                                : fmt::format("curve.bias_depth = [{}]\n", fmt::join(bias_depth, ", "));
+    if (!over.empty()) text += fmt::format("curve.over = {} at [{}]\n", over, fmt::join(over_values, ", "));
   }
   return text;
 }

@@ -93,6 +93,7 @@ class Reader : private SettingsReader {
       if (lights_) read_parts_as_lights(*lights_);
       if (times_) read_times(*times_);
       points(experiment_);
+      require_curve_over();
       return std::move(experiment_);
     }
     // These are read last, because they depend on the fixed settings, which may stand anywhere in the file.
@@ -102,6 +103,7 @@ class Reader : private SettingsReader {
     if (times_) read_times(*times_);
     if (!in_part_) points(experiment_);
     if (lights_) read_lights(*lights_);
+    require_curve_over();
     return std::move(experiment_);
   }
 
@@ -370,6 +372,7 @@ class Reader : private SettingsReader {
 
   void read_curve(const toml::table& table) {
     CurveOptions& curve = experiment_.curve;
+    const toml::node* over_values = nullptr;
     for (const Item& item : items(table)) {
       const std::string name = "curve." + item.key;
       if (item.key == "enabled")
@@ -380,8 +383,38 @@ class Reader : private SettingsReader {
         curve.peter_panning_bound = fraction(*item.node, name);
       else if (item.key == "bias_depth")
         read_biases(*item.node, name);
+      else if (item.key == "over")
+        curve.over = {one_of(*(curve_over_ = item.node), name, key_choices("curve", "over")), {}};
+      else if (item.key == "over_values")
+        over_values = item.node;
       else
         unknown(item, "key", key_names("curve"), "curve.");
+    }
+    if (over_values) read_over_values(*over_values);
+  }
+  // That a point has the curve that this table asks for.
+  void require_curve_over() const {
+    if (!curve_over_) return;
+    const std::string& over = experiment_.curve.over.setting;
+    const std::vector<Settings> all = points(experiment_);
+    if (std::none_of(all.begin(), all.end(), [&](const Settings& one) { return has_curve_over(one, over); }))
+      fail(*curve_over_, fmt::format("curve.over = '{}', but no point has a lookup.kind that reads it from a map of "
+                                     "moments, without cascades that blend",
+                                     over));
+  }
+  // The values of curve.over, each in the range of its setting.
+  void read_over_values(const toml::node& node) {
+    const std::string name = "curve.over_values";
+    ParameterValues& over = experiment_.curve.over;
+    if (over.setting.empty()) fail(node, name + " are values of curve.over, which is not given");
+    over.values = amounts(node, name);
+    for (const double value : over.values) {
+      Settings unused;
+      try {
+        find_setting(over.setting).set(unused, fmt::format("{}", value));
+      } catch (const Error& error) {
+        fail(node, fmt::format("{}: {}", name, error.what()));
+      }
     }
   }
   void read_phase(const toml::table& table) {
@@ -416,16 +449,21 @@ class Reader : private SettingsReader {
     if (value < 0) fail(node, fmt::format("{} = {} must be a share, 0 ... 1", name, written(node, value)));
     return value;
   }
+  // A list, or a table that describes one.
+  std::vector<double> amounts(const toml::node& node, const std::string& name) const {
+    std::vector<double> values;
+    if (const toml::table* range_table = node.as_table()) {
+      values = range(*range_table, name);
+    } else {
+      for (const toml::node* element : list(node, name)) values.push_back(number(*element, name));
+    }
+    if (!std::is_sorted(values.begin(), values.end(), std::less_equal<>()) || values.front() < 0)
+      fail(node, fmt::format("{} must be 0 or more and ascend, each value once", name));
+    return values;
+  }
   void read_biases(const toml::node& node, const std::string& name) {
     std::vector<double>& biases = experiment_.curve.bias_depth;
-    biases.clear();
-    if (const toml::table* range_table = node.as_table()) {
-      biases = range(*range_table, name);
-    } else {
-      for (const toml::node* element : list(node, name)) biases.push_back(number(*element, name));
-    }
-    if (!std::is_sorted(biases.begin(), biases.end(), std::less_equal<>()) || biases.front() < 0)
-      fail(node, fmt::format("{} must be 0 or more and ascend, each value once", name));
+    biases = amounts(node, name);
     if (biases.front() != 0) biases.insert(biases.begin(), 0.0);  // a curve starts without a bias
   }
 
@@ -438,6 +476,7 @@ class Reader : private SettingsReader {
   const toml::node* laws_ = nullptr;
   const toml::node* frames_ = nullptr;
   const toml::node* lights_ = nullptr;
+  const toml::node* curve_over_ = nullptr;
   const toml::table *sweep_ = nullptr, *over_ = nullptr;
   const toml::node* bounds_ = nullptr;
   // Whether it is a choice, line, column, index into experiment_.swept. Conditions come first, because scene, view and

@@ -96,7 +96,12 @@ const std::vector<ExperimentKey>& curve_keys() {
       {"enabled", Kind::flag, "Whether bias curves are made."},
       {"acne_bound", Kind::fraction, "How much acne a usable bias may leave, a fraction of the counted receivers."},
       {"peter_panning_bound", Kind::fraction, "How much Peter Panning a usable bias may make."},
-      {"bias_depth", Kind::amounts, "At which biases, in window depth, the curve is stored; 0 or more, ascending."}};
+      {"bias_depth", Kind::amounts, "At which biases, in window depth, the curve is stored; 0 or more, ascending."},
+      {"over",
+       Kind::choice,
+       "Of filtered maps: a setting that has a curve besides lookup.reduction.",
+       {curve_settings().begin(), curve_settings().end()}},
+      {"over_values", Kind::amounts, "Its values, ascending; default: 0 and two a decade."}};
   return keys;
 }
 

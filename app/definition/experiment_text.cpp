@@ -123,6 +123,8 @@ class Writer {
       text_ += "# bias_depth: 0, then 20 values a decade from 1e-7 to 1\n";
     else
       line("bias_depth", fmt::format("[{}]", fmt::join(e.curve.bias_depth, ", ")));
+    if (!e.curve.over.setting.empty()) line("over", toml_string(e.curve.over.setting));
+    if (!e.curve.over.values.empty()) line("over_values", fmt::format("[{}]", fmt::join(e.curve.over.values, ", ")));
     header(fmt::format("[{}phase]", prefix));
     line("enabled", e.phase.enabled ? "true" : "false");
     line("acne_bound", fmt::format("{}", e.phase.acne_bound.value_or(e.curve.acne_bound)));

@@ -298,7 +298,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
   json["flags"] = {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
-  for (const LookupCurvePoint& at : m.record.lookup_curve)
+  for (const LookupCurvePoint& at : m.record.lookup_curve) {
     json["lookup_curve"].push_back({{"parameter", at.parameter},
                                     {"value", at.value},
                                     {"error", at.error},
@@ -306,6 +306,11 @@ std::string point_json(const Measurement& m, const std::string& command) {
                                     {"over_darkening", at.over_darkening},
                                     {"peter_panning", at.peter_panning},
                                     {"reduction", at.reduction}});
+    if (at.shown_error) json["lookup_curve"].back()["shown_error"] = *at.shown_error;
+  }
+  if (const auto& bounds = m.record.reduction_bounds)
+    json["reduction_bounds"] = {{"acne_bound", bounds->acne_bound},
+                                {"peter_panning_bound", bounds->peter_panning_bound}};
   const std::string rest = readable_json(json);
   text.resize(text.size() - std::string_view("\n}").size());  // the object continues
   append_parts(m.scene.parts, rest.size(), text);

@@ -159,6 +159,21 @@ void print_reductions(const Measurement& m) {
       cures.empty() ? "bring near and far closer together" : fmt::format("what may: {}", fmt::join(cures, ", ")));
 }
 
+// What another value of curve.over would do: the values of least error, and the usable ones.
+void print_curve_over(const Measurement& m) {
+  const LookupCurvePoint* best = nullptr;
+  for (const LookupCurvePoint& at : m.record.lookup_curve)
+    if (at.shown_error && (!best || *at.shown_error < *best->shown_error)) best = &at;
+  if (!best) return;
+  fmt::print("\n  {:<18}{:>12}{:>12}{:>12}{:>16}{:>15}\n", best->parameter, "error", "exact map", "leak",
+             "over_darkening", "peter_panning");
+  for (const LookupCurvePoint& at : m.record.lookup_curve)
+    if (at.shown_error)
+      fmt::print("  {:<18.4g}{:>11.5f}%{:>11.5f}%{:>11.5f}%{:>15.5f}%{:>14.5f}%{}\n", at.value, 100 * *at.shown_error,
+                 100 * at.error, 100 * at.leak, 100 * at.over_darkening, 100 * at.peter_panning,
+                 &at == best ? "  least error" : "");
+}
+
 // clock: what the times come from.
 void print_ladder(const Measurement& m, const char* clock) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
@@ -195,6 +210,7 @@ void print_ladder(const Measurement& m, const char* clock) {
     if (of_one_receiver(metric) && m.record.metrics.contains(std::string(metric.name)))
       fmt::print("  {:<32}{:>11.5f}% of the light of one receiver\n", metric.name, 100 * value(metric.name.data()));
   print_reductions(m);
+  print_curve_over(m);
   for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
     if (!m.record.metrics.contains(name)) continue;
     const MedianInterval time = interval_of(m.record, name);

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/parameter_values.h"
 #include "compare/ladder/threshold_sums.h"
 #include "compare/results/records.h"
 #include "scenes/receivers.h"
@@ -171,7 +172,8 @@ struct ScaledMap {
 BiasScale bias_scale(std::span<const ScaledMap> maps, const ReceiverImage& receivers, BiasUnit unit);
 
 struct CurveOptions : CauseBounds {
-  std::vector<double> bias_depth;  // ascending, from 0; empty: default_bias_grid()
+  std::vector<double> bias_depth = {};  // ascending, from 0; empty: default_bias_grid()
+  ParameterValues over = {};            // of a lookup in a map of moments; its setting may be empty
 };
 
 // The biases of a curve, in window depth.

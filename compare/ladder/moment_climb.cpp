@@ -21,8 +21,10 @@ void blended_depths(const LookupEvidence& e, size_t i, const ReceiverTaps& taps,
   const glm::ivec2 map = e.exact_map.size(), first = e.probe.texel(i, 0);
   const glm::ivec2 corner = first + before;  // the lower left of the four texels
   if (inside_map(corner, map) && inside_map(corner + 1, map)) {
+    depths.resize(taps.size()), weights.resize(taps.size());
     for (size_t t = 0; t < taps.size(); ++t) {
-      depths.push_back(static_cast<double>(taps.depth_in(e.exact_map, t))), weights.push_back(taps.weight(t));
+      depths[t] = static_cast<double>(taps.depth_in(e.exact_map, t));
+      weights[t] = taps.weight(t);
     }
     return;
   }
@@ -77,27 +79,27 @@ Spread fetched_spread(const LookupEvidence& e, size_t i, std::vector<double>& de
 // The bounds of a receiver, and what law 13 says of them.
 void find_bounds(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, MomentScratch& scratch,
                  MomentSteps& steps) {
-  const float reference = e.probe.reference[i];
-  if (!e.probe.asks(i)) return;
-  if (reference > 1.0f && e.map.lit_beyond_far) {
-    steps.chain.bare = steps.chain.bound = steps.shown = 1;
+  const bool looks = e.probe.asks(i) && !(e.probe.reference[i] > 1.0f && e.map.lit_beyond_far);
+  scratch.fetched.reset();
+  if (looks && e.moments->spread()) {
+    scratch.fetched = fetched_spread(e, i, scratch.depths);
+  } else if (looks) {
+    blended_depths(e, i, taps, scratch.depths, scratch.weights);
+    scratch.truth.set(scratch.depths, scratch.weights);
+  }
+  const ExactBound bound = exact_bound(e, i, *e.moments, e.bias, scratch);
+  steps.chain.bound = bound.lit;
+  steps.shown = bound.decided ? bound.lit : e.moments->reduced(bound.lit);
+  if (bound.decided) {
+    steps.chain.bare = bound.lit;
     return;
   }
-  const float biased = reference - e.bias.at(e.probe, i);  // as the shader computes it
-  const auto bare_depth = static_cast<double>(reference);
-  const auto set = [&](auto& truth) {  // the depths, or what is fetched of them
-    steps.chain.bare = e.moments->bare(truth, bare_depth);
-    steps.chain.bound = e.moments->exact(truth, static_cast<double>(biased));
-    steps.shown = e.moments->reduced(steps.chain.bound);
-  };
-  if (e.moments->spread()) {
-    Spread fetched = fetched_spread(e, i, scratch.depths);
-    set(fetched);
+  const auto bare_depth = static_cast<double>(e.probe.reference[i]);
+  if (scratch.fetched) {
+    steps.chain.bare = e.moments->bare(*scratch.fetched, bare_depth);
     return;
   }
-  blended_depths(e, i, taps, scratch.depths, scratch.weights);
-  scratch.truth.set(scratch.depths, scratch.weights);
-  set(scratch.truth);
+  steps.chain.bare = e.moments->bare(scratch.truth, bare_depth);
   double compared = 0;
   for (size_t t = 0; t < scratch.depths.size(); ++t)
     if (scratch.depths[t] >= bare_depth) compared += scratch.weights[t];
@@ -105,6 +107,16 @@ void find_bounds(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, Mo
 }
 
 }  // namespace
+
+ExactBound exact_bound(const LookupEvidence& e, size_t i, const MomentLookup& lookup, const Bias& bias,
+                       MomentScratch& scratch) {
+  const float reference = e.probe.reference[i];
+  if (!e.probe.asks(i)) return {0, reference, true};
+  if (reference > 1.0f && e.map.lit_beyond_far) return {1, reference, true};
+  const float biased = reference - bias.at(e.probe, i);
+  const auto depth = static_cast<double>(biased);
+  return {scratch.fetched ? lookup.exact(*scratch.fetched, depth) : lookup.exact(scratch.truth, depth), biased, false};
+}
 
 MomentSteps moment_steps(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, MomentScratch& scratch) {
   MomentSteps s;

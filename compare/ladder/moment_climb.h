@@ -16,11 +16,13 @@
 // near, and undecided as much as the weight of the taps whose truth float error can change, both from the first step on.
 // moment_precision and precision are the lasting steps from R4 to what OpenGL makes of the exact map, and from there to R5.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/moment_parts.h"
 #include "compare/ladder/reduction_window.h"
+#include "technique/moment_lookup.h"
 
 namespace noonmark {
 
@@ -44,11 +46,23 @@ struct MomentSteps {
 // The memory that moment_steps() uses again for the next receiver of a thread.
 struct MomentScratch {
   std::vector<double> depths, weights;  // of the taps of one receiver
-  TruthInDouble truth;
+  TruthInDouble truth;                  // set to the depths that its fetch blends
+  std::optional<Spread> fetched = {};   // in place of it: what its fetch gives of a blur that stores spreads
 };
 
 // Of a facing receiver. Pictures of OpenGL in the evidence are not read.
 MomentSteps moment_steps(const LookupEvidence& evidence, size_t i, const ReceiverTaps& taps, MomentScratch& scratch);
+
+// The bound of a receiver by another lookup in the same map and with another bias of the compared depth, in double. scratch: as
+// moment_steps() left it for this receiver. The lookup has the same kind, blur and stored moments as that of the evidence.
+struct ExactBound {
+  double lit = 0;       // before light-bleed reduction
+  float reference = 0;  // the biased depth, as the shader computes it
+  bool decided =
+      false;  // nothing is looked up: outside of what the map answers, or beyond far; then nothing is reduced
+};
+ExactBound exact_bound(const LookupEvidence& evidence, size_t i, const MomentLookup& lookup, const Bias& bias,
+                       MomentScratch& scratch);
 
 // Climbs a strip, as a judge of read_taps (compare/ladder/receiver_taps.h). The evidence has moments; its r4 is OpenGL's
 // result on the exact map. The ladder has all of Cause.

@@ -68,10 +68,12 @@ struct BiasCurve : CauseBounds {
 // What a point with a map of moments would have with another value of one setting of the lookup, on the exact map: means over
 // the counted receivers, fractions (compare/ladder/reduction_window.h).
 struct LookupCurvePoint {
-  std::string parameter;  // "lookup.reduction"
+  std::string parameter;  // the setting: "lookup.reduction"
   double value = 0;       // of the parameter, in its unit
   double error = 0;       // |R4 - R1|
   double leak = 0, over_darkening = 0, peter_panning = 0, reduction = 0;
+  // |R5 - R1|, with OpenGL's rounding; empty: only the exact map is known.
+  std::optional<double> shown_error = {};
 };
 
 // A cause that a rung on top of R5 brought (add_rung, compare/ladder/ladder.h). Its share is the metric of its name. The
@@ -144,8 +146,11 @@ struct PointRecord : PointPictures {
   std::map<std::string, double> metrics;  // by metric name; not finite: could not be measured, which breaks any bound
   std::map<std::string, double> times;    // of stages: "hard_truth_ms", "texel_rays" ...
   std::optional<BiasCurve> curve;
-  std::vector<LookupCurvePoint> lookup_curve;  // of a map of moments, by ascending values; empty: none was asked for
-  std::vector<RungCause> causes;               // the causes that rungs on top of R5 brought, in the order of the rungs
+  // Of a map of moments: curves over lookup.reduction and over CurveOptions::over, one after the other, each by ascending
+  // values; empty: none was asked for.
+  std::vector<LookupCurvePoint> lookup_curve;
+  std::optional<CauseBounds> reduction_bounds;  // those of reduction_min and reduction_max; empty: none were asked for
+  std::vector<RungCause> causes;                // the causes that rungs on top of R5 brought, in the order of the rungs
   struct Worst {
     int x = -1, y = -1;
     double error = 0;

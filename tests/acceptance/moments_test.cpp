@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "compare/ladder/measure.h"
+#include "compare/ladder/parameter_values.h"
 #include "technique/lookups.h"
 #include "technique/map_address.h"
 #include "technique/setting_rules.h"
@@ -314,10 +315,9 @@ TEST(LookAlikes, OfBabylonAreDarkWhereTheyCastAndLitWhereTheMapIsEmpty) {
 // The curve over the reduction is what measuring each reduction gives, also where the map's edge crosses the picture.
 TEST(MomentCurve, HasTheNumbersOfMeasuringEachReduction) {
   Workbench bench(gl::DebugMode::fatal);
-  for (const std::vector<Assignment>& set :
-       {std::vector<Assignment>{{"lookup.v_min", "1e-4"}},
-        {{"lookup.kind", "evsm4"}, {"bias.constant", "0.002"}},
-        {{"map.extent_m", "2"}, {"map.wrap", "clamp_to_edge"}}}) {
+  for (const std::vector<Assignment>& set : {std::vector<Assignment>{{"lookup.v_min", "1e-4"}},
+                                             {{"lookup.kind", "evsm4"}, {"bias.constant", "0.002"}},
+                                             {{"map.extent_m", "2"}, {"map.wrap", "clamp_to_edge"}}}) {
     const Settings settings = with(set, with_moments());
     const std::vector<LookupCurvePoint> curve = bench.measure(settings, CurveOptions{}).record.lookup_curve;
     ASSERT_EQ(curve.size(), 100u);
@@ -337,6 +337,72 @@ TEST(MomentCurve, HasTheNumbersOfMeasuringEachReduction) {
       EXPECT_NEAR(at.reduction, metric(m, "reduction"), of_images) << percent;
     }
   }
+}
+
+// Another number of the lookup: the curve is what measuring each value gives, with OpenGL's rounding too, of each formula, with
+// half floats, where the map's edge crosses the picture, of cascades, and in a light's room where the bias is in texels.
+TEST(MomentCurve, HasTheNumbersOfMeasuringEachValueOfAnotherSetting) {
+  Workbench bench(gl::DebugMode::fatal);
+  struct Case {
+    const char* over;
+    std::vector<double> values;
+    std::vector<Assignment> set;
+  };
+  for (const Case& one :
+       {Case{"lookup.v_min", {0, 1e-6, 1e-3}, {{"map.moments", "16f"}}},
+        {"lookup.v_min", {1e-7, 1e-3}, {{"lookup.kind", "three_vsm"}, {"filter.kind", "none"}}},
+        {"lookup.floor", {0, 1e-3, 0.1}, {{"lookup.kind", "evsm4"}, {"lookup.reduction", "0.2"}}},
+        {"lookup.moment_bias", {0, 1e-5, 0.01}, {{"lookup.kind", "msm"}, {"map.moments", "16f"}}},
+        {"bias.constant", {0, 1e-3, 0.01}, {{"lookup.kind", "esm"}, {"map.extent_m", "2"}}},
+        {"bias.constant",
+         {0, 0.5, 4},
+         {{"bias.unit", "texel"}, {"map.fit", "view"}, {"map.extent_m", "auto"}, {"cascades.count", "2"}}}}) {
+    const Settings settings = with(one.set, with_moments());
+    CurveOptions options;
+    options.over = {one.over, one.values};
+    std::vector<LookupCurvePoint> curve = bench.measure(settings, options).record.lookup_curve;
+    std::erase_if(curve, [](const LookupCurvePoint& at) { return at.parameter == "lookup.reduction"; });
+    std::vector<double> values;
+    for (const LookupCurvePoint& at : curve) {
+      SCOPED_TRACE(fmt::format("{} = {}", one.over, at.value));
+      EXPECT_EQ(at.parameter, one.over);
+      values.push_back(at.value);
+      const Measurement m = bench.measure(with_value(settings, one.over, at.value), std::nullopt);
+      constexpr double of_images = 0x1p-24;  // the ladder's images are floats
+      EXPECT_NEAR(at.error, error_on_exact_map(m.ladder), of_images);
+      EXPECT_NEAR(at.leak, metric(m, "leak"), of_images);
+      EXPECT_NEAR(at.over_darkening, metric(m, "over_darkening"), of_images);
+      EXPECT_NEAR(at.peter_panning, metric(m, "peter_panning"), of_images);
+      EXPECT_NEAR(at.reduction, metric(m, "reduction"), of_images);
+      // A device may divide with other roundings than the host, within the contract of the lookup (contract_lit).
+      ASSERT_TRUE(at.shown_error.has_value());
+      EXPECT_NEAR(*at.shown_error, metric(m, "error"), 1e-6);
+    }
+    EXPECT_EQ(values, values_of(options.over, settings)) << "and the value as set";
+    EXPECT_GE(values.size(), one.values.size());
+  }
+}
+
+TEST(MomentCurve, OverAnotherSettingIsOfPointsThatReadIt) {
+  const Settings vsm = with_moments();
+  EXPECT_TRUE(has_curve_over(vsm, "lookup.v_min"));
+  EXPECT_TRUE(has_curve_over(vsm, "bias.constant"));
+  EXPECT_FALSE(has_curve_over(vsm, "lookup.floor"));
+  EXPECT_FALSE(has_curve_over(vsm, ""));
+  EXPECT_FALSE(has_curve_over(Settings(), "bias.constant")) << "a comparison has the bias curve";
+  EXPECT_TRUE(has_reduction_curve(vsm));
+  EXPECT_FALSE(has_reduction_curve(Settings()));
+  EXPECT_FALSE(has_reduction_curve(with({{"lookup.reduction", "0.3"}, {"lookup.reduction_span", "0.65"}}, vsm)));
+  const Settings blended = with({{"cascades.count", "2"}, {"cascades.blend", "0.1"}}, vsm);
+  EXPECT_FALSE(has_reduction_curve(blended));
+  EXPECT_FALSE(has_curve_over(blended, "lookup.v_min"));
+  EXPECT_EQ(usual_values("lookup.v_min", BiasUnit::depth).front(), 0);
+  for (const std::string_view setting : curve_settings())
+    for (const BiasUnit unit : {BiasUnit::depth, BiasUnit::m, BiasUnit::texel})
+      for (const double value : usual_values(setting, unit)) {
+        Settings set;
+        EXPECT_NO_THROW(find_setting(setting).set(set, fmt::format("{}", value))) << setting << " " << value;
+      }
 }
 
 TEST(MomentSettings, AreRefusedWhereALookupCannotReadThem) {

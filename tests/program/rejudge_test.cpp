@@ -83,6 +83,29 @@ TEST_F(Rejudge, BoundsOfTheCurveAtAllPlacementsMeasureNothing) {
   EXPECT_EQ(now.window_max_worst_depth, fresh.window_max_worst_depth);
 }
 
+// The window over the reduction is not stored step by step.
+TEST_F(Rejudge, OtherBoundsOfTheCurveMeasureAFilteredMapAgain) {
+  const auto filtered = [](const std::string& curve) {
+    return "scene = \"cube-room\"\n" + small_view + "[map]\nresolution = 64\n[lookup]\nkind = \"vsm\"\n" +
+           "[filter]\nkind = \"box\"\n" + held_bound + "[curve]\npeter_panning_bound = 0.05\n" + curve;
+  };
+  const std::string loose = filtered("acne_bound = 0.05\n"), tight = filtered("acne_bound = 0.002\n");
+  check(loose, "out", 1, 0);
+  const double before = load("out").points.at(0).metrics.at("reduction_max");
+  check(tight, "out", 1, 0);
+  expect_as_new(tight, "out");
+  EXPECT_LT(load("out").points.at(0).metrics.at("reduction_max"), before);
+  check(tight, "out", 0, 1);
+  check(loose, "out", 0, 1);  // it stayed in the store
+  expect_as_new(loose, "out");
+  const std::string over = filtered("acne_bound = 0.05\nover = \"lookup.v_min\"\nover_values = [0, 1e-4]\n");
+  check(over, "out", 1, 0);
+  check(over, "out", 0, 1);
+  check(filtered("acne_bound = 0.05\nover = \"lookup.v_min\"\nover_values = [0, 1e-3]\n"), "out", 1, 0);
+  check(filtered("enabled = false\n"), "out", 1, 0);
+  check(filtered("enabled = false\n"), "out", 0, 1);
+}
+
 TEST_F(Rejudge, ANewValueMeasuresItsOwnPoints) {
   check(cubes("[32, 64]", "", "all"), "out", 4, 0);
   const std::string wider = cubes("[48, 64, 32]", "", "all");

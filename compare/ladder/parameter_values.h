@@ -1,0 +1,42 @@
+// Which numbers of a lookup in a map of moments have a curve besides lookup.reduction: those that only the lookup itself reads,
+// so that another value needs neither another map nor another blur.
+//
+//   const ParameterValues asked{"lookup.v_min", {0, 1e-6, 1e-4}};
+//   for (double value : values_of(asked, settings)) measure(with(settings, asked.setting, value));
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "technique/settings.h"
+
+namespace noonmark {
+
+struct ParameterValues {
+  std::string setting = {};         // one of curve_settings(); empty: no such curve
+  std::vector<double> values = {};  // in the setting's unit and range, ascending; empty: usual_values()
+  bool operator==(const ParameterValues&) const = default;
+};
+
+// "lookup.v_min", "lookup.floor", "lookup.moment_bias", "bias.constant".
+std::span<const std::string_view> curve_settings();
+
+// Whether a point of these settings has a curve over lookup.reduction: it has a map of moments, the reduction alone turns a bound
+// into the result, and no result is a mix of two cascades' lookups.
+bool has_reduction_curve(const Settings& settings);
+
+// Whether a point of these settings has a curve over this setting: its lookup reads a map of moments and the setting, and no
+// result is a mix of two cascades' lookups.
+bool has_curve_over(const Settings& settings, std::string_view setting);
+
+// 0, then two values a decade over what is in use. Throws std::logic_error if it is none of curve_settings().
+std::vector<double> usual_values(std::string_view setting, BiasUnit unit);
+
+// The values asked for, or the usual ones, and the one that the settings have: ascending, each once.
+std::vector<double> values_of(const ParameterValues& asked, const Settings& settings);
+
+// The settings with another value of one of curve_settings().
+Settings with_value(Settings settings, std::string_view setting, double value);
+
+}  // namespace noonmark
