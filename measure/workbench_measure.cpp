@@ -443,6 +443,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     m.record.metrics.merge(
         reduction_metrics(reductions, curve_options->peter_panning_bound, curve_options->acne_bound));
     m.record.lookup_curve = reduction_curve(reductions);
+    if (!m.record.lookup_curve.empty()) m.record.lookup_bounds = *curve_options;
   }
   add_maps(m.record, maps, *kept.drawn.value(), truth, metrics);
   m.record.cascades = std::move(cascades);

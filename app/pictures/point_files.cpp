@@ -305,7 +305,12 @@ std::string point_json(const Measurement& m, const std::string& command) {
                                     {"leak", at.leak},
                                     {"over_darkening", at.over_darkening},
                                     {"peter_panning", at.peter_panning},
-                                    {"reduction", at.reduction}});
+                                    {"reduction", at.reduction},
+                                    {"aliasing_dark", at.aliasing_dark},
+                                    {"aliasing_light", at.aliasing_light},
+                                    {"coverage", at.coverage},
+                                    {"shown_error", at.shown_error},
+                                    {"shown_error_soft", at.shown_error_soft}});
   const std::string rest = readable_json(json);
   text.resize(text.size() - std::string_view("\n}").size());  // the object continues
   append_parts(m.scene.parts, rest.size(), text);

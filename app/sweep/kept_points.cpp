@@ -26,6 +26,10 @@ std::string key_of(const std::map<std::string, std::string>& settings, const std
 
 // Whether the stored point has the curve that its part of the experiment asks for, or can have it without a measurement.
 bool has_asked_curve(const PointRecord& stored, const Experiment& part, const Settings& settings) {
+  // Of a map of moments: the window was judged when it was measured, by these bounds.
+  if (stored.lookup_bounds && (!part.curve_enabled || *stored.lookup_bounds != part.curve)) return false;
+  if (!stored.lookup_bounds && part.curve_enabled && has_reduction_curve(settings) && !nothing_judged(stored))
+    return false;
   const bool asked = part.curve_enabled && curve_part(settings) && !nothing_judged(stored);
   if (stored.curve.has_value() != asked) return false;
   if (!asked) return true;

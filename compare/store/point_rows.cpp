@@ -99,6 +99,8 @@ constexpr TableOfPoints tables[] = {
      [](const Statement& row, PointRecord& point) { point.cascades.push_back(cascades_table().record_of(row)); }},
     {"lookup_curves", [](const Statement& row,
                          PointRecord& point) { point.lookup_curve.push_back(lookup_curves_table().record_of(row)); }},
+    {"lookup_bounds",
+     [](const Statement& row, PointRecord& point) { point.lookup_bounds = lookup_bounds_table().record_of(row); }},
 };
 
 // A point has the causes whose metric it has.
@@ -142,6 +144,7 @@ void add_rows(Database& db, const PointRecord& point) {
   Table<LookupCurvePoint>::Insert lookup_curves(db, lookup_curves_table());
   for (size_t i = 0; i < point.lookup_curve.size(); ++i)
     lookup_curves.row({point.id, static_cast<int64_t>(i)}, point.lookup_curve[i]);
+  if (point.lookup_bounds) Table<CauseBounds>::Insert(db, lookup_bounds_table()).row({point.id}, *point.lookup_bounds);
 }
 
 StoredPoints read_points(Database& db) {

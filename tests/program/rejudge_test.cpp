@@ -69,6 +69,24 @@ TEST_F(Rejudge, BoundsOfTheCurveMeasureNothing) {
   check(cubes("[64, 128]", "[curve]\nacne_bound = 0.6\n"), "large", 4, 0);
 }
 
+// The window of a reduction was judged by the bounds with which it was measured.
+TEST_F(Rejudge, OtherBoundsMeasureTheCurveOfAFilteredMapAgain) {
+  const auto filtered = [](const std::string& curve) {
+    return "scene = \"cube-room\"\n" + small_view +
+           "[map]\nresolution = 64\n[lookup]\nkind = \"vsm\"\n[filter]\nkind = \"box\"\n" + held_bound + curve;
+  };
+  check(filtered(""), "out", 1, 0);
+  check(filtered(""), "out", 0, 1);
+  const std::string other = filtered("[curve]\nacne_bound = 0.25\npeter_panning_bound = 0.25\n");
+  check(other, "out", 1, 0);
+  expect_as_new(other, "out");
+  EXPECT_EQ(load("out").points.at(0).lookup_bounds, (CauseBounds{0.25, 0.25}));
+  check(filtered("[curve]\nenabled = false\n"), "out", 1, 0);
+  EXPECT_TRUE(load("out").points.at(0).lookup_curve.empty());
+  check(other, "out", 0, 1);  // it was laid aside
+  EXPECT_EQ(load("out").points.at(0).lookup_curve.size(), 100u);
+}
+
 TEST_F(Rejudge, BoundsOfTheCurveAtAllPlacementsMeasureNothing) {
   const auto placed = [](const std::string& curve) {
     return "scene = \"cube-room\"\n" + small_view + "[map]\nresolution = 64\nplacements = 3\n" + held_bound + curve;

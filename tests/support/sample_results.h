@@ -33,7 +33,9 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   point.metrics["counted"] = 700000 - static_cast<double>(id);  // enough for a picture
   point.times = {{"map_ms", 1.25}, {"truth_ms", 1.0 / 3 + static_cast<double>(id)}, {"rays", 1e9 + 1}};
   for (const double r : {0.0, 0.5})
-    point.lookup_curve.push_back({"lookup.reduction", r, value /= 3, value /= 3, value /= 3, value /= 3, value /= 3});
+    point.lookup_curve.push_back({"lookup.reduction", r, value /= 3, value /= 3, value /= 3, value /= 3, value /= 3,
+                                  value /= 3, value /= 3, value /= 3, value /= 3, value /= 3});
+  point.lookup_bounds = CauseBounds{0.002, 0.003};
   if (with_curve) {
     BiasCurve curve;
     curve.parameter = "bias.constant";
@@ -229,8 +231,12 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
                     [](const auto& x, const auto& y) {
                       return x.parameter == y.parameter && x.value == y.value && x.error == y.error &&
                              x.leak == y.leak && x.over_darkening == y.over_darkening &&
-                             x.peter_panning == y.peter_panning && x.reduction == y.reduction;
+                             x.peter_panning == y.peter_panning && x.reduction == y.reduction &&
+                             x.aliasing_dark == y.aliasing_dark && x.aliasing_light == y.aliasing_light &&
+                             x.coverage == y.coverage && x.shown_error == y.shown_error &&
+                             x.shown_error_soft == y.shown_error_soft;
                     }) &&
+         a.lookup_bounds == b.lookup_bounds &&
          std::equal(a.cascades.begin(), a.cascades.end(), b.cascades.begin(), b.cascades.end(),
                     [](const auto& x, const auto& y) {
                       return same(x.begin_m, y.begin_m) && same(x.end_m, y.end_m) && same(x.metrics, y.metrics) &&
