@@ -205,6 +205,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
       {"accuracy", results.info.accuracy},
       {"bias", opens_as_set(results) ? "set" : "recommended"},
       {"bias_word", bias_word(shown)},
+      {"free", free_setting_words(shown.results.points)},
       {"command", shared},
       {"points", points_data(results, shown, shared)},
       {"laws", law_data(results)},
