@@ -63,7 +63,8 @@ TEST(Answer, AFilteredMapIsAnsweredWithItsReduction) {
   EXPECT_TRUE(says(
       ">resolution 256\u202ftexels</a>: without a reduction the leak is 1%; 0.27 keeps it within 0.1%, and there the "
       "reduction darkens 0.135% and over-darkening is 0.01%"));
-  EXPECT_TRUE(says("The reduction as set is too small at 1 of 3 points</b>: it leaves a leak, and a larger one would not"));
+  EXPECT_TRUE(
+      says("The reduction as set is too small at 1 of 3 points</b>: it leaves a leak, and a larger one would not"));
   EXPECT_TRUE(says("The reduction as set is too large at 1 of 3 points</b>: it darkens more than necessary"));
   EXPECT_TRUE(says("with the light-bleed reduction as rendered"));
   for (const char* wrong :
