@@ -453,12 +453,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     m.record.metrics.merge(
         reduction_metrics(reductions, curve_options->peter_panning_bound, curve_options->acne_bound));
     m.record.lookup_curve = reduction_curve(reductions);
-    m.record.reduction_bounds = *curve_options;
+    if (!m.record.lookup_curve.empty()) m.record.lookup_bounds = *curve_options;
   }
-  if (over) {
-    const std::vector<LookupCurvePoint> more = over->curve();
-    m.record.lookup_curve.insert(m.record.lookup_curve.end(), more.begin(), more.end());
-  }
+  if (over) m.record.over_curve = over->curve();
   add_maps(m.record, maps, *kept.drawn.value(), truth, metrics);
   m.record.cascades = std::move(cascades);
   if (varied && !nothing_judged(m.record)) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "compare/ladder/bias_curves.h"
+#include "compare/ladder/reduction_window.h"
 #include "measure/workbench_impl.h"
 #include "technique/cascades.h"
 #include "technique/setting_rules.h"
@@ -67,14 +68,19 @@ LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings&
   return picture;
 }
 
+// Around which the pictures of a reduction stand where neither the settings nor the marks have one: what engines often set.
+constexpr double usual_reduction = 0.1;
+
 // One attempt at a stack of pictures.
 PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Settings& settings,
                                          const std::vector<double>& marks) {
-  const BiasPart& part = stacked_part(settings.bias);
+  const BiasPart* const part = stacked_part(settings);
+  const std::string parameter = part ? "bias." + std::string(part->name) : "lookup.reduction";
+  const double as_set = part ? settings.bias[part->name] : settings.lookup["reduction"];
   SmallPicture small(*this, loaded, settings);
   std::optional<BiasScale> scale;
-  double otherwise = 1;
-  if (part.acts_on == BiasTarget::compared_depth) {
+  double otherwise = part ? 1 : usual_reduction;
+  if (part && part->acts_on == BiasTarget::compared_depth) {
     scale = small.scale;
     otherwise = 1 / (scale->texels_per_depth * scale->depth_per_unit);
   }
@@ -82,8 +88,11 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
   kept.each.resize(small.techniques.size());
   std::optional<PictureStack> stack;
   Settings at = settings;
-  for (const double value : stack_values(part, settings.bias[part.name], marks, otherwise)) {
-    at.bias[part.name] = value;
+  for (const double value : stack_values(part ? part->most : most_reduction, as_set, marks, otherwise)) {
+    if (part)
+      at.bias[part->name] = value;
+    else
+      at.lookup["reduction"] = value;
     const StageKeys keys(at);
     const std::vector<Technique> techniques = cascades_of(*loaded.scene, at);
     std::vector<const TruthStage*> truths;
@@ -97,7 +106,7 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
       LookupStage& asked = *kept.each[k].lookup.value();
       const ShownStage one = shown.take(of_receivers, k);
       Climbed climbed = stages->climb_strips(renderer, asked, small.seen, truth, one, techniques[k], nullptr);
-      if (!stack) stack = empty_picture_stack(small.seen.receivers, small.all.receivers, asked.probe);
+      if (!stack) stack = empty_picture_stack(small.seen.receivers, small.all.receivers, asked.probe, parameter);
       if (ladder)
         join(*ladder, climbed.ladder, truth.receivers.share);
       else
@@ -105,8 +114,7 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
     }
     add_picture(*stack, value, *ladder);
   }
-  stack->parameter = "bias." + std::string(part.name);
-  stack->unit = part.unit == "bias.unit" ? find_setting("bias.unit").get(settings) : std::string(part.unit);
+  if (part) stack->unit = part->unit == "bias.unit" ? find_setting("bias.unit").get(settings) : std::string(part->unit);
   stack->why = why_no_live_picture(settings);
   stack->scale = scale;
   return *stack;

@@ -262,4 +262,10 @@ const BiasPart* curve_part(const Settings& settings) {
   return reads_moments(settings) ? nullptr : curve_part(settings.bias);
 }
 
+bool has_reduction_curve(const Settings& settings) {
+  return reads_moments(settings) && settings.lookup["reduction_span"] == 0 && !mixes_cascades(settings);
+}
+
+bool mixes_cascades(const Settings& settings) { return settings.cascades.count > 1 && settings.cascades.blend > 0; }
+
 }  // namespace noonmark

@@ -51,6 +51,7 @@ class MomentLookup {
   double bare(const Spread& fetched, double receiver) const;
 
   // After light-bleed reduction: (lit - r) / span, clamped to [0, 1]; span is 1 - r unless lookup.reduction_span gives it.
+  double reduction() const { return reduction_; }
   double reduced(double lit) const;
   float reduced(float lit) const;  // as the shader of an engine computes it
 

@@ -240,6 +240,25 @@ std::vector<ImageRecord> write_images(const Measurement& m, const std::string& f
   return records;
 }
 
+namespace {
+
+nlohmann::ordered_json lookup_curve_json(const LookupCurvePoint& at) {
+  return {{"parameter", at.parameter},
+          {"value", at.value},
+          {"error", at.error},
+          {"leak", at.leak},
+          {"over_darkening", at.over_darkening},
+          {"peter_panning", at.peter_panning},
+          {"reduction", at.reduction},
+          {"aliasing_dark", at.aliasing_dark},
+          {"aliasing_light", at.aliasing_light},
+          {"coverage", at.coverage},
+          {"shown_error", at.shown_error},
+          {"shown_error_soft", at.shown_error_soft}};
+}
+
+}  // namespace
+
 std::string point_json(const Measurement& m, const std::string& command) {
   nlohmann::ordered_json json;
   json["noonmark"] = {{"version", build_facts().version}, {"commit", build_facts().commit}};
@@ -298,19 +317,8 @@ std::string point_json(const Measurement& m, const std::string& command) {
   json["flags"] = {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
-  for (const LookupCurvePoint& at : m.record.lookup_curve) {
-    json["lookup_curve"].push_back({{"parameter", at.parameter},
-                                    {"value", at.value},
-                                    {"error", at.error},
-                                    {"leak", at.leak},
-                                    {"over_darkening", at.over_darkening},
-                                    {"peter_panning", at.peter_panning},
-                                    {"reduction", at.reduction}});
-    if (at.shown_error) json["lookup_curve"].back()["shown_error"] = *at.shown_error;
-  }
-  if (const auto& bounds = m.record.reduction_bounds)
-    json["reduction_bounds"] = {{"acne_bound", bounds->acne_bound},
-                                {"peter_panning_bound", bounds->peter_panning_bound}};
+  for (const LookupCurvePoint& at : m.record.lookup_curve) json["lookup_curve"].push_back(lookup_curve_json(at));
+  for (const LookupCurvePoint& at : m.record.over_curve) json["over_curve"].push_back(lookup_curve_json(at));
   const std::string rest = readable_json(json);
   text.resize(text.size() - std::string_view("\n}").size());  // the object continues
   append_parts(m.scene.parts, rest.size(), text);

@@ -24,26 +24,23 @@ std::string key_of(const std::map<std::string, std::string>& settings, const std
   return key;
 }
 
-// Whether the stored point has the curves of a filtered map that its part of the experiment asks for, with the window of these
-// bounds.
-bool has_asked_lookup_curves(const PointRecord& stored, const Experiment& part, const Settings& settings) {
-  if (nothing_judged(stored)) return true;
-  const auto bounds =
-      part.curve_enabled && has_reduction_curve(settings) ? std::optional<CauseBounds>(part.curve) : std::nullopt;
-  if (stored.reduction_bounds != bounds) return false;
-  std::vector<double> asked, has;
-  if (part.curve_enabled && has_curve_over(settings, part.curve.over.setting))
-    asked = values_of(part.curve.over, settings);
-  for (const LookupCurvePoint& at : stored.lookup_curve) {
-    if (at.parameter == "lookup.reduction") continue;
-    if (at.parameter != part.curve.over.setting) return false;
-    has.push_back(at.value);
-  }
-  return has == asked;
+// Whether the stored point has the curve over curve.over that its part of the experiment asks for.
+bool has_asked_over(const PointRecord& stored, const Experiment& part, const Settings& settings) {
+  const ParameterValues& over = part.curve.over;
+  const bool asked = part.curve_enabled && has_curve_over(settings, over.setting) && !nothing_judged(stored);
+  if (!asked) return stored.over_curve.empty();
+  const std::vector<double> values = values_of(over, settings);
+  return std::equal(
+      stored.over_curve.begin(), stored.over_curve.end(), values.begin(), values.end(),
+      [&](const LookupCurvePoint& at, double value) { return at.parameter == over.setting && at.value == value; });
 }
 
 // Whether the stored point has the curve that its part of the experiment asks for, or can have it without a measurement.
 bool has_asked_curve(const PointRecord& stored, const Experiment& part, const Settings& settings) {
+  // Of a map of moments: the window was judged when it was measured, by these bounds.
+  if (stored.lookup_bounds && (!part.curve_enabled || *stored.lookup_bounds != part.curve)) return false;
+  if (!stored.lookup_bounds && part.curve_enabled && has_reduction_curve(settings) && !nothing_judged(stored))
+    return false;
   const bool asked = part.curve_enabled && curve_part(settings) && !nothing_judged(stored);
   if (stored.curve.has_value() != asked) return false;
   if (!asked) return true;
@@ -81,7 +78,7 @@ std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stor
       const auto one = std::find_if(list.begin(), list.end(), [&](const PointRecord* point) {
         return (round > 1 || point->part == part.part) && (round > 0 || point->id == id) &&
                has_asked_times(*point, timed) && has_asked_lights(*point, experiment.lights) &&
-               has_asked_curve(*point, part, settings) && has_asked_lookup_curves(*point, part, settings);
+               has_asked_curve(*point, part, settings) && has_asked_over(*point, part, settings);
       });
       if (one == list.end()) continue;
       found[i] = *one;

@@ -10,6 +10,7 @@
 #include "app/pictures/pictures.h"
 #include "app/pictures/point_pictures.h"
 #include "base/file.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/judge/tradeoff.h"
 #include "compare/report/opening.h"
 #include "compare/report/text.h"
@@ -25,7 +26,7 @@ std::vector<PictureRecord> pictures_at_bias(const Measurement& m, const report::
                                             const std::string& out) {
   const PointRecord& point = *opened.point;
   const std::string bias =
-      fmt::format("{} {}", point.curve->parameter, report::bias_in_unit(*opened.bias, setting_of(point, "bias.unit")));
+      fmt::format("{} {}", curve_parameter(point), report::bias_in_unit(*opened.bias, curve_unit(point)));
   make_folder(out + "/images");
   std::vector<PictureRecord> pictures;
   const auto add = [&](const char* name, const std::string& caption, const Image<Color>& picture) {
@@ -55,7 +56,7 @@ void keep_recommended_picture(Results& results, ResultStore& store, const std::s
     if (wanted) {
       Settings settings = settings_of(point);
       settings.map.placements = 1;  // the picture is of the point's own
-      find_setting(point.curve->parameter).set(settings, fmt::format("{}", *opened.bias));
+      find_setting(curve_parameter(point)).set(settings, fmt::format("{}", *opened.bias));
       const std::vector<PictureRecord> drawn = pictures_at_bias(measure(point.id, settings), opened, out);
       point.pictures.insert(point.pictures.end(), drawn.begin(), drawn.end());
     }

@@ -33,12 +33,12 @@ void remove_those(PointPictures& point, const Which& which, const std::string& o
   std::erase_if(point.pictures, which);
 }
 
-// The biases that the point's own curve names, in the parameter's unit: the best one and the ends of the usable window. Those
-// that depend on other points would differ from share to share.
+// The values of the free setting that the point's own curve names, in the parameter's unit: the best one and the ends of the
+// usable window. Those that depend on other points would differ from share to share.
 std::vector<double> marks_of(const PointRecord& point) {
-  if (!point.curve) return {};
-  std::vector<double> depths{point.curve->best_bias_depth};
-  if (const std::optional<Interval> window = usable_window(*point.curve))
+  if (!has_curve(point)) return {};
+  std::vector<double> depths{best_depth(point)};
+  if (const std::optional<Interval> window = usable_window(point))
     depths.insert(depths.end(), {window->low, window->high});
   for (double& depth : depths) depth *= parameter_per_depth(point);
   return depths;
@@ -130,7 +130,8 @@ void SweepRun::show_recommended() {
   if (options_.shard || outcome_.interrupted) return;
   keep_recommended_picture(outcome_.results, *store_, folder_.path(), [&](int64_t id, const Settings& at_bias) {
     progress_->shown.set_left(progress_->pictures, 1);
-    progress_->shown.say(fmt::format("pictures of point {} at the recommended bias", id));
+    progress_->shown.say(fmt::format("pictures of point {} at the recommended {}", id,
+                                     free_setting_words(*find_point(outcome_.results.points, id))));
     room_.require_room_for(static_cast<size_t>(id));
     survey_.scenes.require_unchanged(bench_, at_bias);
     return bench_.measure(at_bias, std::nullopt);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/advise/recommend_filtered.h"
 #include "app/pictures/pictures.h"
 #include "app/pictures/point_files.h"
 #include "app/sweep/results_folder.h"
@@ -16,6 +17,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/judge/interval.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
@@ -125,10 +127,44 @@ void print_curve_of_cascades(const Measurement& m, const BiasCurve& c) {
              100 * c.best_error);
 }
 
+// Of a lookup whose bound darkens a lit slope, because the blur holds several of its depths: the bias that lifts it by their
+// deviation (law 17). Empty if the settings have a bias.
+std::string bias_of_slopes(const Settings& settings) {
+  for (const BiasPart& part : bias_parts())
+    if (settings.bias[part.name] != 0) return "";
+  if (find_lookup(settings.lookup.kind).spread) return "bias.tan, by what a slope rises over the blur (law 17)";
+  return fmt::format(
+      "--set bias.unit=texel --set bias.tan={:.2g}, the deviation of a slope's depths in this blur (law 17)",
+      blur_deviation_texels(settings.filter));
+}
+
+// What may help where no reduction is usable, by what breaks the bounds without one.
+std::string cures_of_reduction(const PointRecord& record, const Settings& settings) {
+  const bool darkens = record.lookup_curve.front().over_darkening > record.lookup_bounds->acne_bound;
+  std::vector<std::string> cures;
+  if (const std::string bias = bias_of_slopes(settings); darkens && !bias.empty()) cures.push_back(bias);
+  if (darkens && settings.lookup.kind.starts_with("msm")) cures.emplace_back("a larger lookup.moment_bias");
+  cures.emplace_back("a smaller blur or a finer map");
+  if (!darkens) cures.emplace_back("lookup.kind = evsm4 or msm, which leak less");
+  return fmt::format("{}", fmt::join(cures, "; or "));
+}
+
+// The parameters that may make moments less singular.
+std::string cures_of_precision(const Settings& settings) {
+  std::vector<std::string_view> cures;
+  for (const auto& read : find_lookup(settings.lookup.kind).reads)
+    if (const std::string_view name = read.parameter->setting;
+        name == "lookup.v_min" || name == "lookup.floor" || name == "lookup.moment_bias")
+      cures.push_back(name);
+  if (settings.map.moments != MomentFormat::f32) cures.push_back("map.moments = 32f");
+  return cures.empty() ? "bring near and far closer together" : fmt::format("what may: {}", fmt::join(cures, ", "));
+}
+
 // Of a lookup in a map of moments: what another lookup.reduction would do.
 void print_reductions(const Measurement& m) {
   const auto& metrics = m.record.metrics;
   if (!metrics.contains("best_reduction")) return;
+  const Settings& settings = m.technique.settings;
   fmt::print("  lookup.reduction of least error: {:.4g} ({:.5f}% on the exact map, without rounding)\n",
              metrics.at("best_reduction"), 100 * metrics.at("best_reduction_error"));
   constexpr const char* bounds =
@@ -146,32 +182,24 @@ void print_reductions(const Measurement& m) {
     else
       fmt::print("  at every placement of the grid: no reduction\n");
   }
-  if (!(metrics.at("moment_precision") > metrics.at("error") / 2)) return;
-  const Settings& settings = m.technique.settings;
-  std::vector<std::string_view> cures;
-  for (const auto& read : find_lookup(settings.lookup.kind).reads)
-    if (const std::string_view name = read.parameter->setting;
-        name == "lookup.v_min" || name == "lookup.floor" || name == "lookup.moment_bias")
-      cures.push_back(name);
-  if (settings.map.moments != MomentFormat::f32) cures.push_back("map.moments = 32f");
-  fmt::print(
-      "  most of the error is moment_precision, which no reduction cures; {}\n",
-      cures.empty() ? "bring near and far closer together" : fmt::format("what may: {}", fmt::join(cures, ", ")));
+  if (const std::string why = why_no_usable_reduction(m.record); !why.empty())
+    fmt::print("    because {}\n    what may help: {}\n", why, cures_of_reduction(m.record, settings));
+  if (metrics.at("moment_precision") > metrics.at("error") / 2)
+    fmt::print("  most of the error is moment_precision, which no reduction cures; {}\n", cures_of_precision(settings));
 }
 
 // What another value of curve.over would do: the values of least error, and the usable ones.
 void print_curve_over(const Measurement& m) {
-  const LookupCurvePoint* best = nullptr;
-  for (const LookupCurvePoint& at : m.record.lookup_curve)
-    if (at.shown_error && (!best || *at.shown_error < *best->shown_error)) best = &at;
-  if (!best) return;
+  const std::vector<LookupCurvePoint>& curve = m.record.over_curve;
+  if (curve.empty()) return;
+  const auto best = std::min_element(curve.begin(), curve.end(),
+                                     [](const auto& a, const auto& b) { return a.shown_error < b.shown_error; });
   fmt::print("\n  {:<18}{:>12}{:>12}{:>12}{:>16}{:>15}\n", best->parameter, "error", "exact map", "leak",
              "over_darkening", "peter_panning");
-  for (const LookupCurvePoint& at : m.record.lookup_curve)
-    if (at.shown_error)
-      fmt::print("  {:<18.4g}{:>11.5f}%{:>11.5f}%{:>11.5f}%{:>15.5f}%{:>14.5f}%{}\n", at.value, 100 * *at.shown_error,
-                 100 * at.error, 100 * at.leak, 100 * at.over_darkening, 100 * at.peter_panning,
-                 &at == best ? "  least error" : "");
+  for (const LookupCurvePoint& at : curve)
+    fmt::print("  {:<18.4g}{:>11.5f}%{:>11.5f}%{:>11.5f}%{:>15.5f}%{:>14.5f}%{}\n", at.value, 100 * at.shown_error,
+               100 * at.error, 100 * at.leak, 100 * at.over_darkening, 100 * at.peter_panning,
+               &at == &*best ? "  least error" : "");
 }
 
 // clock: what the times come from.
@@ -191,7 +219,11 @@ void print_ladder(const Measurement& m, const char* clock) {
         metric.name != "best_reduction_error" &&                // printed otherwise
         m.record.metrics.contains(std::string(metric.name))) {  // a point with one map has no metrics of cascades
       const double share = m.record.metrics.at(std::string(metric.name));
-      if (!std::isnan(share)) fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * share);
+      if (!std::isnan(share))
+        fmt::print("  {:<32}{:>11.5f}%{}\n", metric.name, 100 * share,
+                   metric.name == "wrong" && m.technique.moments
+                       ? "  (not exactly as the truth, however little; judge by the error)"
+                       : "");
     }
   print_cascades(m);
   print_placements(m);
@@ -216,7 +248,8 @@ void print_ladder(const Measurement& m, const char* clock) {
     const MedianInterval time = interval_of(m.record, name);
     fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);
   }
-  if (const std::string why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
+  if (const std::string why = why_no_curve(m.record); !why.empty() && !has_curve(m.record))
+    fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   const BiasCurve& c = *m.record.curve;
   if (m.maps.size() > 1) {

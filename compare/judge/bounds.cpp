@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
@@ -144,14 +145,15 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
   return result;
 }
 
-// The bias at which a bound was judged, where a curve shows that others are possible: "bias.constant = 2 texel". Empty
-// without a curve.
+// The bias or reduction at which a bound was judged, where a curve shows that others are possible: "bias.constant = 2 texel".
+// Empty without a curve.
 std::string bias_text(const PointRecord& point) {
-  if (!point.curve) return "";
-  const std::string value = setting_of(point, point.curve->parameter);
+  if (!has_curve(point)) return "";
+  const std::string value = setting_of(point, curve_parameter(point));
+  const std::string unit = curve_unit(point);
   return value.empty()
              ? ""
-             : fmt::format("{} = {} {}", point.curve->parameter, setting_text(value), setting_of(point, "bias.unit"));
+             : fmt::format("{} = {}{}{}", curve_parameter(point), setting_text(value), unit.empty() ? "" : " ", unit);
 }
 
 // Limits are typed by a person, so they keep more digits than what is found.
@@ -164,7 +166,7 @@ std::string point_text(const PointRecord& point, std::span<const std::string> sw
     if (setting != point.settings.end()) parts.push_back(fmt::format("{} = {}", name, setting_text(setting->second)));
   }
   if (const std::string bias = bias_text(point);
-      !bias.empty() && std::find(swept.begin(), swept.end(), point.curve->parameter) == swept.end())
+      !bias.empty() && std::find(swept.begin(), swept.end(), curve_parameter(point)) == swept.end())
     parts.push_back(bias);
   return fmt::format("point {}{}{}", point.id, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }

@@ -103,8 +103,8 @@ Joined joined(const Choice& choice, const std::string& metric) { return joined_a
 bool has_curves(const Choice& choice) {
   const PointRecord& first = choice.first();
   return std::all_of(choice.points.begin(), choice.points.end(), [&](const PointRecord* point) {
-    return point->curve && point->curve->parameter == first.curve->parameter &&
-           setting_of(*point, "bias.unit") == setting_of(first, "bias.unit");
+    return has_curve(*point) && curve_parameter(*point) == curve_parameter(first) &&
+           curve_unit(*point) == curve_unit(first);
   });
 }
 
@@ -112,7 +112,7 @@ std::optional<Interval> joined_window(const Choice& choice) {
   if (!has_curves(choice)) return std::nullopt;
   Interval all{0, std::numeric_limits<double>::infinity()};
   for (const PointRecord* point : choice.points) {
-    const std::optional<Interval> window = usable_window(*point->curve);
+    const std::optional<Interval> window = usable_window(*point);
     if (!window) return std::nullopt;
     const double per_depth = parameter_per_depth(*point);
     all.low = std::max(all.low, window->low * per_depth);

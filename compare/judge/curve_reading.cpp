@@ -1,9 +1,12 @@
 #include "compare/judge/curve_reading.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compare/ladder/numbers.h"
@@ -37,8 +40,41 @@ bool is_hard_error(const PointRecord& point, const std::string& metric) {
   return metric == "error_soft" && metric_of(point, "light_size") == 0;
 }
 
+constexpr std::pair<std::string_view, double LookupCurvePoint::*> reduction_series[] = {
+    {"error", &LookupCurvePoint::shown_error},
+    {"error_soft", &LookupCurvePoint::shown_error_soft},
+    {"leak", &LookupCurvePoint::leak},
+    {"over_darkening", &LookupCurvePoint::over_darkening},
+    {"peter_panning", &LookupCurvePoint::peter_panning},
+    {"reduction", &LookupCurvePoint::reduction},
+    {"aliasing_dark", &LookupCurvePoint::aliasing_dark},
+    {"aliasing_light", &LookupCurvePoint::aliasing_light},
+    {"coverage", &LookupCurvePoint::coverage}};
+
+double interpolate(const std::vector<LookupCurvePoint>& curve, double LookupCurvePoint::*series, double at) {
+  const auto after = std::upper_bound(curve.begin(), curve.end(), at,
+                                      [](double value, const LookupCurvePoint& entry) { return value < entry.value; });
+  if (after == curve.begin()) return curve.front().*series;
+  const LookupCurvePoint& before = *(after - 1);
+  if (after == curve.end() || at == before.value) return before.*series;
+  const double t = (at - before.value) / (after->value - before.value);
+  return before.*series + t * ((*after).*series - before.*series);
+}
+
+std::optional<double> value_of_reduction(const PointRecord& point, const std::string& metric, double reduction) {
+  if (has_placements(point)) return std::nullopt;
+  const std::vector<LookupCurvePoint>& curve = point.lookup_curve;
+  if (metric == "aliasing")
+    return interpolate(curve, &LookupCurvePoint::aliasing_dark, reduction) +
+           interpolate(curve, &LookupCurvePoint::aliasing_light, reduction);
+  for (const auto& [name, series] : reduction_series)
+    if (name == metric) return interpolate(curve, series, reduction);
+  return std::nullopt;
+}
+
 // The metric from the point's curve. Empty if the curve has no series of it.
 std::optional<double> value_of_curve(const PointRecord& point, const std::string& metric, double bias_depth) {
+  if (free_setting(point) == FreeSetting::reduction) return value_of_reduction(point, metric, bias_depth);
   const BiasCurve& curve = *point.curve;
   if (const auto* worst = series_of(curve, metric, "_worst")) return interpolate(curve.bias_depth, *worst, bias_depth);
   if (const std::optional<double> value = curve_value(curve, metric, bias_depth)) return value;
@@ -47,7 +83,77 @@ std::optional<double> value_of_curve(const PointRecord& point, const std::string
   return curve_value(curve, "error", bias_depth);
 }
 
+// The ends of a window of the reduction: of every placement of the grid if the point has several.
+std::optional<Interval> window_of_reduction(const PointRecord& point) {
+  const char* const ending = has_placements(point) ? "_worst" : "";
+  const std::optional<double> low = quantity(point, fmt::format("reduction_min{}", ending)),
+                              high = quantity(point, fmt::format("reduction_max{}", ending));
+  return low && high ? std::optional(Interval{*low, *high}) : std::nullopt;
+}
+
+std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
+
 }  // namespace
+
+FreeSetting free_setting(const PointRecord& point) {
+  if (point.curve) return FreeSetting::bias;
+  return !point.lookup_curve.empty() && point.lookup_bounds ? FreeSetting::reduction : FreeSetting::none;
+}
+
+std::string curve_parameter(const PointRecord& point) {
+  switch (free_setting(point)) {
+    case FreeSetting::bias:
+      return point.curve->parameter;
+    case FreeSetting::reduction:
+      return point.lookup_curve.front().parameter;
+    case FreeSetting::none:
+      break;
+  }
+  return "";
+}
+
+std::string curve_unit(const PointRecord& point) {
+  return free_setting(point) == FreeSetting::bias ? setting_of(point, "bias.unit") : "";
+}
+
+std::string free_setting_words(std::span<const FreeSetting> settings) {
+  const auto any = [&](FreeSetting one) { return std::find(settings.begin(), settings.end(), one) != settings.end(); };
+  if (!any(FreeSetting::reduction)) return "bias";
+  return any(FreeSetting::bias) ? "bias or light-bleed reduction" : "light-bleed reduction";
+}
+
+std::string free_setting_words(std::span<const PointRecord> points) {
+  std::vector<FreeSetting> settings;
+  for (const PointRecord& point : points) settings.push_back(free_setting(point));
+  return free_setting_words(settings);
+}
+
+const CauseBounds& curve_bounds(const PointRecord& point) {
+  return point.curve ? static_cast<const CauseBounds&>(*point.curve) : point.lookup_bounds.value();
+}
+
+std::vector<double> curve_depths(const PointRecord& point) {
+  if (point.curve) return point.curve->bias_depth;
+  std::vector<double> depths;
+  for (const LookupCurvePoint& entry : point.lookup_curve) depths.push_back(entry.value);
+  return depths;
+}
+
+double best_depth(const PointRecord& point) {
+  return point.curve ? point.curve->best_bias_depth : metric_of(point, "best_reduction");
+}
+
+std::optional<double> curve_value(const PointRecord& point, const std::string& metric, double bias_depth) {
+  switch (free_setting(point)) {
+    case FreeSetting::bias:
+      return curve_value(*point.curve, metric, bias_depth);
+    case FreeSetting::reduction:
+      return value_of_reduction(point, metric, bias_depth);
+    case FreeSetting::none:
+      break;
+  }
+  return std::nullopt;
+}
 
 std::optional<double> curve_value(const BiasCurve& curve, const std::string& metric, double bias_depth) {
   if (metric == "aliasing")
@@ -59,6 +165,7 @@ std::optional<double> curve_value(const BiasCurve& curve, const std::string& met
 }
 
 double parameter_per_depth(const PointRecord& point) {
+  if (free_setting(point) == FreeSetting::reduction) return 1;
   if (!point.curve) return not_a_number;
   const std::string unit = setting_of(point, "bias.unit");
   if (unit == "depth") return 1;
@@ -68,8 +175,8 @@ double parameter_per_depth(const PointRecord& point) {
 }
 
 std::optional<double> bias_as_set(const PointRecord& point) {
-  if (!point.curve) return std::nullopt;
-  const std::optional<double> value = number_of(setting_of(point, point.curve->parameter));
+  if (!has_curve(point)) return std::nullopt;
+  const std::optional<double> value = number_of(setting_of(point, curve_parameter(point)));
   const double per_depth = parameter_per_depth(point);
   if (!value || std::isnan(per_depth)) return std::nullopt;
   return *value / per_depth;
@@ -83,12 +190,45 @@ std::optional<Interval> usable_window(const BiasCurve& curve) {
   return Interval{*low, *high};
 }
 
+std::optional<Interval> usable_window(const PointRecord& point) {
+  switch (free_setting(point)) {
+    case FreeSetting::bias:
+      return usable_window(*point.curve);
+    case FreeSetting::reduction:
+      return window_of_reduction(point);
+    case FreeSetting::none:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::string why_no_usable_reduction(const PointRecord& point) {
+  if (free_setting(point) != FreeSetting::reduction || usable_window(point)) return "";
+  const auto& [dark, light] = curve_bounds(point);
+  const std::vector<LookupCurvePoint>& curve = point.lookup_curve;
+  if (const double bare = curve.front().over_darkening; bare > dark)
+    return fmt::format("over-darkening is {} without any reduction, more than {}", percent(bare), percent(dark));
+  if (curve.back().leak > light)
+    return fmt::format("the leak is {} even with the largest reduction, more than {}", percent(curve.back().leak),
+                       percent(light));
+  const auto enough =
+      std::find_if(curve.begin(), curve.end(), [&](const LookupCurvePoint& entry) { return entry.leak <= light; });
+  // Of several placements the curve is of one, which can have a window where the others have none.
+  if (has_placements(point) && quantity(point, "reduction_min"))
+    return "the reductions of the placements of the map's grid have no value in common";
+  return fmt::format(
+      "without a reduction the leak is {}; {:.2g} keeps it within {}, and there the reduction darkens {} and "
+      "over-darkening is {}, of which at most {} each is allowed",
+      percent(curve.front().leak), enough->value, percent(light), percent(enough->reduction),
+      percent(enough->over_darkening), percent(dark));
+}
+
 bool has_curve_of(const PointRecord& point, const std::string& metric) {
-  return point.curve && value_of_curve(point, metric, 0);
+  return has_curve(point) && value_of_curve(point, metric, 0);
 }
 
 double metric_at(const PointRecord& point, const std::string& metric, std::optional<double> bias_depth) {
-  if (bias_depth && point.curve)
+  if (bias_depth && has_curve(point))
     if (const std::optional<double> value = value_of_curve(point, metric, *bias_depth)) return *value;
   if (has_placements(point))
     for (const std::string& worst : {metric + "_worst", std::string(is_hard_error(point, metric) ? "error_worst" : "")})

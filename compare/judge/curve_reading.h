@@ -1,22 +1,57 @@
-// Reads a point's bias curve at any bias.
+// Reads a point's own curve at any value of its free setting.
+//
+// The *free setting* of a point costs nothing to change, and the curve says what another value would give. Of a lookup that
+// compares depths it is a part of the bias (PointRecord::curve), of one in a map of moments the light-bleed reduction,
+// lookup.reduction (PointRecord::lookup_curve). The usable window is all of its values that keep the bounds on causes. A
+// `bias_depth` is a place on the axis of the curve: of a bias in window depth, of a reduction the reduction itself. The word
+// bias stands for both in names.
 //
 //   std::optional<double> acne = curve_value(*point.curve, "acne", depth);
 //   double metres = depth * parameter_per_depth(point);     // with bias.unit = m
+//   std::optional<Interval> window = usable_window(point);  // of a bias or of a reduction
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/interval.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
 
+// Which setting is free. none: the point has no curve.
+enum class FreeSetting { none, bias, reduction };
+FreeSetting free_setting(const PointRecord& point);
+inline bool has_curve(const PointRecord& point) { return free_setting(point) != FreeSetting::none; }
+// "bias.constant", "lookup.reduction"; empty without a curve.
+std::string curve_parameter(const PointRecord& point);
+// Of the parameter: the text of bias.unit; empty of a reduction.
+std::string curve_unit(const PointRecord& point);
+// In words for a reader: "bias", "light-bleed reduction". Of points that differ: "bias or light-bleed reduction"; "bias" if
+// none has a curve.
+std::string free_setting_words(std::span<const FreeSetting> settings);
+std::string free_setting_words(std::span<const PointRecord> points);
+inline std::string free_setting_words(const PointRecord& point) { return free_setting_words({&point, 1}); }
+// The bounds of the usable window. The point must have a curve.
+const CauseBounds& curve_bounds(const PointRecord& point);
+// The entries of the curve, ascending, and its best one.
+std::vector<double> curve_depths(const PointRecord& point);
+double best_depth(const PointRecord& point);
+
 // The value of a curve's series at a bias in window depth. The series is named by its metric ("error", "acne",
 // "aliasing" = dark + light ...). It is linear between the curve's entries and constant beyond the last. Empty if the
 // curve has no such series.
 std::optional<double> curve_value(const BiasCurve& curve, const std::string& metric, double bias_depth);
 
-// The parameter's own value, in bias.unit, of 1 of window depth; the settings give the unit. Not finite if they do not.
+// The same of a point's curve over its free setting. A reduction's causes are those of the exact map, and its errors what
+// OpenGL shows. Where a point has several placements of the map's grid, its curve over the reduction is of one of them and
+// gives no value, because a choice is judged by the worst one.
+std::optional<double> curve_value(const PointRecord& point, const std::string& metric, double bias_depth);
+
+// The parameter's own value, in bias.unit, of 1 of window depth; the settings give the unit. Not finite if they do not. 1 of a
+// reduction.
 double parameter_per_depth(const PointRecord& point);
 
 // The amount, in window depth, with which the point was rendered, of the parameter that its curve varies. Empty if the
@@ -26,6 +61,14 @@ std::optional<double> bias_as_set(const PointRecord& point);
 // The usable window of the curve: at every placement of the grid if the point has placements, otherwise at its own.
 // In window depth. Empty if no bias is good enough.
 std::optional<Interval> usable_window(const BiasCurve& curve);
+// The same of the point's free setting. Empty also without a curve.
+std::optional<Interval> usable_window(const PointRecord& point);
+// Whether the point has a curve, and no value of its free setting is usable.
+inline bool lacks_window(const PointRecord& point) { return has_curve(point) && !usable_window(point); }
+
+// Of a point whose reduction is free and that lacks a window: what breaks it, as the end of a sentence: "over-darkening is
+// 0.15% without any reduction". Otherwise empty.
+std::string why_no_usable_reduction(const PointRecord& point);
 
 // Whether the curve gives the metric at any bias. If not, metric_at gives it as rendered.
 bool has_curve_of(const PointRecord& point, const std::string& metric);

@@ -57,7 +57,7 @@ Demands demands_on(const Choice& choice, const std::vector<BoundResult>& bounds,
 }
 
 std::optional<double> depth_at(const PointRecord& point, std::optional<double> bias) {
-  return bias && point.curve ? std::optional(*bias / parameter_per_depth(point)) : std::nullopt;
+  return bias && has_curve(point) ? std::optional(*bias / parameter_per_depth(point)) : std::nullopt;
 }
 
 bool meets_all(const Demands& demands, std::optional<double> bias) {
@@ -71,7 +71,7 @@ bool meets_all(const Demands& demands, std::optional<double> bias) {
 bool has_criterion(const Choice& choice, const Results& results) {
   const Demands demands = demands_on(choice, results.bounds, results.info);
   return std::any_of(demands.begin(), demands.end(),
-                     [](const auto& of_point) { return of_point.first->curve || !of_point.second.empty(); });
+                     [](const auto& of_point) { return has_curve(*of_point.first) || !of_point.second.empty(); });
 }
 
 // better(a, b): whether a is preferred to b. Among equals the first is kept.
@@ -125,8 +125,7 @@ double short_decimal(double value, double low, double high) {
 }
 
 bool meets(const PointRecord& point, const BoundResult& bound, std::optional<double> bias_depth) {
-  const std::optional<double> of_curve =
-      bias_depth && point.curve ? curve_value(*point.curve, bound.metric, *bias_depth) : std::nullopt;
+  const std::optional<double> of_curve = bias_depth ? curve_value(point, bound.metric, *bias_depth) : std::nullopt;
   const double one = of_curve ? *of_curve : quantity(point, bound.metric).value_or(std::nan(""));
   const double high = bound.placement == "worst" ? std::max(one, metric_at(point, bound.metric, bias_depth)) : one;
   return std::isfinite(one) && std::isfinite(high) && (!bound.max || high <= *bound.max) &&
@@ -137,8 +136,8 @@ std::vector<double> curve_biases(const Choice& choice, double low, double high) 
   std::vector<double> all{low, high};
   for (const PointRecord* point : choice.points) {
     const double per_depth = parameter_per_depth(*point);
-    all.push_back(std::clamp(point->curve->best_bias_depth * per_depth, low, high));
-    for (double depth : point->curve->bias_depth)
+    all.push_back(std::clamp(best_depth(*point) * per_depth, low, high));
+    for (double depth : curve_depths(*point))
       if (const double bias = depth * per_depth; bias > low && bias < high) all.push_back(bias);
   }
   return all;
@@ -188,7 +187,7 @@ std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& resul
   double value = short_decimal(*best, low, high);
   if (value != *best && !meets_all(demands, value)) value = *best;
   const PointRecord& first = choice.first();
-  return BiasChoice{first.curve->parameter, setting_of(first, "bias.unit"), value, *window, narrow};
+  return BiasChoice{curve_parameter(first), curve_unit(first), value, *window, narrow};
 }
 
 std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results) {
@@ -201,7 +200,7 @@ std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results)
   const std::optional<Interval> window = joined_window(choice);
   if (!window) return {};
   const PointRecord& first = choice.first();
-  const std::string& parameter = first.curve->parameter;
+  const std::string parameter = curve_parameter(first);
   const std::string text = setting_of(first, parameter);
   const std::optional<double> value = number_of(text);
   // With the parameter among the conditions there is no one bias.
@@ -211,7 +210,7 @@ std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results)
   constexpr double rounding = 1e-12;  // of the ends, which were converted from window depth
   if (*value < window->low * (1 - rounding) || *value > window->high * (1 + rounding)) return {};
   const bool narrow = *value < window->low * bias_margin || *value * bias_margin > window->high;
-  return BiasChoice{parameter, setting_of(first, "bias.unit"), *value, *window, narrow, true};
+  return BiasChoice{parameter, curve_unit(first), *value, *window, narrow, true};
 }
 
 bool keeps_bounds_of_others(const Choice& choice, const Results& results) {

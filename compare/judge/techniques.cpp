@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 
+#include "compare/judge/curve_reading.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "technique/settings.h"
@@ -81,11 +82,11 @@ Techniques techniques_of(const ComparedGroup& group, const Results& results) {
 }
 
 std::vector<std::string> tuned_settings(const Choice& choice) {
-  if (has_curves(choice)) return {choice.first().curve->parameter};
   const std::string& kind = setting_of(choice.first(), "lookup.kind");
   const bool of_moments = !kind.empty() && kind != "compare";
-  if (!of_moments) return {};
-  return {std::begin(tuned_of_moments), std::end(tuned_of_moments)};
+  if (of_moments) return {std::begin(tuned_of_moments), std::end(tuned_of_moments)};
+  if (has_curves(choice)) return {curve_parameter(choice.first())};
+  return {};
 }
 
 std::optional<MoreOf> more_of(const ComparedChoice& one, const ComparedChoice& other, AtBias at) {

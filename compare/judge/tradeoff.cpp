@@ -18,7 +18,7 @@ using Window = ComparedChoice::Window;
 double least_wrong_bias(const Choice& choice, const std::string& metric) {
   double largest = 0;
   for (const PointRecord* point : choice.points)
-    for (double depth : point->curve->bias_depth) largest = std::max(largest, depth * parameter_per_depth(*point));
+    for (double depth : curve_depths(*point)) largest = std::max(largest, depth * parameter_per_depth(*point));
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (double bias : curve_biases(choice, 0, largest)) {
     const double error = joined_at(choice, metric, bias).worst;  // NaN is never less
@@ -36,7 +36,7 @@ double bias_without_bounds(const Choice& choice, const Results& results, const I
 bool was_rendered_in_window(const Choice& choice) {
   return std::all_of(choice.points.begin(), choice.points.end(), [](const PointRecord* point) {
     const std::optional<double> set = bias_as_set(*point);
-    const std::optional<Interval> window = usable_window(*point->curve);
+    const std::optional<Interval> window = usable_window(*point);
     return set && window && *set >= window->low && *set <= window->high;
   });
 }

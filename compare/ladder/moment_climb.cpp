@@ -168,8 +168,11 @@ void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) cons
   for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
 
   // What a cascade shows at a seam for comparison alone is no result.
-  if (is_counted(ladder, i) && e.truth.share_of(i) > 0)
-    worst.reductions.add({i, static_cast<double>(e.truth.lit[i]), s.chain});
+  if (is_counted(ladder, i) && e.truth.share_of(i) > 0) {
+    const double shown = bound_of_shown(static_cast<double>(e.r5[i]), s.chain.bound, e.moments->reduction());
+    worst.reductions.add({i, static_cast<double>(e.truth.lit[i]), s.chain},
+                         {.truth = r[1], .soft = r[0], .bound = number(shown)});
+  }
 
   const auto set = [&](Cause cause, double value) { ladder[cause][i] = number(value); };
   for (Ladder::CauseImage& cause : ladder.causes) cause.step[i] = 0;

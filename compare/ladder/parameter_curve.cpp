@@ -1,7 +1,9 @@
 #include "compare/ladder/parameter_curve.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "compare/ladder/numbers.h"
 #include "compare/ladder/receiver_taps.h"
@@ -11,23 +13,21 @@ namespace {
 
 constexpr double unit = 0x1p36;  // summands are whole numbers of 1 / unit
 
-ParameterCurve::Sums rounded(double error, double shown_error, const MomentParts& parts) {
-  const auto whole = [](double share) { return static_cast<int64_t>(std::llround(share * unit)); };
-  if (!std::isfinite(error + shown_error + parts.to_bare + parts.to_floors + parts.reduction)) return {.finite = false};
-  return {whole(error),
-          whole(shown_error),
-          whole(parts.leak()),
-          whole(-parts.over_darkening()),
-          whole(parts.peter_panning()),
-          whole(std::abs(parts.reduction))};
-}
-
 }  // namespace
 
 void ParameterCurve::Sums::add(const Sums& more) {
-  error += more.error, shown_error += more.shown_error, leak += more.leak;
-  over_darkening += more.over_darkening, peter_panning += more.peter_panning, reduction += more.reduction;
+  for (size_t n = 0; n < of.size(); ++n) of[n] += more.of[n];
   finite = finite && more.finite;
+}
+
+void ParameterCurve::Sums::add(const LookupCurvePoint& receiver) {
+  for (size_t n = 0; n < of.size(); ++n) {
+    const double share = receiver.*numbers[n];
+    if (std::isfinite(share))
+      of[n] += std::llround(share * unit);
+    else
+      finite = false;
+  }
 }
 
 ParameterCurve::ParameterCurve(const ParameterValues& asked, const Settings& settings) : setting_(asked.setting) {
@@ -53,8 +53,19 @@ void ParameterCurve::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& 
     chain.bound = bound.lit;
     const double shown = bound.decided ? bound.lit : at.lookup.reduced(bound.lit);
     const float drawn = bound.decided ? e_.r5[i] : at.lookup.reduced(at.lookup.lit(fetched_[i], bound.reference));
-    part.sums[k].add(
-        rounded(std::abs(shown - truth), std::abs(static_cast<double>(drawn) - truth), moment_parts(chain, shown)));
+    const MomentParts parts = moment_parts(chain, shown);
+    part.sums[k].add({{},
+                      at.value,
+                      std::abs(shown - truth),
+                      parts.leak(),
+                      -parts.over_darkening(),
+                      parts.peter_panning(),
+                      std::abs(parts.reduction),
+                      std::max(0.0, -parts.aliasing),
+                      std::max(0.0, parts.aliasing),
+                      std::abs(parts.coverage),
+                      std::abs(static_cast<double>(drawn) - truth),
+                      std::abs(static_cast<double>(drawn) - static_cast<double>(e_.truth.soft[i]))});
   }
 }
 
@@ -67,12 +78,11 @@ std::vector<LookupCurvePoint> ParameterCurve::curve() const {
   std::vector<LookupCurvePoint> curve;
   if (receivers_ == 0) return curve;
   for (size_t k = 0; k < at_.size(); ++k) {
-    const Sums& s = sums_[k];
-    const auto mean = [&](int64_t sum) {
-      return s.finite ? static_cast<double>(sum) / unit / static_cast<double>(receivers_) : not_a_number;
-    };
-    curve.push_back({setting_, at_[k].value, mean(s.error), mean(s.leak), mean(s.over_darkening), mean(s.peter_panning),
-                     mean(s.reduction), mean(s.shown_error)});
+    LookupCurvePoint at{.parameter = setting_, .value = at_[k].value};
+    for (size_t n = 0; n < std::size(numbers); ++n)
+      at.*numbers[n] =
+          sums_[k].finite ? static_cast<double>(sums_[k].of[n]) / unit / static_cast<double>(receivers_) : not_a_number;
+    curve.push_back(std::move(at));
   }
   return curve;
 }

@@ -6,7 +6,9 @@
 //   read_taps(evidence, strip, ParameterCurve::Adding(over, fetched));   // of each map
 //   std::vector<LookupCurvePoint> curve = over.curve();
 #pragma once
+#include <array>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "compare/ladder/ladder.h"
@@ -20,12 +22,19 @@ class ParameterCurve {
   // settings: of the point; has_curve_over() them. Throws std::logic_error otherwise.
   ParameterCurve(const ParameterValues& asked, const Settings& settings);
 
-  // Sums over counted receivers, at one value. Each summand is rounded to 2^-36, so that the sums are exact and do not depend on
-  // the order: up to 2^26 receivers (8192 x 8192 pixels) of up to 1 each.
+  // The numbers of a point of the curve.
+  static constexpr double LookupCurvePoint::*numbers[] = {
+      &LookupCurvePoint::error,           &LookupCurvePoint::leak,      &LookupCurvePoint::over_darkening,
+      &LookupCurvePoint::peter_panning,   &LookupCurvePoint::reduction, &LookupCurvePoint::aliasing_dark,
+      &LookupCurvePoint::aliasing_light,  &LookupCurvePoint::coverage,  &LookupCurvePoint::shown_error,
+      &LookupCurvePoint::shown_error_soft};
+  // Their sums over counted receivers, at one value. Each summand is rounded to 2^-36, so that the sums are exact and do not depend
+  // on the order: up to 2^26 receivers (8192 x 8192 pixels) of up to 1 each.
   struct Sums {
-    int64_t error = 0, shown_error = 0, leak = 0, over_darkening = 0, peter_panning = 0, reduction = 0;
+    std::array<int64_t, std::size(numbers)> of{};
     bool finite = true;  // false: a summand was not, and no mean is known
     void add(const Sums& more);
+    void add(const LookupCurvePoint& receiver);
   };
 
   // A judge of read_taps (compare/ladder/receiver_taps.h). fetched: the moments that the lookup of each receiver fetched from

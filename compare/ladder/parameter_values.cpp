@@ -19,8 +19,6 @@ double value_in(const Settings& settings, std::string_view setting) {
   return is_bias(setting) ? settings.bias[name_of(setting)] : settings.lookup[name_of(setting)];
 }
 
-bool mixes_cascades(const Settings& settings) { return settings.cascades.count > 1 && settings.cascades.blend > 0; }
-
 // The powers of ten between which the usual values lie.
 struct Decades {
   int first = 0, last = 0;
@@ -44,10 +42,6 @@ Decades decades_of(std::string_view setting, BiasUnit unit) {
 }  // namespace
 
 std::span<const std::string_view> curve_settings() { return settings_of_curves; }
-
-bool has_reduction_curve(const Settings& settings) {
-  return reads_moments(settings) && !mixes_cascades(settings) && settings.lookup["reduction_span"] == 0;
-}
 
 bool has_curve_over(const Settings& settings, std::string_view setting) {
   if (setting.empty() || !reads_moments(settings) || mixes_cascades(settings)) return false;

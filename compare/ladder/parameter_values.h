@@ -22,10 +22,6 @@ struct ParameterValues {
 // "lookup.v_min", "lookup.floor", "lookup.moment_bias", "bias.constant".
 std::span<const std::string_view> curve_settings();
 
-// Whether a point of these settings has a curve over lookup.reduction: it has a map of moments, the reduction alone turns a bound
-// into the result, and no result is a mix of two cascades' lookups.
-bool has_reduction_curve(const Settings& settings);
-
 // Whether a point of these settings has a curve over this setting: its lookup reads a map of moments and the setting, and no
 // result is a mix of two cascades' lookups.
 bool has_curve_over(const Settings& settings, std::string_view setting);

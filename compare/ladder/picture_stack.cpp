@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "compare/ladder/live_arrays.h"
 #include "compare/ladder/measure.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -23,38 +25,45 @@ double caused(const Ladder& ladder, Cause cause) {
 
 }  // namespace
 
-const BiasPart& stacked_part(const BiasSettings& settings) {
-  if (const BiasPart* const part = curve_part(settings)) return *part;
+const BiasPart* stacked_part(const Settings& settings) {
+  if (has_reduction_curve(settings)) return nullptr;
+  if (const BiasPart* const part = curve_part(settings.bias)) return part;
   for (const BiasPart& part : bias_parts())
-    if (settings[part.name] != 0) return part;
-  return bias_part("constant");
+    if (settings.bias[part.name] != 0) return &part;
+  return &bias_part("constant");
 }
 
-std::vector<double> stack_values(const BiasPart& part, double as_set, const std::vector<double>& marks,
-                                 double otherwise) {
+std::span<const Cause> stack_causes(std::string_view parameter) {
+  static constexpr Cause of_bias[] = {Cause::acne, Cause::peter_panning},
+                         of_reduction[] = {Cause::leak, Cause::over_darkening, Cause::reduction};
+  return parameter == "lookup.reduction" ? std::span<const Cause>(of_reduction) : of_bias;
+}
+
+std::vector<double> stack_values(double most, double as_set, const std::vector<double>& marks, double otherwise) {
   std::vector<double> values{0};
   // The shader's amounts are floats: values that are the same float have the same picture.
   const auto add = [&](double value) {
     const auto same = [&](double known) { return static_cast<float>(known) == static_cast<float>(value); };
-    if (values.size() < most_stacked && value >= 0 && value <= part.most &&
-        std::none_of(values.begin(), values.end(), same))
+    if (values.size() < most_stacked && value >= 0 && value <= most && std::none_of(values.begin(), values.end(), same))
       values.push_back(value);
   };
   add(as_set);
   double middle = as_set;
   for (const double mark : marks) {
     add(mark);
-    if (!(middle > 0) && mark > 0 && mark <= part.most) middle = mark;
+    if (!(middle > 0) && mark > 0 && mark <= most) middle = mark;
   }
-  if (!(middle > 0)) middle = std::min(otherwise, part.most);
+  if (!(middle > 0)) middle = std::min(otherwise, most);
   for (int step = 0; step < 2 * static_cast<int>(most_stacked); ++step)
     for (const int sign : {1, -1}) add(middle * std::exp2(0.5 * sign * step));
   std::sort(values.begin(), values.end());
   return values;
 }
 
-PictureStack empty_picture_stack(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe) {
+PictureStack empty_picture_stack(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
+                                 std::string parameter) {
   PictureStack stack;
+  stack.parameter = std::move(parameter);
   stack.flags = Image<uint8_t>(receivers.width(), receivers.height(), 0);
   stack.n_dot_l = stack.flags;
   stack.answers.resize(stack.flags.size());
@@ -69,7 +78,9 @@ PictureStack empty_picture_stack(const ReceiverImage& receivers, const ReceiverT
 
 void add_picture(PictureStack& stack, double value, const Ladder& ladder) {
   const auto number = static_cast<uint8_t>(stack.values.size());
-  stack.values.push_back({value, error_of(ladder), caused(ladder, Cause::acne), caused(ladder, Cause::peter_panning)});
+  PictureStack::Value told{value, error_of(ladder), {}};
+  for (const Cause cause : stack_causes(stack.parameter)) told.causes.push_back(caused(ladder, cause));
+  stack.values.push_back(std::move(told));
   for (size_t i = 0; i < stack.answers.size(); ++i) {
     if (!(stack.flags[i] & live_facing)) continue;
     const PictureStack::Answer answer{number, ladder.cause[i], ladder.shown()[i]};
@@ -93,9 +104,12 @@ std::string stack_file(const PictureStack& stack) {
   nlohmann::ordered_json head{{"kind", "stack"},         {"width", stack.flags.width},   {"height", stack.flags.height},
                               {"answers", light.size()}, {"parameter", stack.parameter}, {"unit", stack.unit},
                               {"why", stack.why}};
-  for (const PictureStack::Value& one : stack.values)
-    head["values"].push_back(
-        {{"value", one.value}, {"error", one.error}, {"acne", one.acne}, {"peter_panning", one.peter_panning}});
+  for (const Cause one : stack_causes(stack.parameter)) head["told"].push_back(cause_name(one));
+  for (const PictureStack::Value& one : stack.values) {
+    nlohmann::ordered_json told{{"value", one.value}, {"error", one.error}};
+    for (size_t k = 0; k < one.causes.size(); ++k) told[head["told"][k].get<std::string>()] = one.causes[k];
+    head["values"].push_back(std::move(told));
+  }
   if (stack.scale) {
     head["depth_per_unit"] = stack.scale->depth_per_unit;
     head["m_per_depth"] = stack.scale->m_per_depth;

@@ -1,7 +1,7 @@
-// What OpenGL shows at a few values of one part of the bias, and why each pixel is wrong there: a stack of pictures, each
-// measured at its value. The report's page shows one of them at a time.
+// What OpenGL shows at a few values of one part of the bias, or of the light-bleed reduction, and why each pixel is wrong there: a
+// stack of pictures, each measured at its value. The report's page shows one of them at a time.
 //
-//   PictureStack stack = empty_picture_stack(receivers, truth, probe);
+//   PictureStack stack = empty_picture_stack(receivers, truth, probe, "bias.normal_offset");
 //   for (double value : stack_values(...)) add_picture(stack, value, ladder measured at that value);
 //   write(stack_file(stack));
 //
@@ -11,10 +11,13 @@
 //   weights to about 8 bits in a way that no specification defines, and a comparison in a fixed-point map may round the
 //   compared depth. So the sum of the weights of the lit taps is only near to what OpenGL shows.
 // - A filter of more than most_live_taps taps would need two answers for each of them in each pixel.
+// - A lookup in a map of moments compares nothing. What costs nothing to change there is its reduction.
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compare/ladder/bias_curves.h"
@@ -27,20 +30,27 @@ namespace noonmark {
 // The pictures of a stack, at most; a pixel names its picture in a byte.
 inline constexpr size_t most_stacked = 13;
 
-// The part that a stack varies: that of the bias curve, or, if no active part has a curve, the first active one.
-const BiasPart& stacked_part(const BiasSettings& settings);
+// The part of the bias that a stack varies: that of the bias curve, or, if no active part has a curve, the first active one. Null:
+// it varies lookup.reduction, because that has a curve (has_reduction_curve).
+const BiasPart* stacked_part(const Settings& settings);
 
 // The values of a stack, ascending: 0, the value as set, the marks, and, as far as most_stacked has room, values a factor
 // of sqrt(2) apart on both sides of the middle. The middle is the value as set, or the first positive mark if that is 0, or
 // else `otherwise`. marks: values that the report speaks of (the recommended one, the ends of the usable window), the most
-// important first; those that are not finite or outside 0 ... part.most are left out. otherwise: above 0.
-std::vector<double> stack_values(const BiasPart& part, double as_set, const std::vector<double>& marks,
-                                 double otherwise);
+// important first; those that are not finite or outside 0 ... most, the largest value of the setting, are left out. otherwise:
+// above 0.
+std::vector<double> stack_values(double most, double as_set, const std::vector<double>& marks, double otherwise);
+
+// The causes whose sizes are told of each picture: of a part of the bias acne and Peter Panning, of the reduction the leak, and
+// both that darken.
+std::span<const Cause> stack_causes(std::string_view parameter);
 
 struct PictureStack {
   struct Value {
-    double value = 0;                               // of the part, in its own unit
-    double error = 0, acne = 0, peter_panning = 0;  // the metrics of the picture at that value
+    double value = 0;  // of the setting, in its own unit
+    // The metrics of the picture at that value: the error, and the causes that follow the setting (stack_causes).
+    double error = 0;
+    std::vector<double> causes;
   };
   // The answer of a pixel from the picture of this number on, up to the next answer's.
   struct Answer {
@@ -58,16 +68,18 @@ struct PictureStack {
   std::vector<std::vector<Answer>> answers;  // of each pixel; empty unless it faces the light
 };
 
-// Without a picture. The images have the same size.
-PictureStack empty_picture_stack(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe);
+// Without a picture. The images have the same size. parameter: what it varies.
+PictureStack empty_picture_stack(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
+                                 std::string parameter);
 
 // ladder: of the same receivers, without a rung on top of R5.
 void add_picture(PictureStack& stack, double value, const Ladder& ladder);
 
 // The file: compare/ladder/live_file.h with these arrays:
 //   float light[answers]; uint8 from[answers], cause[answers]; uint8 flags[pixels], n_dot_l[pixels], count[pixels]
-// count is the number of a pixel's answers. The line has kind ("stack"), width, height, answers, parameter, unit, why, values
-// (a list of objects: value, error, acne, peter_panning; a metric that is not finite is null), the names of the causes, and
+// count is the number of a pixel's answers. The line has kind ("stack"), width, height, answers, parameter, unit, why, told
+// (the names of stack_causes), values (a list of objects: value, error, and each of these causes; a metric that is not finite is
+// null), the names of all causes, and
 // for a part of the compared depth depth_per_unit, m_per_depth and texels_per_depth.
 std::string stack_file(const PictureStack& stack);
 

@@ -14,6 +14,11 @@ namespace {
 
 double reduced(double lit, double reduction) { return std::max(0.0, (lit - reduction) / (1 - reduction)); }
 
+constexpr double ReductionWindow::At::*means_of_reduction[] = {
+    &ReductionWindow::At::error,          &ReductionWindow::At::leak,      &ReductionWindow::At::over_darkening,
+    &ReductionWindow::At::peter_panning,  &ReductionWindow::At::reduction, &ReductionWindow::At::aliasing_dark,
+    &ReductionWindow::At::aliasing_light, &ReductionWindow::At::coverage};
+
 // The least x in [low, high] for which `holds`, which is false and then true; high if it is nowhere.
 template <class Holds>
 double first_that(double low, double high, const Holds& holds) {
@@ -30,13 +35,16 @@ double first_that(double low, double high, const Holds& holds) {
 void ReductionWindow::At::add(const At& other) {
   error += other.error, leak += other.leak, reduction += other.reduction;
   over_darkening += other.over_darkening, peter_panning += other.peter_panning;
+  aliasing_dark += other.aliasing_dark, aliasing_light += other.aliasing_light, coverage += other.coverage;
 }
 
 ReductionWindow::At ReductionWindow::of(const Receiver& r, double reduction) {
   const double shown = reduced(r.chain.bound, reduction);
   const MomentParts parts = moment_parts(r.chain, shown);
-  return {std::abs(shown - r.truth), parts.leak(), -parts.over_darkening(), parts.peter_panning(),
-          std::max(0.0, -parts.reduction)};
+  return {std::abs(shown - r.truth),       parts.leak(),
+          -parts.over_darkening(),         parts.peter_panning(),
+          std::max(0.0, -parts.reduction), std::max(0.0, -parts.aliasing),
+          std::max(0.0, parts.aliasing),   std::abs(parts.coverage)};
 }
 
 void ReductionWindow::sort() {
@@ -50,10 +58,15 @@ void ReductionWindow::sort() {
       others.push_back(receiver);
   }
   receivers_ = std::move(others);
+  std::sort(shown_.begin(), shown_.end(), [](const Shown& a, const Shown& b) { return a.pixel < b.pixel; });
 }
 
 ReductionWindow::At ReductionWindow::at(double reduction) const {
-  if (count() == 0) return {not_a_number, not_a_number, not_a_number, not_a_number, not_a_number};
+  if (count() == 0) {
+    At none;
+    for (double At::*mean : means_of_reduction) none.*mean = not_a_number;
+    return none;
+  }
   // The same partition on any machine, so that the sums are too.
   At sum = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<size_t>(0, receivers_.size(), 8192), At{},
@@ -66,8 +79,29 @@ ReductionWindow::At ReductionWindow::at(double reduction) const {
         return a;
       });
   sum.add(fixed_);
-  for (double At::*mean : {&At::error, &At::leak, &At::over_darkening, &At::peter_panning, &At::reduction})
-    sum.*mean /= static_cast<double>(count());
+  for (double At::*mean : means_of_reduction) sum.*mean /= static_cast<double>(count());
+  return sum;
+}
+
+ReductionWindow::ShownErrors ReductionWindow::shown(double reduction) const {
+  if (shown_.empty()) return {not_a_number, not_a_number};
+  ShownErrors sum = tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<size_t>(0, shown_.size(), 8192), ShownErrors{},
+      [&](const tbb::blocked_range<size_t>& range, ShownErrors so_far) {
+        for (size_t i = range.begin(); i != range.end(); ++i) {
+          const Shown& one = shown_[i];
+          const double lit = reduced(static_cast<double>(one.bound), reduction);
+          so_far.error += std::abs(lit - static_cast<double>(one.truth));
+          so_far.error_soft += std::abs(lit - static_cast<double>(one.soft));
+        }
+        return so_far;
+      },
+      [](ShownErrors a, const ShownErrors& b) {
+        a.error += b.error, a.error_soft += b.error_soft;
+        return a;
+      });
+  for (double ShownErrors::*mean : {&ShownErrors::error, &ShownErrors::error_soft})
+    sum.*mean /= static_cast<double>(shown_.size());
   return sum;
 }
 
@@ -120,6 +154,11 @@ std::optional<ReductionWindow::Window> ReductionWindow::usable(double leak_bound
   return low <= high ? std::optional(Window{low, high}) : std::nullopt;
 }
 
+double bound_of_shown(double shown, double exact_bound, double reduction) {
+  // 1 stays 1, to the last bit.
+  return shown > 0 ? 1 - (1 - shown) * (1 - reduction) : std::min(exact_bound, reduction);
+}
+
 std::map<std::string, double> reduction_metrics(const ReductionWindow& window, double leak_bound,
                                                 double darkening_bound) {
   const ReductionWindow::Best best = window.best();
@@ -135,7 +174,9 @@ std::vector<LookupCurvePoint> reduction_curve(const ReductionWindow& window) {
     const double r = percent / 100.0;
     const ReductionWindow::At at = window.at(r);
     if (std::isnan(at.error)) return {};
-    curve.push_back({"lookup.reduction", r, at.error, at.leak, at.over_darkening, at.peter_panning, at.reduction});
+    const ReductionWindow::ShownErrors shown = window.shown(r);
+    curve.push_back({"lookup.reduction", r, at.error, at.leak, at.over_darkening, at.peter_panning, at.reduction,
+                     at.aliasing_dark, at.aliasing_light, at.coverage, shown.error, shown.error_soft});
   }
   return curve;
 }

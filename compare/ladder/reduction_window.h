@@ -1,12 +1,14 @@
 // What another lookup.reduction would give, without another lookup: light-bleed reduction is arithmetic on the lit fraction
-// of each receiver. All numbers are those of R4, on the exact map.
+// of each receiver. All numbers are those of R4, on the exact map, but for what OpenGL would show (Shown).
 //
 //   ReductionWindow window;
-//   window.add({.pixel = 7, .truth = 0, .chain = {.from = 0, .texels = 0, .bare = 0.1, .bound = 0.1}});  // each receiver once
+//   window.add({.pixel = 7, .truth = 0, .chain = {.from = 0, .texels = 0, .bare = 0.1, .bound = 0.1}},  // each receiver once
+//              {.truth = 0, .soft = 0.2f, .bound = 0.1f});
 //   window.sort();
 //   std::optional<Window> usable = window.usable(0.001, 0.01);
 //   double r = window.best().reduction;
 #pragma once
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -27,8 +29,18 @@ class ReductionWindow {
     MomentChain chain;
   };
   void add(const Receiver& receiver) { receivers_.push_back(receiver); }
+  // What OpenGL shows of a receiver: R1, R0, and its own bound before light-bleed reduction (bound_of_shown).
+  struct Shown {
+    uint32_t pixel = 0;
+    float truth = 0, soft = 0, bound = 0;
+  };
+  void add(const Receiver& receiver, Shown shown) {
+    shown.pixel = static_cast<uint32_t>(receiver.pixel);
+    receivers_.push_back(receiver), shown_.push_back(shown);
+  }
   void add(const ReductionWindow& more) {
     receivers_.insert(receivers_.end(), more.receivers_.begin(), more.receivers_.end());
+    shown_.insert(shown_.end(), more.shown_.begin(), more.shown_.end());
   }
   const std::vector<Receiver>& all() const { return receivers_; }
   // To be called once, when all are added. Puts the receivers in the order of their pixels: threads add them in any order, and
@@ -38,9 +50,16 @@ class ReductionWindow {
   // Means over the receivers, at this reduction (0 ... 0.99): |R4 - R1|, and the causes as the ladder books them.
   struct At {
     double error = 0, leak = 0, over_darkening = 0, peter_panning = 0, reduction = 0;
+    double aliasing_dark = 0, aliasing_light = 0, coverage = 0;
     void add(const At& other);
   };
   At at(double reduction) const;
+
+  // Means over the receivers of what OpenGL would show at this reduction: |R5 - R1| and |R5 - R0|.
+  struct ShownErrors {
+    double error = 0, error_soft = 0;
+  };
+  ShownErrors shown(double reduction) const;
 
   struct Best {
     double reduction = 0, error = 0;
@@ -62,9 +81,14 @@ class ReductionWindow {
   size_t count() const { return receivers_.size() + fixed_receivers_; }
 
   std::vector<Receiver> receivers_;
+  std::vector<Shown> shown_;
   At fixed_;  // sums over those that are the same at every reduction
   size_t fixed_receivers_ = 0;
 };
+
+// The bound before light-bleed reduction of what OpenGL shows with it, and of the exact bound of the same receiver. Exact for
+// results above 0. A result of 0 hides how far its bound is below the reduction: there the exact bound stands for it.
+double bound_of_shown(double shown, double exact_bound, double reduction);
 
 // The largest reduction that a setting can have.
 inline constexpr double most_reduction = 0.99;

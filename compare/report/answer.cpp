@@ -71,13 +71,12 @@ Where where_text(const Results& results, const std::vector<bool>& chosen, const 
 }
 
 // The window is the one that the recommendation uses: of all placements if there are several.
-bool window_fails(const PointRecord& point) { return point.curve && !usable_window(*point.curve); }
-bool has_usable_bias(const PointRecord& point) { return point.curve && !window_fails(point) && bias_as_set(point); }
+bool has_usable_bias(const PointRecord& point) { return usable_window(point) && bias_as_set(point); }
 bool set_too_small(const PointRecord& point) {
-  return has_usable_bias(point) && *bias_as_set(point) < usable_window(*point.curve)->low;
+  return has_usable_bias(point) && *bias_as_set(point) < usable_window(point)->low;
 }
 bool set_too_large(const PointRecord& point) {
-  return has_usable_bias(point) && *bias_as_set(point) > usable_window(*point.curve)->high;
+  return has_usable_bias(point) && *bias_as_set(point) > usable_window(point)->high;
 }
 
 // "The method fails at 9 of 32 points: no value keeps ..., with" and the list of these points.
@@ -86,39 +85,94 @@ Markup bad_item(std::string_view what, const Markup& how, const Where& where) {
                            where.list.empty() ? "." : ", with", where.list));
 }
 
-Markup window_items(const Results& results) {
-  const auto curved =
-      std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return p.curve.has_value(); });
-  const auto without =
-      std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return !p.curve.has_value(); });
-  const Markup why = without == results.points.end() || why_no_curve(*without).empty()
-                         ? ""
-                         : item("note", prose("Points without a bias curve: {}.", why_no_curve(*without)));
-  if (curved == results.points.end())
-    return item("note", "No bias curve was measured, so no usable window can be given.") + why;
-  const BiasCurve& first = *curved->curve;
-  const std::string bounds =
-      fmt::format("acne at most {} and Peter Panning at most {}", quantity(first.acne_bound, "fraction"),
-                  quantity(first.peter_panning_bound, "fraction"));
+// The same of the points whose free setting is this one.
+template <FreeSetting setting, bool (*holds)(const PointRecord&)>
+bool of_setting(const PointRecord& point) {
+  return free_setting(point) == setting && holds(point);
+}
+
+// How a window of the free setting is told.
+struct WindowWords {
+  const char* name;  // "bias"
+  std::string keeps;
+  const char *too_small, *too_large;
+};
+
+WindowWords words_of_bias(const CauseBounds& bounds) {
+  return {"bias",
+          fmt::format("acne at most {} and Peter Panning at most {}", quantity(bounds.acne_bound, "fraction"),
+                      quantity(bounds.peter_panning_bound, "fraction")),
+          ": it leaves acne, and a larger bias would not", ": it detaches shadows more than necessary"};
+}
+
+WindowWords words_of_reduction(const CauseBounds& bounds) {
+  return {"reduction",
+          fmt::format("the leak at most {}, and over-darkening and what the reduction darkens at most {} each",
+                      quantity(bounds.peter_panning_bound, "fraction"), quantity(bounds.acne_bound, "fraction")),
+          ": it leaves a leak, and a larger one would not", ": it darkens more than necessary"};
+}
+
+// Of the points that no reduction mends, the first ones: what breaks each.
+Markup why_no_reductions(const Results& results) {
+  constexpr size_t most_told = 3;
+  Markup list;
+  size_t told = 0, all = 0;
+  for (const PointRecord& point : results.points) {
+    const std::string why = why_no_usable_reduction(point);
+    if (why.empty() || ++all > most_told) continue;
+    const std::string phrase = settings_phrase(point, results.info.swept);
+    list += element(
+        "li", prose("{}: {}", point_link(point.id, phrase.empty() ? fmt::format("point {}", point.id) : phrase), why));
+    ++told;
+  }
+  if (all > told) list += element("li", prose("and {} more: see the table of windows", all - told));
+  return list.empty() ? "" : element("ul", css("rules"), list);
+}
+
+template <FreeSetting setting>
+Markup window_items_of(const Results& results) {
+  const auto is_of = [](const PointRecord& point) { return free_setting(point) == setting; };
+  const auto first = std::find_if(results.points.begin(), results.points.end(), is_of);
+  if (first == results.points.end()) return "";
+  const WindowWords words =
+      setting == FreeSetting::bias ? words_of_bias(curve_bounds(*first)) : words_of_reduction(curve_bounds(*first));
+  const std::string parameter = curve_parameter(*first);
   Markup out;
-  const auto fails = flags_of(results, window_fails);
-  if (any(fails))
-    out += bad_item("The method fails", prose(": no value of {} keeps {}", first.parameter, bounds),
-                    where_text(results, fails));
-  else
-    out +=
-        item("good", prose("A usable bias exists at every point{}: some value of {} keeps {}.",
-                           without == results.points.end() ? "" : " that has a bias curve", first.parameter, bounds));
-  const auto low = flags_of(results, set_too_small), high = flags_of(results, set_too_large);
+  const auto fails = flags_of(results, of_setting<setting, lacks_window>);
+  if (any(fails)) {
+    out += bad_item(setting == FreeSetting::bias ? "The method fails" : "No reduction is usable",
+                    prose(": no value of {} keeps {}", parameter, words.keeps), where_text(results, fails));
+    if (setting == FreeSetting::reduction) out += item("note", prose("What breaks it:{}", why_no_reductions(results)));
+  } else {
+    const bool all = std::all_of(results.points.begin(), results.points.end(), is_of);
+    out += item("good", prose("A usable {} exists at every point{}: some value of {} keeps {}.", words.name,
+                              all                            ? ""
+                              : setting == FreeSetting::bias ? " that has a bias curve"
+                                                             : " that has a curve over the reduction",
+                              parameter, words.keeps));
+  }
+  const auto low = flags_of(results, of_setting<setting, set_too_small>),
+             high = flags_of(results, of_setting<setting, set_too_large>);
   if (any(low))
-    out += bad_item("The bias as set is too small", ": it leaves acne, and a larger bias would not",
+    out += bad_item(fmt::format("The {} as set is too small", words.name), words.too_small,
                     where_text(results, low, fails));
   if (any(high))
-    out += bad_item("The bias as set is too large", ": it detaches shadows more than necessary",
+    out += bad_item(fmt::format("The {} as set is too large", words.name), words.too_large,
                     where_text(results, high, fails));
-  if (!any(low) && !any(high) && any(flags_of(results, has_usable_bias)))
-    out += item("good", "The bias as set lies within the usable window at every point that has one.");
-  return out + why;
+  if (!any(low) && !any(high) && any(flags_of(results, of_setting<setting, has_usable_bias>)))
+    out += item("good", prose("The {} as set lies within the usable window at every point that has one.", words.name));
+  return out;
+}
+
+Markup window_items(const Results& results) {
+  const auto without =
+      std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return !has_curve(p); });
+  const Markup why = without == results.points.end() || why_no_curve(*without).empty()
+                         ? ""
+                         : item("note", prose("Points without a curve: {}.", why_no_curve(*without)));
+  if (std::none_of(results.points.begin(), results.points.end(), has_curve))
+    return item("note", "No bias curve was measured, so no usable window can be given.") + why;
+  return window_items_of<FreeSetting::bias>(results) + window_items_of<FreeSetting::reduction>(results) + why;
 }
 
 Markup unsound_items(const Results& results) {
@@ -260,10 +314,11 @@ Markup verdict_line(const Results& results) {
     pills.push_back(span(css(fmt::format("pill {}", kind)), text));
   };
   // Bounds are judged as rendered. The page also shows other biases, so it is said which one.
-  const bool other_biases = std::any_of(results.points.begin(), results.points.end(),
-                                        [](const PointRecord& point) { return point.curve.has_value(); });
-  const char* const as_set = other_biases ? ", with the bias as set" : "";
-  const auto judge = [&](const auto& list, const char* noun, const char* alone, const char* at, const auto& is_broken) {
+  const bool other_biases = std::any_of(results.points.begin(), results.points.end(), has_curve);
+  const std::string as_set =
+      other_biases ? fmt::format(", with the {} as set", free_setting_words(results.points)) : "";
+  const auto judge = [&](const auto& list, const char* noun, const char* alone, const std::string& at,
+                         const auto& is_broken) {
     if (list.empty()) return;
     const auto broken = std::count_if(list.begin(), list.end(), is_broken);
     const auto kept = std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
@@ -315,10 +370,11 @@ Markup answer_section(const Results& results, const ShownPoints& shown) {
   for (const PointRecord& point : results.points) all.push_back(&point);
   Markup causes = cause_sentence(all);
   if (!causes.empty())
-    causes = item("note", judges_frames(results.points)
-                              ? prose("Where most of the error is: {}.", causes)
-                              : prose("Largest causes of error over {}, with the bias as rendered: {}.",
-                                      all.size() == 1 ? "this point" : "all points", causes));
+    causes = item(
+        "note", judges_frames(results.points)
+                    ? prose("Where most of the error is: {}.", causes)
+                    : prose("Largest causes of error over {}, with the {} as rendered: {}.",
+                            all.size() == 1 ? "this point" : "all points", free_setting_words(results.points), causes));
   if (judges_frames(results.points))  // nothing is set here, so nothing is recommended
     return section("answer", title, findings(causes + items) + bounds_section(results));
   items = window_items(results) + causes + items;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/bounds.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/report/text.h"
 #include "compare/results/quantities.h"
 
@@ -54,11 +55,11 @@ std::vector<const BoundResult*> broken_bounds(const Results& results) {
 }  // namespace
 
 std::string set_bias_phrase(const PointRecord& point) {
-  if (!point.curve) return "";
-  const std::string set = setting_of(point, point.curve->parameter);
+  if (!has_curve(point)) return "";
+  const std::string set = setting_of(point, curve_parameter(point));
   const std::optional<double> value = number_of(set);
   if (!value) return "";
-  return fmt::format("{} {} as set", point.curve->parameter, bias_in_unit(*value, setting_of(point, "bias.unit")));
+  return fmt::format("{} {} as set", curve_parameter(point), bias_in_unit(*value, curve_unit(point)));
 }
 
 Markup failure_link(const BoundResult& bound, const Markup& content) {

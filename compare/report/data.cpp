@@ -15,6 +15,7 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/laws.h"
 #include "compare/report/opening.h"
+#include "compare/report/over_section.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/point_data.h"
 #include "compare/report/reduction_section.h"
@@ -177,6 +178,7 @@ json points_data(const Results& results, const ShownPoints& shown, const std::se
     json entry = point_data(point, results, shared);
     if (point.curve) entry["curve"] = curve_of(point, entries);
     if (json curve = reductions_of(point, reductions); !curve.is_null()) entry["reductions"] = std::move(curve);
+    if (json curve = over_of(point); !curve.is_null()) entry["over"] = std::move(curve);
     if (const auto bias = biases.find(point.id); bias != biases.end()) entry["at"] = at_bias(point, bias->second);
     out.push_back(std::move(entry));
   }
@@ -205,6 +207,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
       {"accuracy", results.info.accuracy},
       {"bias", opens_as_set(results) ? "set" : "recommended"},
       {"bias_word", bias_word(shown)},
+      {"free", free_setting_words(shown.results.points)},
       {"command", shared},
       {"points", points_data(results, shown, shared)},
       {"laws", law_data(results)},

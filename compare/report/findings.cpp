@@ -40,8 +40,8 @@ namespace {
 
 // With the bias, in bias.unit, as the point's curve gives it; otherwise as rendered.
 double share_of(const PointRecord& point, const std::string& cause, std::optional<double> bias) {
-  if (bias && point.curve)
-    if (const std::optional<double> value = curve_value(*point.curve, cause, *bias / parameter_per_depth(point)))
+  if (bias)
+    if (const std::optional<double> value = curve_value(point, cause, *bias / parameter_per_depth(point)))
       return *value;
   return metric_of(point, cause);
 }

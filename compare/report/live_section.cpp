@@ -33,10 +33,9 @@ json marks_of(const PointRecord& point, const Recommendation& recommendation) {
   const double per_depth = parameter_per_depth(point);
   if (chosen && std::isfinite(per_depth) && per_depth > 0)
     marks["recommended"] = recommendation.bias->value / per_depth;
-  else if (point.curve && std::isfinite(point.curve->best_bias_depth))
-    marks["best"] = point.curve->best_bias_depth;
-  if (!point.curve) return marks;
-  if (const std::optional<Interval> window = usable_window(*point.curve))
+  else if (has_curve(point) && std::isfinite(best_depth(point)))
+    marks["best"] = best_depth(point);
+  if (const std::optional<Interval> window = usable_window(point))
     marks["window"] = json::array({window->low, window->high});
   return marks;
 }
@@ -56,7 +55,7 @@ json stack_marks(const PointRecord& point, const Recommendation& recommendation,
   const std::string parameter = head.at("parameter").get<std::string>();
   if (const std::optional<double> set = number_of(setting_of(point, parameter)); set && std::isfinite(*set))
     marks["set"] = *set;
-  if (!point.curve || point.curve->parameter != parameter) return marks;
+  if (curve_parameter(point) != parameter) return marks;
   const double per_depth = parameter_per_depth(point);
   const json in_depth = marks_of(point, recommendation);
   for (const char* const name : {"recommended", "best"})
@@ -85,7 +84,7 @@ Markup without_picture(const std::string& why) {
 }
 
 // What page/live.js fills: buttons, the picture, the slider with its marks, and what is seen.
-Markup live_stage(const json& head, const char* slider_label, const Markup& caption) {
+Markup live_stage(const json& head, const std::string& slider_label, const Markup& caption) {
   const Markup canvas =
       element("canvas", Attribute("width", head.value("width", 0)), Attribute("height", head.value("height", 0)),
               Attribute("role", "img"), Attribute("aria-label", "The picture at the chosen bias"));
@@ -129,7 +128,8 @@ Markup figure_of(const PointRecord& point, const std::string& bytes, const Resul
     std::vector<std::string> names = results.info.swept;
     std::erase(names, head.value("parameter", std::string()));
     const std::string phrase = settings_phrase(point, names);
-    return live_stage(head, "Bias, one step for each picture", stack_caption(head, of_point, phrase, at_other)) +
+    return live_stage(head, fmt::format("{}, one step for each picture", head.value("parameter", std::string())),
+                      stack_caption(head, of_point, phrase, at_other)) +
            data_block("live-data", head) + "\n";
   }
   // The picture is at every bias, so the one that was set is not its name.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/judge/bounds.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
 #include "compare/judge/soundness.h"
 #include "compare/report/lights_section.h"
@@ -54,7 +55,7 @@ Opening opening(const Results& results, const std::vector<ComparedGroup>& groups
   if (!first.point || opens_as_set(results)) return first;
   const std::map<int64_t, double> biases = recommended_biases(groups);
   const auto bias = biases.find(first.point->id);
-  if (bias != biases.end() && number_of(setting_of(*first.point, first.point->curve->parameter)) != bias->second)
+  if (bias != biases.end() && number_of(setting_of(*first.point, curve_parameter(*first.point))) != bias->second)
     first.bias = bias->second;
   return first;
 }
@@ -70,7 +71,7 @@ std::optional<NameAtBias> bias_in_name(const std::string& name) {
   return NameAtBias{name.substr(0, at), number_of(name.substr(at + bias_separator.size())).value_or(std::nan(""))};
 }
 
-std::string at_recommended_bias(std::string_view picture) { return fmt::format("{} at the recommended bias", picture); }
+std::string at_recommended_bias(std::string_view picture) { return fmt::format("{} as recommended", picture); }
 
 std::vector<PictureRecord> pictures_for_page(const PointRecord& point, const std::map<int64_t, double>& biases) {
   std::vector<PictureRecord> shown;

@@ -14,9 +14,10 @@
 namespace noonmark::report {
 namespace {
 
-// The metrics of a point that follow the bias, as its own curve gives them.
-constexpr std::array curve_metrics{"error",    "error_soft",    "wrong",          "acne",    "peter_panning",
-                                   "aliasing", "aliasing_dark", "aliasing_light", "coverage"};
+// The metrics of a point that follow its free setting, as its own curve gives them.
+constexpr std::array curve_metrics{"error",         "error_soft",     "wrong",         "acne",
+                                   "leak",          "over_darkening", "peter_panning", "aliasing",
+                                   "aliasing_dark", "aliasing_light", "coverage",      "reduction"};
 
 }  // namespace
 
@@ -25,27 +26,27 @@ std::map<int64_t, double> recommended_biases(const std::vector<ComparedGroup>& g
   for (const ComparedGroup& group : groups)
     for (const ComparedChoice& one : group.choices)
       for (const PointRecord* point : one.choice.points)
-        if (one.bias && point->curve) biases[point->id] = *one.bias;
+        if (one.bias && has_curve(*point)) biases[point->id] = *one.bias;
   return biases;
 }
 
 nlohmann::json at_bias(const PointRecord& point, double bias) {
   const double depth = bias / parameter_per_depth(point);
   if (!std::isfinite(depth)) return {};
-  const std::optional<Interval> window = usable_window(*point.curve);
-  nlohmann::json out{{"parameter", point.curve->parameter},
+  const std::optional<Interval> window = usable_window(point);
+  nlohmann::json out{{"parameter", curve_parameter(point)},
+                     {"word", free_setting_words(point)},
                      {"value", bias},
-                     {"text", bias_in_unit(bias, setting_of(point, "bias.unit"))},
+                     {"text", bias_in_unit(bias, curve_unit(point))},
                      {"depth", depth},
                      // The bias may lie on an end of the window, and its depth was rounded twice.
                      {"usable", window && depth >= window->low * (1 - 1e-12) && depth <= window->high * (1 + 1e-12)}};
   // At the bias that was set the rendered numbers are exact; the curve is linear between its entries.
-  const bool as_set = number_of(setting_of(point, point.curve->parameter)) == bias;
+  const bool as_set = number_of(setting_of(point, curve_parameter(point))) == bias;
   for (const char* metric : curve_metrics)
     if (as_set && std::isfinite(metric_of(point, metric)))
       out["metrics"][metric] = metric_of(point, metric);
-    else if (const std::optional<double> value = curve_value(*point.curve, metric, depth);
-             value && std::isfinite(*value))
+    else if (const std::optional<double> value = curve_value(point, metric, depth); value && std::isfinite(*value))
       out["metrics"][metric] = *value;
   return out;
 }

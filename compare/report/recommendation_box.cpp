@@ -26,8 +26,13 @@ namespace {
 // A bias in the unit that a user sets and, if all curves share one scale, in the others.
 std::string bias_of(const Recommendation& found, double value) {
   const PointRecord& first = found.choice.first();
-  return found.choice.points.size() == 1 ? bias_phrase(value / parameter_per_depth(first), *first.curve)
-                                         : bias_in_unit(value, found.bias->unit);
+  return found.choice.points.size() == 1 && first.curve ? bias_phrase(value / parameter_per_depth(first), *first.curve)
+                                                        : bias_in_unit(value, found.bias->unit);
+}
+
+// "bias" or "reduction": what the answer's free setting is called where it was named before.
+const char* free_noun(const Recommendation& found) {
+  return free_setting(found.choice.first()) == FreeSetting::reduction ? "reduction" : "bias";
 }
 
 // Opens the card of a point at the recommended bias, also where a bound is broken at the bias as set.
@@ -157,7 +162,7 @@ Markup what_to_set(const Results& results, const ShownPoints& shown) {
   const Recommendation& found = shown.recommended;
   switch (found.outcome) {
     case Recommendation::Outcome::no_criterion:
-      return "No bound and no bias curve says what is good enough, so no setting is recommended.";
+      return "No bound and no curve over a bias or a reduction says what is good enough, so no setting is recommended.";
     case Recommendation::Outcome::incomplete:
       return "Not all conditions are measured yet, so no setting is recommended.";
     case Recommendation::Outcome::none_holds:
@@ -209,6 +214,14 @@ Markup box(std::string_view kind, const Markup& title, const Markup& content) {
   return div(css(fmt::format("recommend {}", kind)), element("h3", title), content) + "\n";
 }
 
+// What else to sweep where no value of the free setting is usable.
+const char* other_way(const Results& results) {
+  const bool reductions = std::any_of(results.points.begin(), results.points.end(), [](const PointRecord& point) {
+    return free_setting(point) == FreeSetting::reduction;
+  });
+  return reductions ? "another lookup, blur or bias" : "another part of the bias";
+}
+
 // The box if nothing can be recommended; empty otherwise.
 Markup box_without_answer(const Results& results, const Recommendation& found) {
   const auto say = [](std::string_view kind, const Markup& words) {
@@ -219,7 +232,9 @@ Markup box_without_answer(const Results& results, const Recommendation& found) {
                                poor_view_note(results.points)));
   switch (found.outcome) {
     case Recommendation::Outcome::no_criterion:
-      return say("none", "There is no criterion for good enough: set a bound, or have a bias curve measured.");
+      return say("none",
+                 "There is no criterion for good enough: set a bound, or have a curve over the bias or the light-bleed "
+                 "reduction measured.");
     case Recommendation::Outcome::incomplete:
       return say("none",
                  "Not all conditions are measured yet, so no setting is known to hold under all of them. The same "
@@ -227,11 +242,12 @@ Markup box_without_answer(const Results& results, const Recommendation& found) {
     case Recommendation::Outcome::none_holds:
       return say(
           "broken",
-          prose("{} None has a usable bias window and meets every bound, also those that the experiment asks of other "
+          prose("{} None has a usable {} window and meets every bound, also those that the experiment asks of other "
                 "settings alone. Sweep a higher "
-                "resolution, a smaller extent or another part of the bias, or loosen a bound.",
+                "resolution, a smaller extent or {}, or loosen a bound.",
                 bold(prose("None of the swept settings is good enough{}.",
-                           results.info.over.empty() ? "" : " under all conditions"))));
+                           results.info.over.empty() ? "" : " under all conditions")),
+                free_setting_words(results.points), other_way(results)));
     case Recommendation::Outcome::found:
       break;
   }
@@ -239,20 +255,20 @@ Markup box_without_answer(const Results& results, const Recommendation& found) {
 }
 
 // How far the bias is from the ends of its window.
-Markup bias_margin_text(const BiasChoice& bias) {
+Markup bias_margin_text(const BiasChoice& bias, const char* noun) {
   const double margin_percent = 100 * (bias_margin - 1);
   if (bias.narrow && bias.as_set)
     return prose(
-        " The bias is closer than {:.0f}\u202f% to an end of its window, so a small change of the scene can break it.",
-        margin_percent);
+        " The {} is closer than {:.0f}\u202f% to an end of its window, so a small change of the scene can break it.",
+        noun, margin_percent);
   if (bias.narrow)
     return prose(
         " Its window is narrower than a margin of {:.0f}\u202f% to both ends, so a small change of the scene can break "
         "it.",
         margin_percent);
   if (bias.window.low > 0)
-    return prose(" Its window is a factor {} wide; the bias keeps at least {:.0f}\u202f% from its ends.",
-                 number(bias.window.high / bias.window.low), margin_percent);
+    return prose(" Its window is a factor {} wide; the {} keeps at least {:.0f}\u202f% from its ends.",
+                 number(bias.window.high / bias.window.low), noun, margin_percent);
   return "";
 }
 
@@ -270,9 +286,10 @@ Markup causes_text(const Recommendation& found) {
   const Markup causes =
       cause_sentence(found.choice.points, found.bias ? found.bias->read_at() : std::optional<double>());
   if (causes.empty()) return "";
-  const char* const at = !found.bias          ? ""
-                         : found.bias->as_set ? ", with this bias, as set"
-                                              : ", with this bias (causes that no curve gives: as rendered)";
+  const std::string at =
+      !found.bias ? ""
+                  : fmt::format(", with this {}{}", free_noun(found),
+                                found.bias->as_set ? ", as set" : " (causes that no curve gives: as rendered)");
   return paragraph(prose("Largest causes there{}: {}.", at, causes));
 }
 
@@ -290,19 +307,20 @@ Markup accurate_text(const Recommendation& found, const Recommendation& accurate
 // By what it is the answer.
 Markup criterion_text(const Recommendation& found, const Results& results) {
   if (found.bias && found.bias->as_set)
-    return "every bound holds with the bias that is set, which lies in the usable window";
+    return prose("every bound holds with the {} that is set, which lies in the usable window", free_noun(found));
+  const std::string noun = free_setting_words(results.points);  // of all settings, which may differ in it
   return prose(
       "the least {} among the settings of which {}{}; among equal costs the least {}{}",
       italic(metric_label(results.info.cost)),
-      !found.bias              ? "every bound holds"
-      : results.bounds.empty() ? "the bias window is not empty"
-                               : "the bias window is not empty and every bound holds at that bias",
+      !found.bias ? "every bound holds"
+                  : fmt::format("the {} window is not empty{}", noun,
+                                results.bounds.empty() ? "" : " and every bound holds at a value of it"),
       keeps_bounds_of_others(found.choice, results) ? ", also each that the experiment asks of other settings alone"
                                                     : "",
       italic(error_label(results.info.accuracy)),
-      found.bias ? fmt::format("; of the biases whose error is within {:.0f}\u202f% of the least, the bias is the one "
+      found.bias ? fmt::format("; of the values whose error is within {:.0f}\u202f% of the least, the {} is the one "
                                "furthest from both ends of its window, so it need not be the best one",
-                               100 * (flat_error - 1))
+                               100 * (flat_error - 1), noun)
                  : "");
 }
 
@@ -315,7 +333,7 @@ Markup recommendation_box(const Results& results, const ShownPoints& shown) {
   const Markup answer =
       prose("{}{}{} has {}.{}", kept ? "What is set is good enough" : "The cheapest setting that is good enough",
             conditions_text(results, found.choice), kept ? ". It" : "", cost_and_error(found, results),
-            found.bias ? bias_margin_text(*found.bias) : "");
+            found.bias ? bias_margin_text(*found.bias, free_noun(found)) : "");
   const Markup reasons = prose(
       "It is {}: {}.{}{}", point_links(found.choice), criterion_text(found, results), noise_text(found.noise, results),
       compares_choices(shown.groups)

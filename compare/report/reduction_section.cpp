@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "compare/judge/curve_reading.h"
 #include "compare/report/data.h"
 #include "compare/report/sections.h"
 #include "compare/report/tables.h"
@@ -21,7 +23,7 @@ struct Series {
   double LookupCurvePoint::*value;
 };
 constexpr Series drawn_series[] = {{"value", &LookupCurvePoint::value},
-                                   {"error", &LookupCurvePoint::error},
+                                   {"error", &LookupCurvePoint::shown_error},
                                    {"leak", &LookupCurvePoint::leak},
                                    {"over_darkening", &LookupCurvePoint::over_darkening},
                                    {"peter_panning", &LookupCurvePoint::peter_panning},
@@ -64,6 +66,13 @@ nlohmann::json reductions_of(const PointRecord& point, size_t points) {
   for (size_t i = 0; i < curve.size(); i += step)
     for (const Series& series : drawn_series) json[series.name].push_back(drawn_value(curve[i].*series.value));
   if (const auto set = number_of(setting_of(point, "lookup.reduction"))) json["as_set"] = *set;
+  if (point.lookup_bounds)
+    json["acne_bound"] = point.lookup_bounds->acne_bound,
+    json["peter_panning_bound"] = point.lookup_bounds->peter_panning_bound;
+  if (std::string why = why_no_usable_reduction(point); !why.empty()) {
+    why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0])));
+    json["why"] = why;
+  }
   return json;
 }
 
@@ -71,9 +80,11 @@ Markup reduction_section(const Results& results, const ShownPoints& shown) {
   if (points_with_reductions(results.points) == 0) return "";
   Markup out = paragraph(prose(
       "{} r removes leaks of up to r and darkens the rest: (L − r) / (1 − r). It is arithmetic on the result, so the "
-      "curve is exact for every r, on the exact map and without rounding. In the usable window the leak is within the "
-      "bound on Peter Panning ({}), and over-darkening and what the reduction darkens are each within that on acne "
-      "({}).",
+      "causes are exact for every r, on the exact map and without rounding; the error is what OpenGL shows. In the "
+      "usable "
+      "window the leak is within the bound on Peter Panning ({}), and over-darkening and what the reduction darkens "
+      "are "
+      "each within that on acne ({}).",
       code("lookup.reduction"), code("curve.peter_panning_bound"), code("curve.acne_bound")));
   out += shown.note;
   out += chart_place(
@@ -86,7 +97,7 @@ Markup reduction_section(const Results& results, const ShownPoints& shown) {
     if (!point.lookup_curve.empty()) rows += window_row(point, results.info.swept, placed);
   Markup head = th(css("text"), "Point") + th("As set") + th("Usable from") + th("to");
   if (placed) head += th("At every placement from") + th("to");
-  head += th("Least error at") + th(with_small("Error there", "%"));
+  head += th("Least error at") + th(with_small("Error there, on the exact map", "%"));
   const size_t count = points_with_reductions(points);
   out += folded("", count <= open_rows, "Every window of the reduction",
                 div(css("scroll"), table("numbers", head, rows)) + "\n");

@@ -14,6 +14,7 @@
 #include "compare/report/flicker_section.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/live_section.h"
+#include "compare/report/over_section.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/recommendation_box.h"
@@ -98,6 +99,7 @@ constexpr Section all_sections[] = {
     {"motion", "Motion", motion, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"reduction", "Reduction", by_point<report::reduction_section>, true},
+    {"over", "Other settings", by_point<report::over_section>, true},
     {"sweep", "Sweep", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
     {"cost", "Speed", speed, false},
@@ -163,16 +165,16 @@ std::string render_report(const Results& results,
   }
   std::vector<CauseColor> causes;
   for (const CauseColor& color : causes_of(results.points)) causes.push_back(color);
-  return report::fill_page(
-      {.title = given.empty() ? "Shadow-map errors" : given,
-       .subtitle = subtitle(results),
-       .navigation = links,
-       .sections = body,
-       .data = report::chart_data(results, shown),
-       .causes = causes,
-       .scripts = {"charts", "keyboard", "chart_bias", "chart_reduction", "chart_sweep", "speed_marks", "chart_speed",
-                   "chart_laws", "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
-       .version = results.info.version});
+  return report::fill_page({.title = given.empty() ? "Shadow-map errors" : given,
+                            .subtitle = subtitle(results),
+                            .navigation = links,
+                            .sections = body,
+                            .data = report::chart_data(results, shown),
+                            .causes = causes,
+                            .scripts = {"charts", "keyboard", "chart_bias", "chart_reduction", "chart_over",
+                                        "chart_sweep", "speed_marks", "chart_speed", "chart_laws", "chart_phase",
+                                        "live", "bias_choice", "save", "align", "card", "points_table", "page"},
+                            .version = results.info.version});
 }
 
 }  // namespace noonmark

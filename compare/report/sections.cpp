@@ -137,7 +137,7 @@ Markup bias_section(const Results& results, const ShownPoints& shown) {
   if (!first) return "";  // the findings say why
   Markup out;
   for (const PointRecord& point : results.points) {
-    if (why_no_curve(point).empty()) continue;
+    if (has_curve(point) || why_no_curve(point).empty()) continue;
     out += paragraph(css("small"), prose("Some points have no curve: {}.", why_no_curve(point)));
     break;
   }
@@ -165,7 +165,8 @@ struct Trend {
 
   void add(const PointRecord& point) {
     ++of;
-    if (point.curve && std::isfinite(point.curve->best_error)) best_sum += point.curve->best_error, ++curves;
+    const double best = point.curve ? point.curve->best_error : metric_of(point, "best_reduction_error");
+    if (has_curve(point) && std::isfinite(best)) best_sum += best, ++curves;
     const double error = metric_of(point, "error");
     if (!std::isfinite(error)) return;
     ++finite, sum += error, worst = std::max(worst, error);
@@ -188,8 +189,8 @@ Markup sweep_of(const std::string& name, const std::vector<std::string>& values,
   for (const std::string& value : values) rows += trends[value].row(value);
   const std::string label = setting_label(name);
   const Markup head = th(with_small(label, swept_unit(name, results))) + th(with_small("Mean error", "%")) +
-                      th(with_small("Worst error", "%")) + th(with_small("Mean error at best bias", "%")) +
-                      th("Points");
+                      th(with_small("Worst error", "%")) +
+                      th(with_small("Mean error at best " + free_setting_words(results.points), "%")) + th("Points");
   return div(css("swept"), element("h3", name), "\n",
              chart_place(
                  fmt::format("sweep-{}", number),
@@ -305,8 +306,9 @@ Markup budget_section(const Results& results, const ShownPoints& shown) {
                    "whole error, mean |{} − R1|. With a filter, causes can cancel in it, and displacement can cancel "
                    "with the "
                    "others, so the bar can be longer.",
-                   by_bias("with the bias as rendered",
-                           "with the recommended bias (causes that no curve gives are those of the bias as rendered)"),
+                   by_bias(fmt::format("with the {} as rendered", free_setting_words(results.points)),
+                           fmt::format("with the recommended {} (causes that no curve gives are as rendered)",
+                                       free_setting_words(results.points))),
                    judged_rung(results.points.front()));
   const Markup bars =
       div(css(results.points.size() > open_rows ? "budget many" : "budget"), budget_choice("size", "By size", true),

@@ -53,11 +53,15 @@ const std::string& value_of_property(const Property& property, const Choice& cho
   return found == point.settings.end() ? none : found->second;
 }
 
-// Those with several values, what is told apart first in front: the filter, the part, then the swept settings.
+// Those with several values, what is told apart first in front: the lookup, the filter, the part, then the swept settings.
+// Where a part has a lookup of its own, the part names it better, with the parameters of the lookup.
 std::vector<Property> properties_of(const ComparedGroup& group, const Results& results) {
+  std::set<std::string> lookups;
+  for (const ComparedChoice& one : group.choices) lookups.insert(setting_of(one.choice.first(), "lookup.kind"));
   std::vector<std::string> settings{"filter.kind", ""};
+  if (lookups.size() > 1) settings = {"", "lookup.kind", "filter.kind"};
   for (const std::string& name : choice_settings(results.info))
-    if (name != "filter.kind") settings.push_back(name);
+    if (std::find(settings.begin(), settings.end(), name) == settings.end()) settings.push_back(name);
   std::vector<Property> properties;
   for (const std::string& setting : settings) {
     Property property{setting, {}};
@@ -89,8 +93,8 @@ const char* text_of(Window window) {
 json bias_data(const ComparedChoice& one) {
   if (!one.bias) return json();
   const PointRecord& first = one.choice.first();
-  const std::string unit = setting_of(first, "bias.unit");
-  json out{{"parameter", first.curve->parameter}, {"value", bias_in_unit(*one.bias, unit)}};
+  const std::string unit = curve_unit(first);
+  json out{{"parameter", curve_parameter(first)}, {"value", bias_in_unit(*one.bias, unit)}};
   if (one.usable) out["from"] = bias_in_unit(one.usable->low, unit), out["to"] = bias_in_unit(one.usable->high, unit);
   return out;
 }

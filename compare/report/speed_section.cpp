@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/sections.h"
@@ -49,19 +50,26 @@ struct Plane {
   }
 };
 
+std::string free_words(const ComparedGroup& group) {
+  std::vector<FreeSetting> settings;
+  for (const ComparedChoice& one : group.choices) settings.push_back(free_setting(one.choice.first()));
+  return free_setting_words(settings);
+}
+
 // "Of 32 choices 18 have a usable window; 6 have none, and ...".
 std::string windows_text(const ComparedGroup& group) {
+  const std::string word = free_words(group);
   size_t with[3] = {};
   for (const ComparedChoice& one : group.choices) ++with[static_cast<size_t>(one.window)];
   const size_t usable = with[static_cast<size_t>(Window::usable)], empty = with[static_cast<size_t>(Window::empty)],
                none = with[static_cast<size_t>(Window::no_curve)];
-  std::string out = fmt::format("Of {} {} ha{} a usable bias window", counted(group.choices.size(), "choice"), usable,
-                                usable == 1 ? "s" : "ve");
+  std::string out = fmt::format("Of {} {} ha{} a usable {} window", counted(group.choices.size(), "choice"), usable,
+                                usable == 1 ? "s" : "ve", word);
   if (empty)
-    out += fmt::format("; {} ha{} none, so no bias makes {} good enough", empty, empty == 1 ? "s" : "ve",
+    out += fmt::format("; {} ha{} none, so no {} makes {} good enough", empty, empty == 1 ? "s" : "ve", word,
                        empty == 1 ? "it" : "them");
   if (none)
-    out += fmt::format("; {} ha{} no bias curve and stand{} here as rendered", none, none == 1 ? "s" : "ve",
+    out += fmt::format("; {} ha{} no such curve and stand{} here as rendered", none, none == 1 ? "s" : "ve",
                        none == 1 ? "s" : "");
   return out + ".";
 }
@@ -98,7 +106,7 @@ Markup answers_text(const ComparedGroup& group, const SpeedReading& reading, con
 }
 
 constexpr const char* no_front[] = {"No choice that counts has both a finite cost and a finite error.",
-                                    "No choice has a finite cost and a finite error with a usable bias as set."};
+                                    "No choice has a finite cost and a finite error and is usable as set."};
 
 const char* why_no_front(AtBias at) { return no_front[at == AtBias::as_set]; }
 
@@ -139,9 +147,11 @@ Markup cost_cell(const ComparedChoice& one, const std::string& cost) {
 std::string bias_cell(const ComparedChoice& one, AtBias at) {
   if (!one.bias) return "as rendered";
   const PointRecord& first = one.choice.first();
-  const std::string unit = setting_of(first, "bias.unit");
-  if (at == AtBias::best) return bias_in_unit(*one.bias, unit);
-  const std::string set = setting_of(first, first.curve->parameter);
+  const std::string unit = curve_unit(first);
+  const bool reduction =
+      free_setting(first) == FreeSetting::reduction;  // beside biases the number alone would be taken for one
+  if (at == AtBias::best) return (reduction ? "reduction " : "") + bias_in_unit(*one.bias, unit);
+  const std::string set = (reduction ? "reduction " : "") + setting_of(first, curve_parameter(first));
   const std::optional<double> value = number_of(set);
   return value ? bias_in_unit(*value, unit) : set;
 }
@@ -207,7 +217,7 @@ Markup front_table(const ComparedGroup& group, const Techniques& techniques, con
   const Markup head = th(css("text"), "Choice") +
                       th(metric_label(plane.cost), " ", small(head_unit(find_metric(plane.cost).unit))) +
                       th(error_label(plane.error), " ", small(head_unit(find_metric(plane.error).unit))) +
-                      heads({"Over the usable window", "Bias"}) + th(css("text"), "Largest cause");
+                      heads({"Over the usable window", "At"}) + th(css("text"), "Largest cause");
   const Markup front = element("table", css("numbers"), element("thead", element("tr", head)), rows);
   return folded("more", open && std::max(set.count, best.count) <= open_rows, at_both(set.summary, best.summary),
                 div(css("scroll"), front) + "\n");
@@ -216,10 +226,11 @@ Markup front_table(const ComparedGroup& group, const Techniques& techniques, con
 }  // namespace
 
 Markup speed_chart() {
-  return chart_place("cost",
-                     "Each choice at the bias that is chosen at the top: as set, or its best one. A line joins the "
-                     "choices of one technique; those that err least at some cost are coloured. The dotted line is the "
-                     "Pareto front. Choices of equal cost and nearly equal error share one mark.");
+  return chart_place(
+      "cost",
+      "Each choice at the bias or reduction that is chosen at the top: as set, or its best one. A line joins the "
+      "choices of one technique; those that err least at some cost are coloured. The dotted line is the "
+      "Pareto front. Choices of equal cost and nearly equal error share one mark.");
 }
 
 bool compares_choices(const std::vector<ComparedGroup>& groups) {

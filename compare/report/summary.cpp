@@ -134,15 +134,50 @@ std::string bounds_table(const Results& results) {
   return text;
 }
 
-// The parameter that the points' curves vary, or "bias" if they vary different ones.
-std::string curve_parameter(const Results& results) {
+// The parameter that the points' curves vary, or in words what they vary if they differ.
+std::string parameter_of_all(const Results& results) {
   std::string parameter;
   for (const PointRecord& point : results.points) {
-    if (!point.curve) continue;
-    if (!parameter.empty() && parameter != point.curve->parameter) return "bias";
-    parameter = point.curve->parameter;
+    if (!has_curve(point)) continue;
+    if (!parameter.empty() && parameter != curve_parameter(point)) return free_setting_words(results.points);
+    parameter = curve_parameter(point);
   }
   return parameter.empty() ? "bias" : parameter;
+}
+
+// Of a point of the table: its usable window and the best value of its free setting, with the error there. In places of the
+// curve's axis, and if any point has a bias the best one in metres and texels too. A reduction among biases says that it is one.
+std::vector<std::string> window_cells(const PointRecord& point, bool biases, bool mixed) {
+  const bool reduction = free_setting(point) == FreeSetting::reduction;
+  const char* const what = reduction && mixed ? "reduction " : "";
+  const std::optional<Interval> window = usable_window(point);
+  std::vector<std::string> cells{
+      window             ? fmt::format("{}{} … {}", what, number_text(window->low), number_text(window->high))
+      : has_curve(point) ? "none"
+                         : "–"};
+  if (reduction) {
+    cells.push_back(what + short_or_missing(quantity(point, "best_reduction")));
+    if (biases) cells.insert(cells.end(), 2, "–");
+    cells.push_back(short_or_missing(quantity(point, "best_reduction_error"), "fraction"));
+    return cells;
+  }
+  cells.push_back(short_or_missing(quantity(point, "best_bias_depth")));
+  if (biases)
+    for (const char* name : {"best_bias_m", "best_bias_texels"})
+      cells.push_back(short_or_missing(quantity(point, name)));
+  cells.push_back(short_or_missing(quantity(point, "best_error"), "fraction"));
+  return cells;
+}
+
+// Of the points whose free setting is this one: at how many no value of it is usable.
+std::string without_window(const Results& results, FreeSetting setting, std::string_view what) {
+  const auto count = [&](const auto& holds) {
+    return std::count_if(results.points.begin(), results.points.end(),
+                         [&](const PointRecord& p) { return free_setting(p) == setting && holds(p); });
+  };
+  const auto lacking = count(lacks_window);
+  if (lacking == 0) return "";
+  return fmt::format("\nAt {} of {} points no {} within the curve's bounds.\n", lacking, count(has_curve), what);
 }
 
 // Of frames: the error of each, and where it is.
@@ -183,17 +218,21 @@ std::string best_table(const Results& results) {
   });
   order.resize(std::min(order.size(), best_count));
 
-  std::string text =
-      order.size() == 1 ? "\n## The point\n\n" : "\n## Best settings: the least error at the bias that was set\n\n";
+  std::string text = order.size() == 1 ? std::string("\n## The point\n\n")
+                                       : fmt::format("\n## Best settings: the least error at the {} that was set\n\n",
+                                                     free_setting_words(results.points));
   std::vector<std::string> heading;
   for (const std::string& name : results.info.swept) heading.push_back(markdown(name));
   for (const char* name : {"error", "acne", "Peter Panning", "aliasing"}) heading.emplace_back(name);
   heading.push_back(markdown(results.info.cost));
-  const std::string parameter = markdown(curve_parameter(results));
-  heading.push_back(fmt::format("usable {} (depth)", parameter));
+  const std::string words = free_setting_words(results.points), parameter = markdown(parameter_of_all(results));
+  const bool biases = words.starts_with("bias"), mixed = words != "bias" && biases;
+  const char* const unit = biases ? " (depth)" : "";
+  heading.push_back(fmt::format("usable {}{}", parameter, unit));
   // Not the recommended one, which keeps away from the ends of the window.
-  heading.push_back(fmt::format("{} of least error (depth)", parameter));
-  for (const char* name : {"(m)", "(texels)", "error there"}) heading.emplace_back(name);
+  heading.push_back(fmt::format("{} of least error{}", parameter, unit));
+  if (biases) heading.insert(heading.end(), {"(m)", "(texels)"});
+  heading.emplace_back("error there");
   add_heading(text, heading);
   for (const PointRecord* point : order) {
     std::vector<std::string> cells;
@@ -204,23 +243,13 @@ std::string best_table(const Results& results) {
     for (const std::string& name : {std::string("error"), std::string("acne"), std::string("peter_panning"),
                                     std::string("aliasing"), results.info.cost})
       cells.push_back(short_or_missing(quantity(*point, name), find_metric(name).unit));
-    const std::optional<Interval> window = point->curve ? usable_window(*point->curve) : std::nullopt;
-    cells.push_back(window         ? fmt::format("{} … {}", number_text(window->low), number_text(window->high))
-                    : point->curve ? "none"
-                                   : "–");
-    for (const char* name : {"best_bias_depth", "best_bias_m", "best_bias_texels"})
-      cells.push_back(short_or_missing(quantity(*point, name)));
-    cells.push_back(short_or_missing(quantity(*point, "best_error"), "fraction"));
+    for (std::string& cell : window_cells(*point, biases, mixed)) cells.push_back(std::move(cell));
     add_row(text, cells);
   }
 
-  const auto with_curve = std::count_if(results.points.begin(), results.points.end(),
-                                        [](const PointRecord& p) { return p.curve.has_value(); });
-  const auto without_window = std::count_if(results.points.begin(), results.points.end(),
-                                            [](const PointRecord& p) { return p.curve && !usable_window(*p.curve); });
-  if (without_window > 0)
-    text += fmt::format("\nAt {} of {} points no bias keeps both acne and Peter Panning within the curve's bounds.\n",
-                        without_window, with_curve);
+  text += without_window(results, FreeSetting::bias, "bias keeps both acne and Peter Panning");
+  text += without_window(results, FreeSetting::reduction,
+                         "lookup.reduction keeps the leak, over-darkening and what the reduction darkens");
   return text;
 }
 

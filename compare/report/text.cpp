@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "compare/judge/curve_reading.h"
 #include "compare/report/rules.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
@@ -174,7 +175,7 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
 }
 
 std::vector<std::string> without_curve_parameter(const PointRecord& point, std::vector<std::string> names) {
-  if (point.curve) std::erase(names, point.curve->parameter);
+  if (has_curve(point)) std::erase(names, curve_parameter(point));
   return names;
 }
 

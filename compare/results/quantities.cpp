@@ -175,10 +175,16 @@ std::string why_no_curve(const PointRecord& point) {
   if (point.curve) return "";
   if (nothing_judged(point)) return "no pixel can be judged";
   const auto lookup = point.settings.find("lookup.kind");
-  if (lookup != point.settings.end() && lookup->second != "compare")
+  if (lookup != point.settings.end() && lookup->second != "compare") {
+    const std::string kind = printable(lookup->second);
+    if (!point.lookup_curve.empty())
+      return fmt::format("lookup.kind = {} compares no depths: its curve is over lookup.reduction", kind);
+    const std::string span = setting_of(point, "lookup.reduction_span");
     return fmt::format(
-        "lookup.kind = {} compares no depths, so no curve over the bias is exact in one pass; sweep the bias",
-        printable(lookup->second));
+        "lookup.kind = {} compares no depths, so no curve over the bias is exact in one pass{}; sweep {}", kind,
+        span.empty() || span == "0" ? "" : ", and lookup.reduction_span gives the reduction another form",
+        span.empty() || span == "0" ? "the bias" : "lookup.reduction");
+  }
   std::string why;
   for (const BiasPart& part : bias_parts()) {
     const auto amount = point.settings.find("bias." + std::string(part.name));

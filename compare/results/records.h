@@ -65,15 +65,15 @@ struct BiasCurve : CauseBounds {
   WindowSteps steps;                                 // the windows at other bounds
 };
 
-// What a point with a map of moments would have with another value of one setting of the lookup, on the exact map: means over
-// the counted receivers, fractions (compare/ladder/reduction_window.h).
+// What a point with a map of moments would have with another value of one setting of the lookup: means over the counted
+// receivers, fractions (compare/ladder/reduction_window.h). On the exact map, but for the errors that are shown.
 struct LookupCurvePoint {
   std::string parameter;  // the setting: "lookup.reduction"
   double value = 0;       // of the parameter, in its unit
   double error = 0;       // |R4 - R1|
   double leak = 0, over_darkening = 0, peter_panning = 0, reduction = 0;
-  // |R5 - R1|, with OpenGL's rounding; empty: only the exact map is known.
-  std::optional<double> shown_error = {};
+  double aliasing_dark = 0, aliasing_light = 0, coverage = 0;
+  double shown_error = 0, shown_error_soft = 0;  // |R5 - R1| and |R5 - R0|
 };
 
 // A cause that a rung on top of R5 brought (add_rung, compare/ladder/ladder.h). Its share is the metric of its name. The
@@ -146,11 +146,11 @@ struct PointRecord : PointPictures {
   std::map<std::string, double> metrics;  // by metric name; not finite: could not be measured, which breaks any bound
   std::map<std::string, double> times;    // of stages: "hard_truth_ms", "texel_rays" ...
   std::optional<BiasCurve> curve;
-  // Of a map of moments: curves over lookup.reduction and over CurveOptions::over, one after the other, each by ascending
-  // values; empty: none was asked for.
+  // Of a map of moments, over lookup.reduction, by ascending values; empty: none was asked for.
   std::vector<LookupCurvePoint> lookup_curve;
-  std::optional<CauseBounds> reduction_bounds;  // those of reduction_min and reduction_max; empty: none were asked for
-  std::vector<RungCause> causes;                // the causes that rungs on top of R5 brought, in the order of the rungs
+  std::optional<CauseBounds> lookup_bounds;  // of its usable window, the metrics reduction_min and reduction_max
+  std::vector<LookupCurvePoint> over_curve;  // the same over the setting of CurveOptions::over; empty: none was asked for
+  std::vector<RungCause> causes;               // the causes that rungs on top of R5 brought, in the order of the rungs
   struct Worst {
     int x = -1, y = -1;
     double error = 0;

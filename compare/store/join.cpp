@@ -128,10 +128,9 @@ void compare_both(Database& db, JoinedStore& joined) {
   for (Statement rows(db, differing_rows("worst_pixels", "*")); rows.step();)
     found(rows.integer(0), "the worst pixel of a metric");
   for (Statement rows(db, differing_rows("cascades", "*")); rows.step();) found(rows.integer(0), "the cascades");
-  for (Statement rows(db, differing_rows("reduction_bounds", "*")); rows.step();)
-    found(rows.integer(0), "the bounds of the window of the reduction");
-  for (Statement rows(db, differing_rows("lookup_curves", "*")); rows.step();)
-    found(rows.integer(0), "a curve of the filtered map");
+  for (const char* table : {"lookup_curves", "lookup_bounds"})
+    for (Statement rows(db, differing_rows(table, "*")); rows.step();)
+      found(rows.integer(0), "a curve of the filtered map");
   joined.differing = static_cast<int64_t>(first.size());
   for (auto& [point, one] : first) {
     if (joined.differences.size() == most_differences_named) break;

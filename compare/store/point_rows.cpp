@@ -97,10 +97,13 @@ constexpr TableOfPoints tables[] = {
      [](const Statement& row, PointRecord& point) { point.worst_of.push_back(worst_pixels_table().record_of(row)); }},
     {"cascades",
      [](const Statement& row, PointRecord& point) { point.cascades.push_back(cascades_table().record_of(row)); }},
-    {"lookup_curves", [](const Statement& row,
-                         PointRecord& point) { point.lookup_curve.push_back(lookup_curves_table().record_of(row)); }},
-    {"reduction_bounds", [](const Statement& row,
-                            PointRecord& point) { point.reduction_bounds = reduction_bounds_table().record_of(row); }},
+    {"lookup_curves",
+     [](const Statement& row, PointRecord& point) {
+       LookupCurvePoint at = lookup_curves_table().record_of(row);
+       (at.parameter == "lookup.reduction" ? point.lookup_curve : point.over_curve).push_back(std::move(at));
+     }},
+    {"lookup_bounds",
+     [](const Statement& row, PointRecord& point) { point.lookup_bounds = lookup_bounds_table().record_of(row); }},
 };
 
 // A point has the causes whose metric it has.
@@ -142,10 +145,10 @@ void add_rows(Database& db, const PointRecord& point) {
   for (size_t i = 0; i < point.cascades.size(); ++i)
     cascades.row({point.id, static_cast<int64_t>(i)}, point.cascades[i]);
   Table<LookupCurvePoint>::Insert lookup_curves(db, lookup_curves_table());
-  for (size_t i = 0; i < point.lookup_curve.size(); ++i)
-    lookup_curves.row({point.id, static_cast<int64_t>(i)}, point.lookup_curve[i]);
-  if (point.reduction_bounds)
-    Table<CauseBounds>::Insert(db, reduction_bounds_table()).row({point.id}, *point.reduction_bounds);
+  int64_t row = 0;
+  for (const std::vector<LookupCurvePoint>* curve : {&point.lookup_curve, &point.over_curve})
+    for (const LookupCurvePoint& at : *curve) lookup_curves.row({point.id, row++}, at);
+  if (point.lookup_bounds) Table<CauseBounds>::Insert(db, lookup_bounds_table()).row({point.id}, *point.lookup_bounds);
 }
 
 StoredPoints read_points(Database& db) {

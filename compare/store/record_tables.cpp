@@ -151,18 +151,21 @@ const Table<PointRecord::Cascade>& cascades_table() {
 
 const Table<LookupCurvePoint>& lookup_curves_table() {
   using L = LookupCurvePoint;
-  static const Table<L> table("lookup_curves", {"point", "i"},
-                              {column("parameter", &L::parameter), column("value", &L::value),
-                               column("error", &L::error), column("leak", &L::leak),
-                               column("over_darkening", &L::over_darkening), column("peter_panning", &L::peter_panning),
-                               column("reduction", &L::reduction), column("shown_error", &L::shown_error)});
+  static const Table<L> table(
+      "lookup_curves", {"point", "i"},
+      {column("parameter", &L::parameter), column("value", &L::value), column("error", &L::error),
+       column("leak", &L::leak), column("over_darkening", &L::over_darkening),
+       column("peter_panning", &L::peter_panning), column("reduction", &L::reduction),
+       column("aliasing_dark", &L::aliasing_dark), column("aliasing_light", &L::aliasing_light),
+       column("coverage", &L::coverage), column("shown_error", &L::shown_error),
+       column("shown_error_soft", &L::shown_error_soft)});
   return table;
 }
 
-const Table<CauseBounds>& reduction_bounds_table() {
+const Table<CauseBounds>& lookup_bounds_table() {
   using B = CauseBounds;
   static const Table<B> table(
-      "reduction_bounds", {"point"},
+      "lookup_bounds", {"point"},
       {column("acne_bound", &B::acne_bound), column("peter_panning_bound", &B::peter_panning_bound)});
   return table;
 }
@@ -243,7 +246,7 @@ std::string record_tables() {
   series += ", PRIMARY KEY (point, i)) WITHOUT ROWID;\n";
   return curves_table().create() + series + curve_windows_table().create() + pictures_table().create() +
          images_table().create() + worst_pixels_table().create() + cascades_table().create() +
-         lookup_curves_table().create() + reduction_bounds_table().create() + bounds_table().create() +
+         lookup_curves_table().create() + lookup_bounds_table().create() + bounds_table().create() +
          laws_table().create() + law_samples_table().create();
 }
 

@@ -17,7 +17,7 @@ const Table<ImageRecord>& images_table();         // the same keys
 const Table<PointRecord::WorstOf>& worst_pixels_table();  // the same keys
 const Table<PointRecord::Cascade>& cascades_table();      // the same keys
 const Table<LookupCurvePoint>& lookup_curves_table();     // the same keys
-const Table<CauseBounds>& reduction_bounds_table();       // one row for each point with a curve over lookup.reduction
+const Table<CauseBounds>& lookup_bounds_table();          // one row for each point with a lookup curve
 const Table<BoundResult>& bounds_table();
 const Table<LawResult>& laws_table();  // without the samples
 const Table<LawResult::Sample>& law_samples_table();

@@ -23,8 +23,8 @@ using sqlite::Statement;
 
 // Each table has a column `point`, and its first two columns give the order of its rows.
 constexpr std::string_view tables_by_point[] = {
-    "finished", "settings",      "metrics",      "times",    "curves",        "curve_points",    "pictures",
-    "images",   "curve_windows", "worst_pixels", "cascades", "lookup_curves", "reduction_bounds"};
+    "finished", "settings",      "metrics",      "times",    "curves",        "curve_points", "pictures",
+    "images",   "curve_windows", "worst_pixels", "cascades", "lookup_curves", "lookup_bounds"};
 // Each table has a column `phase`, and its first three columns give the order of its rows.
 constexpr std::string_view tables_by_phase[] = {"phases", "phase_rows", "phase_cells", "phase_points"};
 constexpr std::string_view info_tables[] = {"info"};

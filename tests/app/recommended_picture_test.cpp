@@ -119,11 +119,11 @@ TEST_F(RecommendedPicture, OpensThePageWithTheNumbersAtThatBias) {
   open(read_file(out + "/report.html"), "opening_probe.js");
   if (IsSkipped() || HasFatalFailure()) return;
   EXPECT_EQ(saw_["opened"]["bias"], "recommended");
-  EXPECT_EQ(saw_["opened"]["whole"], "map at the recommended bias");
+  EXPECT_EQ(saw_["opened"]["whole"], "map as recommended");
   EXPECT_FALSE(saw_["opened"]["canvas"]) << "the small live picture is not shown";
   const std::string facts = saw_["opened"]["facts"];
   EXPECT_NE(facts.find(", recommended · error " + fmt::format("{:.3g}\u202f%", 100 * error)), facts.npos) << facts;
-  EXPECT_EQ(saw_["causes"]["whole"], "classes at the recommended bias");
+  EXPECT_EQ(saw_["causes"]["whole"], "classes as recommended");
   EXPECT_EQ(saw_["truth"]["whole"], "truth");
   EXPECT_NE(saw_["set"]["facts"].get<std::string>().find(", as set · error "), std::string::npos);
   EXPECT_EQ(saw_["set"]["whole"], "truth");

@@ -69,6 +69,24 @@ TEST_F(Rejudge, BoundsOfTheCurveMeasureNothing) {
   check(cubes("[64, 128]", "[curve]\nacne_bound = 0.6\n"), "large", 4, 0);
 }
 
+// The window of a reduction was judged by the bounds with which it was measured.
+TEST_F(Rejudge, OtherBoundsMeasureTheCurveOfAFilteredMapAgain) {
+  const auto filtered = [](const std::string& curve) {
+    return "scene = \"cube-room\"\n" + small_view +
+           "[map]\nresolution = 64\n[lookup]\nkind = \"vsm\"\n[filter]\nkind = \"box\"\n" + held_bound + curve;
+  };
+  check(filtered(""), "out", 1, 0);
+  check(filtered(""), "out", 0, 1);
+  const std::string other = filtered("[curve]\nacne_bound = 0.25\npeter_panning_bound = 0.25\n");
+  check(other, "out", 1, 0);
+  expect_as_new(other, "out");
+  EXPECT_EQ(load("out").points.at(0).lookup_bounds, (CauseBounds{0.25, 0.25}));
+  check(filtered("[curve]\nenabled = false\n"), "out", 1, 0);
+  EXPECT_TRUE(load("out").points.at(0).lookup_curve.empty());
+  check(other, "out", 0, 1);  // it stayed in the store
+  EXPECT_EQ(load("out").points.at(0).lookup_curve.size(), 100u);
+}
+
 TEST_F(Rejudge, BoundsOfTheCurveAtAllPlacementsMeasureNothing) {
   const auto placed = [](const std::string& curve) {
     return "scene = \"cube-room\"\n" + small_view + "[map]\nresolution = 64\nplacements = 3\n" + held_bound + curve;
@@ -83,27 +101,19 @@ TEST_F(Rejudge, BoundsOfTheCurveAtAllPlacementsMeasureNothing) {
   EXPECT_EQ(now.window_max_worst_depth, fresh.window_max_worst_depth);
 }
 
-// The window over the reduction is not stored step by step.
-TEST_F(Rejudge, OtherBoundsOfTheCurveMeasureAFilteredMapAgain) {
-  const auto filtered = [](const std::string& curve) {
-    return "scene = \"cube-room\"\n" + small_view + "[map]\nresolution = 64\n[lookup]\nkind = \"vsm\"\n" +
-           "[filter]\nkind = \"box\"\n" + held_bound + "[curve]\npeter_panning_bound = 0.05\n" + curve;
+TEST_F(Rejudge, OtherValuesOfCurveOverMeasureAFilteredMapAgain) {
+  const auto over = [](const std::string& values) {
+    return "scene = \"cube-room\"\n" + small_view +
+           "[map]\nresolution = 64\n[lookup]\nkind = \"vsm\"\n[filter]\nkind = \"box\"\n" + held_bound +
+           (values.empty() ? "" : "[curve]\nover = \"lookup.v_min\"\nover_values = " + values + "\n");
   };
-  const std::string loose = filtered("acne_bound = 0.05\n"), tight = filtered("acne_bound = 0.002\n");
-  check(loose, "out", 1, 0);
-  const double before = load("out").points.at(0).metrics.at("reduction_max");
-  check(tight, "out", 1, 0);
-  expect_as_new(tight, "out");
-  EXPECT_LT(load("out").points.at(0).metrics.at("reduction_max"), before);
-  check(tight, "out", 0, 1);
-  check(loose, "out", 0, 1);  // it stayed in the store
-  expect_as_new(loose, "out");
-  const std::string over = filtered("acne_bound = 0.05\nover = \"lookup.v_min\"\nover_values = [0, 1e-4]\n");
-  check(over, "out", 1, 0);
-  check(over, "out", 0, 1);
-  check(filtered("acne_bound = 0.05\nover = \"lookup.v_min\"\nover_values = [0, 1e-3]\n"), "out", 1, 0);
-  check(filtered("enabled = false\n"), "out", 1, 0);
-  check(filtered("enabled = false\n"), "out", 0, 1);
+  check(over("[0, 1e-4]"), "out", 1, 0);
+  EXPECT_EQ(load("out").points.at(0).over_curve.size(), 3u) << "and the value as set";
+  check(over("[0, 1e-4]"), "out", 0, 1);
+  check(over("[0, 1e-3]"), "out", 1, 0);
+  expect_as_new(over("[0, 1e-3]"), "out");
+  check(over(""), "out", 1, 0);
+  EXPECT_TRUE(load("out").points.at(0).over_curve.empty());
 }
 
 TEST_F(Rejudge, ANewValueMeasuresItsOwnPoints) {

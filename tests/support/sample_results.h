@@ -33,9 +33,11 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   point.metrics["counted"] = 700000 - static_cast<double>(id);  // enough for a picture
   point.times = {{"map_ms", 1.25}, {"truth_ms", 1.0 / 3 + static_cast<double>(id)}, {"rays", 1e9 + 1}};
   for (const double r : {0.0, 0.5})
-    point.lookup_curve.push_back({"lookup.reduction", r, value /= 3, value /= 3, value /= 3, value /= 3, value /= 3});
-  point.lookup_curve.push_back({"lookup.v_min", 0.25, value /= 3, value /= 3, value /= 3, value /= 3, 0, value /= 3});
-  point.reduction_bounds = CauseBounds{0.125, 0.25};
+    point.lookup_curve.push_back({"lookup.reduction", r, value /= 3, value /= 3, value /= 3, value /= 3, value /= 3,
+                                  value /= 3, value /= 3, value /= 3, value /= 3, value /= 3});
+  point.lookup_bounds = CauseBounds{0.002, 0.003};
+  point.over_curve.push_back({"lookup.v_min", 0.25, value /= 3, value /= 3, value /= 3, value /= 3, 0, value /= 3,
+                              value /= 3, 0, value /= 3, value /= 3});
   if (with_curve) {
     BiasCurve curve;
     curve.parameter = "bias.constant";
@@ -212,6 +214,14 @@ inline bool same(const BiasCurve& a, const BiasCurve& b) {
 inline bool same(const PictureRecord& a, const PictureRecord& b) {
   return a.name == b.name && a.path == b.path && a.caption == b.caption && a.digest == b.digest;
 }
+inline bool same(const std::vector<LookupCurvePoint>& a, const std::vector<LookupCurvePoint>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LookupCurvePoint& x, const LookupCurvePoint& y) {
+    return x.parameter == y.parameter && x.value == y.value && x.error == y.error && x.leak == y.leak &&
+           x.over_darkening == y.over_darkening && x.peter_panning == y.peter_panning && x.reduction == y.reduction &&
+           x.aliasing_dark == y.aliasing_dark && x.aliasing_light == y.aliasing_light && x.coverage == y.coverage &&
+           x.shown_error == y.shown_error && x.shown_error_soft == y.shown_error_soft;
+  });
+}
 inline bool same(const PointRecord& a, const PointRecord& b) {
   return a.id == b.id && a.part == b.part && a.settings == b.settings && a.scene_digest == b.scene_digest &&
          same(a.metrics, b.metrics) && same(a.times, b.times) && a.curve.has_value() == b.curve.has_value() &&
@@ -227,14 +237,8 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
                     [](const auto& x, const auto& y) {
                       return x.metric == y.metric && x.x == y.x && x.y == y.y && same(x.size, y.size);
                     }) &&
-         std::equal(a.lookup_curve.begin(), a.lookup_curve.end(), b.lookup_curve.begin(), b.lookup_curve.end(),
-                    [](const auto& x, const auto& y) {
-                      return x.parameter == y.parameter && x.value == y.value && x.error == y.error &&
-                             x.leak == y.leak && x.over_darkening == y.over_darkening &&
-                             x.peter_panning == y.peter_panning && x.reduction == y.reduction &&
-                             x.shown_error == y.shown_error;
-                    }) &&
-         a.reduction_bounds == b.reduction_bounds &&
+         same(a.lookup_curve, b.lookup_curve) && same(a.over_curve, b.over_curve) &&
+         a.lookup_bounds == b.lookup_bounds &&
          std::equal(a.cascades.begin(), a.cascades.end(), b.cascades.begin(), b.cascades.end(),
                     [](const auto& x, const auto& y) {
                       return same(x.begin_m, y.begin_m) && same(x.end_m, y.end_m) && same(x.metrics, y.metrics) &&

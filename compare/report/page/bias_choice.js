@@ -1,5 +1,5 @@
-// One bias for the whole page: as set, or the recommended one of each choice. What shows numbers or pictures at a bias
-// reads page.bias, or listens to page.onBias.
+// One value of the free setting (a bias, or a light-bleed reduction) for the whole page: as set, or the recommended one of each
+// choice. What shows numbers or pictures at a bias reads page.bias, or listens to page.onBias.
 (function() {
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, data = page.data;
@@ -19,16 +19,19 @@ page.setBias = function(mode) {
   page.redraw();
 };
 if (!any) return;
-var box = kit.make('div', {class: 'bias-choice', role: 'group', 'aria-label': 'Bias of all figures'}, 'Bias');
+var box = kit.make(
+    'div', {class: 'bias-choice', role: 'group', 'aria-label': kit.freeLabel(data.free) + ' of all figures'},
+    kit.freeLabel(data.free));
 box.append(kit.segments([['set', 'As set'], ['recommended', data.bias_word]], page.bias, page.setBias));
 document.querySelector('nav').append(box);
 apply(page.bias);
 
 // ---- the bars of the budget
 var rows = Array.prototype.slice.call(document.querySelectorAll('.budget .row')), size = 0, bars = [];
-var follows = ['acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', 'coverage'],
+var follows =
+        ['acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', 'coverage', 'leak', 'over_darkening', 'reduction'],
     sums = {aliasing_dark: 1, aliasing_light: 1, aliasing: 1, coverage_dark: 1, coverage_light: 1, light_size: 1};
-// The causes of a point at its recommended bias; those that no curve gives, as rendered.
+// The causes of a point at its recommended bias or reduction; those that no curve gives, as rendered.
 function causesOf(p) {
   var out = {};
   data.causes.forEach(function(c) {

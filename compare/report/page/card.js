@@ -6,7 +6,7 @@ var page = window.noonmarkPage, kit = page.kit, make = kit.make, data = page.dat
 // bias: 'set' where the card shows a broken bound, which was judged with the bias as set; null: that of the page.
 var state = {left: 'truth', right: 'classes', divide: 50, zoom: 1, worst: 'error', bias: null};
 // A frame of another renderer has no bias of ours.
-var asSet = data.frames ? '.' : ', with the bias as set.';
+var asSet = data.frames ? '.' : ', with the ' + data.free + ' as set.';
 function mode() {
   return state.bias || page.bias;
 }
@@ -57,12 +57,12 @@ function picturesOf(p) {
                 })
                 .filter(Boolean);
   var live = page.live;
-  if (live && live.data.point === p.id && p.at && live.has(p.at.depth) && !named(out, 'map at the recommended bias'))
+  if (live && live.data.point === p.id && p.at && live.has(p.at) && !named(out, 'map as recommended'))
     [['truth', 'truth'], ['map', 'map'], ['causes', 'classes']].forEach(function(k) {
       out.push({
-        name: k[1] + ' at the recommended bias',
+        name: k[1] + ' as recommended',
         src: live.pictureAt(p.at.depth, k[0]),
-        alt: k[1] + ' at the recommended bias, from the live picture'
+        alt: k[1] + ' as recommended, from the live picture'
       });
     });
   return out;
@@ -84,14 +84,14 @@ function failureOf(p) {
 // Where the worst pixel is: with the bias as set as the record says, at the recommended one in the live picture.
 function worstOf(p) {
   var live = page.live && page.live.data.point === p.id && page.live;
-  if (mode() === 'recommended' && p.at && live && live.has(p.at.depth)) {
+  if (mode() === 'recommended' && p.at && live && live.has(p.at)) {
     var found = live.worst(state.worst, p.at.depth);
     return found && {
       live: true,
       x: found.x,
       y: found.y,
       text: 'Wrong by ' + kit.shown(found.error, 'fraction') + ', ' + labelOf(found.cause) +
-          ', in the live picture at the recommended bias.'
+          ', in the live picture at the recommended ' + p.at.word + '.'
     };
   }
   var failure = failureOf(p);
@@ -122,7 +122,7 @@ function worstChoices(p) {
             return f.metric;
           }),
       Object.keys(p.worst_of || {}));
-  if (mode() === 'recommended' && p.at && page.live && page.live.data.point === p.id && page.live.has(p.at.depth))
+  if (mode() === 'recommended' && p.at && page.live && page.live.data.point === p.id && page.live.has(p.at))
     names = ['error'].concat(page.live.data.causes.slice(1));
   return names
       .filter(function(name, i) {
@@ -141,12 +141,12 @@ function stage(p) {
         'No picture of this point was kept. The command below renders it; pictures = "all" in the experiment keeps those of every point.'));
     return box;
   }
-  var follow = mode() === 'recommended' && named(list, 'map at the recommended bias') ? ' at the recommended bias' : '';
+  var follow = mode() === 'recommended' && named(list, 'map as recommended') ? ' as recommended' : '';
   if (mode() === 'recommended' && p.at)
     box.append(make(
         'p', {class: 'small'},
-        follow ? 'The pictures at the recommended bias have that in their names; the others are of the bias as set.' :
-                 'These pictures are of the bias as set. None was measured at the recommended bias.'));
+        follow ? 'The pictures at the recommended ' + p.at.word + ' have that in their names; the others are as set.' :
+                 'These pictures are of the ' + p.at.word + ' as set. None was measured at the recommended one.'));
   var left = named(list, state.left + follow) || named(list, state.left) || list[0],
       right = named(list, state.right + follow) || named(list, state.right) || list[list.length - 1];
   function options() {
@@ -357,7 +357,7 @@ function verdict(p) {
   if (p.at)
     text.push(
         (mode() === 'recommended' ? 'Shown' : 'Recommended') + ' at ' + p.at.parameter + ' ' + p.at.text +
-        (p.at.usable ? ', which is usable.' : ', the best that there is: no bias is usable.'));
+        (p.at.usable ? ', which is usable.' : ', the best that there is: no ' + p.at.word + ' is usable.'));
   if (p.curve) {
     var placed = p.curve.placements > 1, low = placed ? p.curve.window_min_worst_depth : p.curve.window_min_depth,
         high = placed ? p.curve.window_max_worst_depth : p.curve.window_max_depth;
@@ -365,6 +365,12 @@ function verdict(p) {
         typeof low !== 'number' ? 'Its usable window is empty.' :
                                   'Usable from ' + kit.digits(low) + ' to ' + kit.digits(high) + ' depth' +
                 (placed ? ' at every placement of the grid.' : '.'));
+  } else if (p.reductions) {
+    var window = kit.windowOfReduction(p);
+    text.push(
+        window ? 'Usable reductions: ' + kit.digits(window.from) + ' to ' + kit.digits(window.to) +
+                (window.placed ? ' at every placement of the grid.' : '.') :
+                 'No reduction is usable.');
   }
   return make('p', {}, text.join(' '));
 }
@@ -376,7 +382,7 @@ function fill() {
   inner.textContent = '';
   if (p.at)
     inner.append(make('div', {class: 'controls'}, [
-      'Bias ',
+      kit.freeLabel(p.at.word) + ' ',
       kit.segments(
           [['set', 'As set'], ['recommended', data.bias_word]], mode(),
           function(chosen) {

@@ -47,7 +47,8 @@ function build(width) {
     return curve[s + '_worst'].some(function(v) {
       return v > 0;
     });
-  }) : [];
+  }) :
+                                [];
   bands.forEach(function(s) {
     curve[s + '_worst'].forEach(function(v) {
       if (v > 0) all.push(v);
@@ -56,17 +57,15 @@ function build(width) {
   var bounds = [curve.acne_bound, curve.peter_panning_bound].filter(function(v) {
     return v > 0;
   });
-  // The axis covers four decades below the largest value. Smaller values are drawn on the axis.
-  var top = Math.max.apply(null, all.concat(bounds, [1e-6])) * 1.3,
-      least = Math.min.apply(null, all.concat(bounds, [top / 100]));
-  var bottom = Math.max(least / 1.5, top / 3e4), stacked = state.view === 'stacked';
+  // Smaller values are drawn on the axis.
+  var range = kit.curve.range(all.concat(bounds)), top = range.top, bottom = range.bottom,
+      stacked = state.view === 'stacked';
   var rows = [], stack = [];
   bias.forEach(function(b, i) {
     (stacked ? ['error'] : lines).forEach(function(s) {
       var v = curve[s][i];
       if (!kit.finite(v)) return;
-      // Below the axis a line is left out, except for the parts by which it enters or leaves.
-      if (!stacked && v < bottom && !(curve[s][i - 1] >= bottom) && !(curve[s][i + 1] >= bottom && b > 0)) return;
+      if (!stacked && !kit.curve.onAxis(curve[s], i, bottom, b > 0)) return;
       rows.push({b: b, s: s, v: stacked ? v : Math.max(v, bottom)});
     });
     var sum = 0;
@@ -100,18 +99,7 @@ function build(width) {
   }
   var marks = [];
   if (curve.window_min_depth !== undefined) {
-    marks.push({
-      type: 'rect',
-      encode: {
-        enter: {
-          x: at(curve.window_min_depth * k),
-          x2: at(curve.window_max_depth * k),
-          y: {value: 0},
-          y2: {value: height},
-          fill: {value: 'var(--window)'}
-        }
-      }
-    });
+    marks.push(kit.curve.window(at(curve.window_min_depth * k), at(curve.window_max_depth * k), height));
     marks.push({
       type: 'text',
       encode: {
@@ -127,51 +115,12 @@ function build(width) {
     });
   }
   if (hasBands(curve) && curve.window_min_worst_depth !== undefined)
-    marks.push({
-      type: 'rect',
-      name: 'every',
-      encode: {
-        enter: {
-          x: at(curve.window_min_worst_depth * k),
-          x2: at(curve.window_max_worst_depth * k),
-          y: {value: 0},
-          y2: {value: height},
-          fill: {value: 'var(--window)'}
-        }
-      }
-    });
-  if (!stacked) {
-    (bounds.length === 2 && bounds[0] === bounds[1] ? [[bounds[0], 'bound']] : [
-      [curve.acne_bound, 'acne bound'], [curve.peter_panning_bound, 'Peter Panning bound']
-    ]).forEach(function(b) {
-      if (!(b[0] > 0)) return;
-      marks.push({
-        type: 'rule',
-        encode: {
-          enter: {
-            x: {value: 0},
-            x2: {value: plotWidth},
-            y: {scale: 'y', value: b[0]},
-            stroke: {value: 'var(--faint)'},
-            strokeDash: {value: [3, 3]}
-          }
-        }
-      });
-      marks.push({
-        type: 'text',
-        encode: {
-          enter: {
-            x: {value: gap},
-            y: {scale: 'y', value: b[0]},
-            dy: {value: -5},
-            align: {value: 'left'},
-            text: {value: b[1] + ' ' + kit.shown(b[0], 'fraction')},
-            fontSize: {value: 11}
-          }
-        }
-      });
-    });
-  }
+    marks.push(Object.assign(
+        kit.curve.window(at(curve.window_min_worst_depth * k), at(curve.window_max_worst_depth * k), height),
+        {name: 'every'}));
+  if (!stacked)
+    marks = marks.concat(kit.curve.bounds(
+        [[curve.acne_bound, 'acne bound'], [curve.peter_panning_bound, 'Peter Panning bound']], plotWidth, gap));
   var strokeOf = {signal: 'datum.s === \'error\' ? \'var(--ink)\' : \'var(--c-\' + datum.s + \')\''};
   if (stacked)
     marks.push({
@@ -270,7 +219,7 @@ function build(width) {
           stroke: strokeOf,
           strokeJoin: {value: 'round'},
           strokeWidth: {signal: 'datum.s === \'error\' ? 1.5 : 2.4'},
-          strokeDash: {signal: 'datum.s === \'error\' ? [5,3] : [1,0]'},
+          strokeDash: {signal: 'datum.s === \'error\' ? [' + kit.curve.errorDash + '] : [1,0]'},
           strokeOpacity: {value: 1}
         }
       }
@@ -306,56 +255,16 @@ function build(width) {
       }
     }
   });
-  [[curve.best_bias_depth, 'best', 'var(--good)', 0], [curve.set_bias_depth, 'as set', 'var(--accent)', 1]].forEach(function(m) {
+  [[curve.best_bias_depth, 'best', 0], [curve.set_bias_depth, 'as set', 1]].forEach(function(m) {
     if (!kit.finite(m[0])) return;
     var b = m[0] * k, beyond = b > high;
     // The name of the lesser bias stands on its left, that of the greater on its right, unless an edge is near.
     var place = Math.log(Math.min(Math.max(b, low), high) / low) / Math.log(high / low),
-        other = m[3] ? curve.best_bias_depth : curve.set_bias_depth;
+        other = m[2] ? curve.best_bias_depth : curve.set_bias_depth;
     var side = place > 0.9 ? -1 : place < 0.1 ? 1 : kit.finite(other) && m[0] < other ? -1 : 1;
-    marks.push({
-      type: 'rule',
-      encode: {
-        enter: {
-          x: at(b),
-          x2: at(b),
-          y: {value: 20 + 16 * m[3]},
-          y2: {value: height},
-          stroke: {value: m[2]},
-          strokeWidth: {value: 1.4},
-          strokeDash: {value: m[3] ? [4, 3] : [1, 0]}
-        }
-      }
-    });
-    marks.push({
-      type: 'text',
-      encode: {
-        enter: {
-          x: at(b),
-          y: {value: 32 + 16 * m[3]},
-          dx: {value: side * 5},
-          align: {value: side < 0 ? 'right' : 'left'},
-          text: {value: m[1] + (beyond ? ' (beyond)' : '')},
-          fill: {value: m[2]},
-          fontWeight: {value: 600}
-        }
-      }
-    });
+    marks = marks.concat(kit.curve.mark(at(b), m[1] + (beyond ? ' (beyond)' : ''), m[2], side, height));
   });
-  marks.push({
-    type: 'rule',
-    name: 'cursor',
-    interactive: false,
-    encode: {
-      update: {
-        x: {signal: 'hover'},
-        y: {value: 0},
-        y2: {value: height},
-        stroke: {value: 'var(--soft)'},
-        opacity: {signal: 'hover < 0 ? 0 : 0.6'}
-      }
-    }
-  });
+  marks.push(kit.curve.cursor(height));
   return {
     spec: {
       width: plotWidth,
@@ -397,18 +306,7 @@ function build(width) {
                   {name: 'y', type: 'log', domain: [bottom, top], range: [height, 0], zero: false}
       ],
       axes: [
-        {
-          orient: 'left',
-          scale: 'y',
-          grid: true,
-          values: stacked ? undefined : kit.logTicks(bottom, top),
-          tickCount: 6,
-          domain: false,
-          ticks: false,
-          title: 'share of counted receivers',
-          encode: {labels: {update: {text: {signal: kit.axisLabel('fraction')}}}}
-        },
-        {
+        kit.curve.axis(stacked ? undefined : range), {
           orient: 'bottom',
           scale: 'x',
           grid: false,
@@ -424,53 +322,48 @@ function build(width) {
       marks: marks
     },
     hover: function(view, plot) {
-      var svg = plot.querySelector('svg');
       // Where the pointer would stand for bias i: biases of 0 are left of the gap.
       function place(i) {
         return bias[i] > 0 ? view.scale('x')(bias[i]) : 12;
       }
-      stops = function() {
-        var box = svg.getBoundingClientRect();
-        return bias.map(function(b, i) {
-          return {element: svg, x: box.left + left + place(i), y: box.top + box.height / 3};
-        });
-      };
-      svg.addEventListener('mousemove', function(event) {
-        var px = event.clientX - svg.getBoundingClientRect().left - left, i = 0;
-        if (px > gap - 30) {
-          var b = view.scale('x').invert(Math.min(Math.max(px, gap), plotWidth));
+      stops = kit.curve.hover(view, plot, {
+        left: left,
+        count: bias.length,
+        place: place,
+        nearest: function(px) {
+          if (px <= gap - 30) return 0;
+          var i = 0, b = view.scale('x').invert(Math.min(Math.max(px, gap), plotWidth));
           for (var j = 1; j < bias.length; ++j)
             if (bias[j] > 0 && (bias[i] <= 0 || Math.abs(Math.log(bias[j] / b)) < Math.abs(Math.log(bias[i] / b))))
               i = j;
+          return i;
+        },
+        tip: function(i) {
+          return {
+            rows: ['error']
+                      .concat(series)
+                      .map(function(s) {
+                        return [kit.curve.nameOf(s), kit.shown(curve[s][i], 'fraction'), s === 'error' ? '' : s];
+                      })
+                      .concat(hasBands(curve) ? bandRows(curve, i) : []),
+            title: three(curve.bias_depth[i], curve)
+          };
         }
-        view.signal('hover', place(i)).run();
-        kit.showTip(
-            event, ['error'].concat(series)
-                       .map(function(s) {
-                         return [nameOf(s), kit.shown(curve[s][i], 'fraction'), s === 'error' ? '' : s];
-                       })
-                       .concat(hasBands(curve) ? bandRows(curve, i) : []),
-            kit.digits(curve.bias_depth[i]) + ' depth = ' + kit.digits(curve.bias_depth[i] * curve.m_per_depth) +
-                ' m = ' + kit.digits(curve.bias_depth[i] * curve.texels_per_depth) + ' texels');
-      });
-      svg.addEventListener('mouseleave', function() {
-        kit.hideTip();
-        view.signal('hover', -1).run();
       });
     }
   };
 }
 
-function nameOf(s) {
-  return s === 'error' ? 'Error' : kit.causeLabel[s] || s;
-}
 // "Acne: least, mean, largest over 64 placements".
 function bandRows(curve, i) {
   return [['Over ' + curve.placements + ' placements', 'least · mean · largest']].concat(banded.map(function(s) {
     return [
-      nameOf(s), ['_best', '_mean', '_worst'].map(function(e) {
-        return kit.shown(curve[s + e][i], 'fraction');
-      }).join(' · '),
+      kit.curve.nameOf(s),
+      ['_best', '_mean', '_worst']
+          .map(function(e) {
+            return kit.shown(curve[s + e][i], 'fraction');
+          })
+          .join(' · '),
       s === 'error' ? '' : s
     ];
   }));
@@ -514,14 +407,10 @@ function describe() {
 }
 function legend() {
   self.legend.textContent = '';
-  var dash = kit.make('span');
-  dash.innerHTML =
-      '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="var(--ink)" stroke-width="1.5" stroke-dasharray="5 3"/></svg>';
-  dash.append('Error, mean |R5 − R1|');
   series.forEach(function(s) {
-    self.legend.append(kit.make('span', {}, [kit.make('i', {class: 'sw c-' + s}), kit.causeLabel[s]]));
+    self.legend.append(kit.curve.key(s));
   });
-  self.legend.append(dash);
+  self.legend.append(kit.curve.key('error', 'Error, mean |R5 − R1|', kit.curve.errorDash));
   if (!curved.some(function(p) {
         return hasBands(p.curve);
       }))

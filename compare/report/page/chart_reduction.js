@@ -1,7 +1,7 @@
 // Error and causes of one point with a map of moments against lookup.reduction. The usable window is shaded.
 (function() {
 'use strict';
-var page = window.noonmarkPage, kit = page.kit;
+var page = window.noonmarkPage, kit = page.kit, of = kit.curve;
 var curved = page.data.points.filter(function(p) {
   return p.reductions;
 });
@@ -9,57 +9,53 @@ if (!curved.length) return;
 var recommended = kit.byId[page.data.recommended];
 var id = recommended && recommended.reductions ? recommended.id : curved[0].id;
 // Over-darkening and what the reduction darkens have colours of one family.
-var dashes = {error: [5, 3], over_darkening: [8, 2, 1.5, 2]};
+var dashes = {error: of.errorDash, over_darkening: [8, 2, 1.5, 2]};
 var causes = ['leak', 'reduction', 'over_darkening', 'peter_panning'];
 
-function nameOf(series) {
-  return series === 'error' ? 'Error' : kit.causeLabel[series] || series;
-}
-function colourOf(series) {
-  return series === 'error' ? 'var(--ink)' : 'var(--c-' + series + ')';
-}
 function phraseOf(point) {
   return [point.part, point.phrase].filter(Boolean).join(': ') || 'Point ' + point.id;
 }
 
 var stops, self = kit.chart('reduction', function(width) {
-  var point = kit.byId[id], curve = point.reductions, values = curve.value, metrics = point.metrics;
-  var left = 76, right = 16, w = width - left - right, h = width < 520 ? 260 : 340;
+  var point = kit.byId[id], curve = point.reductions, values = curve.value;
+  var left = 64, right = 16, w = width - left - right, h = width < 520 ? 260 : 340;
   var series = ['error'].concat(causes).filter(function(s) {
     return curve[s].some(function(v) {
       return v > 0;
     });
   });
+  stops = null;
   if (!series.length) {
     self.plot.append(kit.make('p', {class: 'small'}, 'The value is 0 at every reduction.'));
     return null;
   }
-  // Four decades below the largest value; smaller ones are drawn on the axis.
-  var top = 1.3 * Math.max.apply(null, series.map(function(s) {
-    return Math.max.apply(null, curve[s]);
-  })), bottom = top / 1e4, rows = [];
+  var bounds = [[curve.peter_panning_bound, 'bound on the leak'], [curve.acne_bound, 'bound on what is darkened']];
+  var all = bounds.map(function(b) {
+    return b[0];
+  });
+  series.forEach(function(s) {
+    all = all.concat(curve[s]);
+  });
+  var range = of.range(all), rows = [];
   series.forEach(function(s) {
     values.forEach(function(r, i) {
-      var v = curve[s][i];
-      rows.push({series: s, r: r, v: Math.max(v, bottom), colour: colourOf(s), dash: dashes[s] || [1, 0]});
+      if (of.onAxis(curve[s], i, range.bottom, true))
+        rows.push({
+          series: s,
+          r: r,
+          v: Math.max(curve[s][i], range.bottom),
+          colour: of.colourOf(s),
+          dash: dashes[s] || [1, 0],
+          thick: s === 'error' ? 1.5 : 2.4
+        });
     });
   });
-  var marks = [], from = metrics.reduction_min, to = metrics.reduction_max;
-  if (kit.finite(from))
-    marks.push({
-      type: 'rect',
-      interactive: false,
-      encode: {
-        enter: {
-          x: {scale: 'x', value: from},
-          x2: {scale: 'x', value: to},
-          y: {value: 0},
-          y2: {value: h},
-          fill: {value: 'var(--good)'},
-          fillOpacity: {value: 0.12}
-        }
-      }
-    });
+  function at(r) {
+    return {scale: 'x', value: r};
+  }
+  var marks = [], usable = kit.windowOfReduction(point);
+  if (usable) marks.push(of.window(at(usable.from), at(usable.to), h));
+  marks = marks.concat(of.bounds(bounds, w, 4));
   marks.push({
     type: 'group',
     from: {facet: {name: 'one', data: 'rows', groupby: 'series'}},
@@ -72,58 +68,17 @@ var stops, self = kit.chart('reduction', function(width) {
           x: {scale: 'x', field: 'r'},
           y: {scale: 'y', field: 'v'},
           stroke: {field: 'colour'},
+          strokeJoin: {value: 'round'},
           strokeDash: {field: 'dash'},
-          strokeWidth: {value: 1.9}
+          strokeWidth: {field: 'thick'}
         }
       }
     }]
   });
-  [[metrics.best_reduction, 'least error', 'var(--good)', 0], [curve.as_set, 'as set', 'var(--accent)', 1]].forEach(
-      function(m) {
-        if (!kit.finite(m[0])) return;
-        var flip = m[0] > 0.7;
-        marks.push({
-          type: 'rule',
-          interactive: false,
-          encode: {
-            enter: {
-              x: {scale: 'x', value: m[0]},
-              y: {value: 0},
-              y2: {value: h},
-              stroke: {value: m[2]},
-              strokeWidth: {value: 1.5}
-            }
-          }
-        });
-        marks.push({
-          type: 'text',
-          interactive: false,
-          encode: {
-            enter: {
-              x: {scale: 'x', value: m[0]},
-              y: {value: 14 + 16 * m[3]},
-              dx: {value: flip ? -5 : 5},
-              align: {value: flip ? 'right' : 'left'},
-              text: {value: m[1]},
-              fill: {value: m[2]},
-              fontWeight: {value: 600}
-            }
-          }
-        });
-      });
-  marks.push({
-    type: 'rule',
-    interactive: false,
-    encode: {
-      update: {
-        x: {signal: 'hover'},
-        y: {value: 0},
-        y2: {value: h},
-        stroke: {value: 'var(--soft)'},
-        opacity: {signal: 'hover < 0 ? 0 : 0.6'}
-      }
-    }
+  [[point.metrics.best_reduction, 'least error', 0], [curve.as_set, 'as set', 1]].forEach(function(m) {
+    if (kit.finite(m[0])) marks = marks.concat(of.mark(at(m[0]), m[1], m[2], m[0] > 0.7 ? -1 : 1, h));
   });
+  marks.push(of.cursor(h));
   return {
     spec: {
       width: w,
@@ -134,46 +89,34 @@ var stops, self = kit.chart('reduction', function(width) {
       data: [{name: 'rows', values: rows}],
       scales: [
         {name: 'x', type: 'linear', zero: true, domain: [0, values[values.length - 1]], range: [0, w]},
-        {name: 'y', type: 'log', zero: false, domain: [bottom, top], range: [h, 0]}
+        {name: 'y', type: 'log', zero: false, domain: [range.bottom, range.top], range: [h, 0]}
       ],
-      axes: [
-        {
-          orient: 'left',
-          scale: 'y',
-          grid: true,
-          domain: false,
-          ticks: false,
-          values: kit.logTicks(bottom, top),
-          title: 'share of counted receivers',
-          encode: {labels: {update: {text: {signal: kit.axisLabel('fraction')}}}}
-        },
-        {orient: 'bottom', scale: 'x', tickCount: 10, title: 'lookup.reduction'}
-      ],
+      axes: [of.axis(range), {orient: 'bottom', scale: 'x', tickCount: 10, title: 'lookup.reduction'}],
       marks: marks
     },
     hover: function(view, plot) {
-      var svg = plot.querySelector('svg'), x = view.scale('x');
-      stops = function() {
-        var box = svg.getBoundingClientRect();
-        return values.map(function(r) {
-          return {element: svg, x: box.left + left + x(r), y: box.top + box.height / 3};
-        });
-      };
-      svg.addEventListener('mousemove', function(event) {
-        var r = x.invert(event.clientX - svg.getBoundingClientRect().left - left), i = 0;
-        values.forEach(function(v, j) {
-          if (Math.abs(v - r) < Math.abs(values[i] - r)) i = j;
-        });
-        view.signal('hover', x(values[i])).run();
-        kit.showTip(
-            event, ['error'].concat(causes).map(function(s) {
-              return [nameOf(s), kit.shown(curve[s][i], 'fraction'), s === 'error' ? '' : s];
+      var x = view.scale('x');
+      stops = of.hover(view, plot, {
+        left: left,
+        count: values.length,
+        place: function(i) {
+          return x(values[i]);
+        },
+        nearest: function(px) {
+          var r = x.invert(px), i = 0;
+          values.forEach(function(v, j) {
+            if (Math.abs(v - r) < Math.abs(values[i] - r)) i = j;
+          });
+          return i;
+        },
+        tip: function(i) {
+          return {
+            rows: ['error'].concat(causes).map(function(s) {
+              return [of.nameOf(s), kit.shown(curve[s][i], 'fraction'), s === 'error' ? '' : s];
             }),
-            'reduction ' + kit.digits(values[i]));
-      });
-      svg.addEventListener('mouseleave', function() {
-        kit.hideTip();
-        view.signal('hover', -1).run();
+            title: 'reduction ' + kit.digits(values[i])
+          };
+        }
       });
     }
   };
@@ -182,6 +125,23 @@ if (!self) return;
 kit.keyboard(self, function() {
   return stops ? stops() : [];
 });
+var facts = kit.make('p', {class: 'facts'});
+self.legend.before(facts);
+function describe() {
+  var point = kit.byId[id], usable = kit.windowOfReduction(point);
+  facts.textContent = '';
+  if (usable)
+    facts.append(
+        'Usable from ', kit.make('b', {}, kit.digits(usable.from)), ' to ', kit.make('b', {}, kit.digits(usable.to)),
+        usable.placed ? ' at every placement of the grid. ' : '. ');
+  else
+    facts.append(
+        kit.make('b', {style: 'color:var(--bad)'}, 'No usable window. '),
+        (point.reductions.why || 'No reduction keeps the bounds') + '. ');
+  facts.append(
+      'Least error at ' + kit.digits(point.metrics.best_reduction) + ', with ' +
+      kit.shown(point.metrics.best_reduction_error, 'fraction') + ' on the exact map.');
+}
 function controls() {
   self.controls.textContent = '';
   if (curved.length > 1)
@@ -194,20 +154,15 @@ function controls() {
         }));
 }
 ['error'].concat(causes).forEach(function(s) {
-  var mark = kit.make('span');
-  if (s === 'error')
-    mark.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" ' +
-        'stroke="var(--ink)" stroke-width="1.5" stroke-dasharray="5 3"/></svg>';
-  else
-    mark.append(kit.make('i', {class: 'sw c-' + s}));
-  mark.append(s === 'error' ? 'Error, mean |R4 − R1|' : nameOf(s));
-  self.legend.append(mark);
+  self.legend.append(of.key(s, s === 'error' ? 'Error, mean |R5 − R1|' : '', dashes[s]));
 });
 page.onSelect.push(function(chosen) {
   if (!kit.byId[chosen].reductions) return;
   id = chosen;
   controls();
+  describe();
   self.draw();
 });
 controls();
+describe();
 })();

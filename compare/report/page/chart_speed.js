@@ -33,9 +33,13 @@ function nameOf(entry) {
 function causeOf(entry) {
   return page.bias === 'set' ? entry.set_cause : entry.cause;
 }
+// 'bias' or 'light-bleed reduction'
+function wordOf(entry) {
+  return (kit.byId[entry.id].at || {word: data.free}).word;
+}
 function windowText(entry) {
-  return entry.window === 'empty' ? 'none: no bias is good enough' :
-      entry.window === 'no_curve' ? 'no bias curve' :
+  return entry.window === 'empty' ? 'none: no ' + wordOf(entry) + ' is good enough' :
+      entry.window === 'no_curve' ? 'no curve over a bias or a reduction' :
                                     entry.bias.from + ' … ' + entry.bias.to;
 }
 
@@ -136,7 +140,8 @@ function tip(event, row) {
   if (e.window !== 'no_curve')
     rows.push([of.at_bias ? 'at ' + e.bias.parameter : 'best ' + e.bias.parameter, e.bias.value]);
   rows.push(['usable window', windowText(e)]);
-  if (!of.at_bias) rows.push(['this error', 'with the bias as rendered']);
+  if (!of.at_bias)
+    rows.push(['this error', e.window === 'no_curve' ? 'as rendered' : 'with the ' + wordOf(e) + ' as rendered']);
   var cause = causeOf(e);
   if (cause) rows.push(['largest cause', kit.causeLabel[cause] || cause, cause]);
   rows.push(['good enough', e.good ? 'yes' : e.window === 'no_curve' ? 'no, or no criterion' : 'no']);
@@ -154,11 +159,7 @@ var shownRows = [], shownMarks = [];
 var self = kit.chart('cost', function(width) {
   var g = group(), read = reading(), curves = g.curves[read.curves] || [];
   var wide = width >= 680 && g.scale !== '';
-  var left = 64,
-      right = wide ? kit.speed.roomFor(read.ahead.map(function(technique) {
-        return g.techniques[technique];
-      })) :
-                     12;
+  var left = 64, right = wide ? kit.speed.roomFor(g.techniques) : 12;
   var w = width - left - right, height = width < 520 ? 320 : 420;
   var entries = g.entries, rows = rowsOf(entries), all = [];
   shownRows = rows;
@@ -207,6 +208,11 @@ var self = kit.chart('cost', function(width) {
     ends.push(
         {text: g.techniques[technique], must: end.ahead, colour: colourOf(technique), at: pixels(end), from: end.px});
   });
+  // A curve that ends far from the edge has its name at its end; a line to the edge would cross the others. A letter of bold text
+  // has some 8 pixels.
+  function endsInside(label) {
+    return label.from + 20 + 8 * label.text.length < w;
+  }
   // The bars: of the described choice, and along the curves that err least somewhere, so that they hide nothing else.
   var bars = rows.filter(function(r) {
     r.colour = 'var(--soft)';
@@ -243,7 +249,16 @@ var self = kit.chart('cost', function(width) {
             return r.high > r.low;
           })
         },
-        {name: 'curves', values: lines}, {name: 'labels', values: wide ? kit.speed.spread(ends, height) : []},
+        {name: 'curves', values: lines}, {
+          name: 'labels',
+          values: wide ? kit.speed.spread(
+                             ends.filter(function(label) {
+                               return !endsInside(label);
+                             }),
+                             height) :
+                         []
+        },
+        {name: 'ends', values: wide ? ends.filter(endsInside) : []},
         {name: 'front', values: last ? front.concat([{px: w, y: last.y}]) : []}, {
           name: 'answers',
           values: only(function(r) {
@@ -334,10 +349,11 @@ function tell(rows, missing) {
     return r.entry.window !== 'no_curve' && !errorOf(r.entry).at_bias;
   });
   if (rendered.length && page.bias === 'set')
-    text.push('Each choice is at the bias as set; those outside their usable window are crosses.');
+    text.push('Each choice is at the ' + data.free + ' as set; those outside their usable window are crosses.');
   else if (rendered.length)
     text.push(
-        'This error has no bias curve, so it is that of the bias as rendered. Choices rendered outside their usable window are crosses.');
+        'No curve over the ' + data.free +
+        ' gives this error of the choices, so it is as rendered. Choices rendered outside their usable window are crosses.');
   if (rows.some(function(r) {
         return r.high > r.low;
       }))
@@ -425,7 +441,7 @@ function legend() {
   }
   self.legend.append(kit.make('span', {class: 'title'}, 'Marks'));
   line('stroke="var(--accent)" stroke-width="1.6" stroke-dasharray="2 3"', 'Pareto front');
-  symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable bias');
+  symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable ' + data.free);
   symbol(
       '<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>',
       'over the usable window, or what was tried');

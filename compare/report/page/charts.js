@@ -70,7 +70,8 @@ function shown(v, unit) {
                             digits(v) + (unit && unit !== 'count' ? thin + unitBehind(v, unit) : '');
 }
 function value(point, measure) {
-  if (measure === 'best_error') return point.curve ? point.curve.best_error : NaN;
+  if (measure === 'best_error')
+    return point.curve ? point.curve.best_error : point.reductions ? point.metrics.best_reduction_error : NaN;
   var at = page.bias === 'recommended' && point.at && point.at.metrics;
   if (at && measure in at) return at[measure];
   return measure in point.metrics ? point.metrics[measure] : NaN;
@@ -89,8 +90,13 @@ function nameOf(p, mode) {
   var phrase = phraseOf(p, mode);
   return 'Point ' + p.id + (phrase ? ': ' + phrase : '');
 }
+// 'bias' or 'light-bleed reduction' (free_setting_words()) in the few letters of a label: 'Bias', 'Reduction', 'Bias, reduction'.
+function freeLabel(words) {
+  var label = words.replace('light-bleed ', '').replace(' or ', ', ');
+  return label.charAt(0).toUpperCase() + label.slice(1);
+}
 function measureLabel(m) {
-  return m === 'best_error' ? 'Error at the best bias' : metricOf[m] ? metricOf[m].label : m;
+  return m === 'best_error' ? 'Error at the best ' + data.free : metricOf[m] ? metricOf[m].label : m;
 }
 function measureUnit(m) {
   return m === 'best_error' ? 'fraction' : metricOf[m] ? metricOf[m].unit : '';
@@ -106,7 +112,7 @@ function measures() {
   var list = [data.speed.error].concat(
       data.speed.errors,
       data.points.some(function(p) {
-        return p.curve;
+        return p.curve || p.reductions;
       }) ?
           ['best_error'] :
           [],
@@ -432,7 +438,201 @@ function zeroLabel(floor) {
   }];
 }
 
+// ---- what the charts of a point's own curve share (chart_bias.js, chart_reduction.js): error and causes against its free setting
+var errorDash = [5, 3];
+function curveName(series) {
+  return series === 'error' ? 'Error' : causeLabel[series] || series;
+}
+function curveColour(series) {
+  return series === 'error' ? 'var(--ink)' : 'var(--c-' + series + ')';
+}
+// The ends of a logarithmic axis for these values: it covers four decades below the largest.
+function curveRange(values) {
+  var positive = values.filter(function(v) {
+    return v > 0;
+  });
+  var top = 1.3 * Math.max.apply(null, positive.concat(1e-6)), least = Math.min.apply(null, positive.concat(top / 100));
+  return {bottom: Math.max(least / 1.5, top / 3e4), top: top};
+}
+// Below the axis a line is left out, except for the parts by which it enters or leaves. joined: whether there is a line to the
+// value after this one.
+function onAxis(values, i, bottom, joined) {
+  return values[i] >= bottom || values[i - 1] >= bottom || (joined && values[i + 1] >= bottom);
+}
+// The shade of a usable window. from, to: encodings of x.
+function curveWindow(from, to, height) {
+  return {
+    type: 'rect',
+    interactive: false,
+    encode: {enter: {x: from, x2: to, y: {value: 0}, y2: {value: height}, fill: {value: 'var(--window)'}}}
+  };
+}
+// Dashed lines at the bounds: [[0.001, 'acne bound'], ...]; one if both are equal. textX: where their names begin.
+function curveBounds(bounds, width, textX) {
+  if (bounds.length === 2 && bounds[0][0] === bounds[1][0]) bounds = [[bounds[0][0], 'bound']];
+  return [].concat.apply(
+      [],
+      bounds
+          .filter(function(b) {
+            return b[0] > 0;
+          })
+          .map(function(b) {
+            return [
+              {
+                type: 'rule',
+                name: 'bound',
+                interactive: false,
+                encode: {
+                  enter: {
+                    x: {value: 0},
+                    x2: {value: width},
+                    y: {scale: 'y', value: b[0]},
+                    stroke: {value: 'var(--faint)'},
+                    strokeDash: {value: [3, 3]}
+                  }
+                }
+              },
+              {
+                type: 'text',
+                interactive: false,
+                encode: {
+                  enter: {
+                    x: {value: textX},
+                    y: {scale: 'y', value: b[0]},
+                    dy: {value: -5},
+                    align: {value: 'left'},
+                    text: {value: b[1] + ' ' + shown(b[0], 'fraction')},
+                    fontSize: {value: 11}
+                  }
+                }
+              }
+            ];
+          }));
+}
+// A line over the height at a value with a name: 'best' in the first row (0), 'as set' dashed in the second (1). side: -1: the
+// name stands on the left of it.
+function curveMark(x, name, row, side, height) {
+  var colour = row ? 'var(--accent)' : 'var(--good)';
+  return [
+    {
+      type: 'rule',
+      interactive: false,
+      encode: {
+        enter: {
+          x: x,
+          x2: x,
+          y: {value: 20 + 16 * row},
+          y2: {value: height},
+          stroke: {value: colour},
+          strokeWidth: {value: 1.4},
+          strokeDash: {value: row ? [4, 3] : [1, 0]}
+        }
+      }
+    },
+    {
+      type: 'text',
+      interactive: false,
+      encode: {
+        enter: {
+          x: x,
+          y: {value: 32 + 16 * row},
+          dx: {value: side * 5},
+          align: {value: side < 0 ? 'right' : 'left'},
+          text: {value: name},
+          fill: {value: colour},
+          fontWeight: {value: 600}
+        }
+      }
+    }
+  ];
+}
+// The line under the pointer, at the signal `hover`; none below 0.
+function curveCursor(height) {
+  return {
+    type: 'rule',
+    name: 'cursor',
+    interactive: false,
+    encode: {
+      update: {
+        x: {signal: 'hover'},
+        y: {value: 0},
+        y2: {value: height},
+        stroke: {value: 'var(--soft)'},
+        opacity: {signal: 'hover < 0 ? 0 : 0.6'}
+      }
+    }
+  };
+}
+// The left axis. range: of a logarithmic scale; undefined: the scale is linear.
+function curveAxis(range) {
+  return {
+    orient: 'left',
+    scale: 'y',
+    grid: true,
+    values: range ? logTicks(range.bottom, range.top) : undefined,
+    tickCount: 6,
+    domain: false,
+    ticks: false,
+    title: 'share of counted receivers',
+    encode: {labels: {update: {text: {signal: axisLabel('fraction')}}}}
+  };
+}
+// Follows the pointer along the entries of a curve. of: left, the room before the plot; count, of the entries; place(i), where
+// entry i stands; nearest(px), the entry nearest to a place; tip(i), rows and title. Returns the stops for kit.keyboard().
+function curveHover(view, plot, of) {
+  var svg = plot.querySelector('svg');
+  svg.addEventListener('mousemove', function(event) {
+    var i = of.nearest(event.clientX - svg.getBoundingClientRect().left - of.left), said = of.tip(i);
+    view.signal('hover', of.place(i)).run();
+    showTip(event, said.rows, said.title);
+  });
+  svg.addEventListener('mouseleave', function() {
+    hideTip();
+    view.signal('hover', -1).run();
+  });
+  return function() {
+    var box = svg.getBoundingClientRect(), stops = [];
+    for (var i = 0; i < of.count; ++i)
+      stops.push({element: svg, x: box.left + of.left + of.place(i), y: box.top + box.height / 3});
+    return stops;
+  };
+}
+// An entry of the legend: a swatch, or a line where the series is dashed.
+function curveKey(series, words, dash) {
+  var entry = make('span');
+  if (dash)
+    entry.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="' +
+        curveColour(series) + '" stroke-width="' + (series === 'error' ? 1.5 : 2.4) + '" stroke-dasharray="' +
+        dash.join(' ') + '"/></svg>';
+  else
+    entry.append(make('i', {class: 'sw c-' + series}));
+  entry.append(words || curveName(series));
+  return entry;
+}
+// The usable reductions of a point, at every placement of the grid if it has several; null: none.
+function windowOfReduction(point) {
+  var placed = point.metrics.error_mean !== undefined, ending = placed ? '_worst' : '',
+      from = point.metrics['reduction_min' + ending], to = point.metrics['reduction_max' + ending];
+  return finite(from) && finite(to) ? {from: from, to: to, placed: placed} : null;
+}
+
 page.kit = {
+  freeLabel: freeLabel,
+  windowOfReduction: windowOfReduction,
+  curve: {
+    errorDash: errorDash,
+    nameOf: curveName,
+    colourOf: curveColour,
+    range: curveRange,
+    onAxis: onAxis,
+    window: curveWindow,
+    bounds: curveBounds,
+    mark: curveMark,
+    cursor: curveCursor,
+    axis: curveAxis,
+    hover: curveHover,
+    key: curveKey
+  },
   make: make,
   finite: finite,
   digits: digits,

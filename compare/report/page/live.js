@@ -129,7 +129,7 @@ function start(bytes) {
     });
   }
   function fromDepth(d) {
-    return stack ? d / live.depth_per_unit : d;
+    return stack && live.depth_per_unit ? d / live.depth_per_unit : d;
   }
   // In window depth; of a stack in the parameter's unit.
   var depth = 0;
@@ -141,7 +141,7 @@ function start(bytes) {
   }
   // The point's own pictures, in full size, are of the bias as set, and some of the recommended one. They are shown at these
   // biases, and the live picture at every other.
-  var recommended = ' at the recommended bias', choices = [], whole = make('img', {class: 'whole', hidden: ''});
+  var recommended = ' as recommended', choices = [], whole = make('img', {class: 'whole', hidden: ''});
   canvas.before(whole);
   function own(name) {
     return document.querySelector('.pictures[data-point="' + live.point + '"] figure[data-name="' + name + '"] img');
@@ -149,10 +149,14 @@ function start(bytes) {
   function isAt(mark) {
     return same(depth, mark);
   }
+  // Whether the recommended value is one of the setting on the slider.
+  function isOfStage(at) {
+    return Boolean(at) && at.parameter === live.parameter;
+  }
   // The recommended bias of the point, if the page has the point's pictures there.
   function recommendedBias() {
     var p = kit.byId[live.point];
-    return p && p.at && own('map' + recommended) ? (stack ? p.at.value : p.at.depth) : NaN;
+    return p && isOfStage(p.at) && own('map' + recommended) ? (stack ? p.at.value : p.at.depth) : NaN;
   }
   if (stack) {
     stops = live.values.map(function(v) {
@@ -184,13 +188,17 @@ function start(bytes) {
     whole.alt = found.alt;
     return numbers;
   }
+  var told = live.told || ['acne', 'peter_panning'];
   function tell(words, values) {
     facts.textContent = '';
     facts.append(
         make('b', {}, live.parameter), ' ' + text(depth) + words + ' · error ',
-        make('b', {}, kit.shown(values.error, 'fraction')), ' · acne ',
-        make('b', {}, kit.shown(values.acne, 'fraction')), ' · Peter Panning ',
-        make('b', {}, kit.shown(values.peter_panning, 'fraction')));
+        make('b', {}, kit.shown(values.error, 'fraction')));
+    told.forEach(function(cause) {
+      var name = (kit.causeLabel[cause] || cause).replace(/ \(.*/, '');
+      if (name !== 'Peter Panning') name = name.charAt(0).toLowerCase() + name.slice(1);
+      facts.append(' · ' + name + ' ', make('b', {}, kit.shown(values[cause], 'fraction')));
+    });
   }
   function draw() {
     slider.setAttribute('aria-valuetext', text(depth));
@@ -250,16 +258,16 @@ function start(bytes) {
   // The recommended bias of the point, or the best of its curve.
   function best() {
     var p = kit.byId[live.point];
-    if (p && p.at) return fromDepth(p.at.depth);
+    if (p && isOfStage(p.at)) return fromDepth(p.at.depth);
     return 'recommended' in live.marks ? live.marks.recommended : 'best' in live.marks ? live.marks.best : depth;
   }
   function follow() {
     set(page.bias === 'set' && 'set' in live.marks ? live.marks.set : best());
   }
   page.onBias.push(follow);
-  // Whether there is a picture at a bias in window depth.
-  function has(d) {
-    return !stack || pictureOf(fromDepth(d)) >= 0;
+  // Whether there is a picture at a recommended value of a point (at_bias() in report/point_data.h).
+  function has(at) {
+    return isOfStage(at) && (!stack || pictureOf(fromDepth(at.depth)) >= 0);
   }
   // A picture of the given kind at such a bias, as a data: address.
   function pictureAt(d, wanted) {

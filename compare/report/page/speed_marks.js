@@ -54,30 +54,39 @@ function placed(more) {
   return Object.assign({x: {field: 'px'}, y: {scale: 'y', field: 'y'}}, more);
 }
 
-// Puts the labels of curves beside the plot, one below the other. Each has `at`, where its curve ends in pixels, and `must`:
-// those without it are left out where there is no room. Returns those with a place, `py`.
+// Puts the labels of curves beside the plot, one below the other, in the order in which the curves end, each as near to that end
+// as the others leave room. Each has `at`, where its curve ends in pixels, and `must`: where there is no room for all, some
+// without it are left out. Returns those with a place, `py`.
 function spread(labels, height) {
-  var line = 14, placed = [];
-  function free(y) {
-    return y >= 0 && y <= height && placed.every(function(l) {
-      return Math.abs(l.py - y) >= line;
+  var line = 14, most = Math.floor(height / line) + 1;
+  var kept = labels.slice()
+                 .sort(function(a, b) {
+                   return b.must - a.must || a.at - b.at;
+                 })
+                 .slice(0, most)
+                 .sort(function(a, b) {
+                   return a.at - b.at;
+                 });
+  // Labels that would overlap form a block, whose middle is that of the ends of their curves.
+  var blocks = [];
+  kept.forEach(function(label, i) {
+    var block = {sum: label.at - i * line, labels: [label]};
+    function before() {
+      var last = blocks[blocks.length - 1];
+      return last && last.sum / last.labels.length >= block.sum / block.labels.length ? blocks.pop() : null;
+    }
+    for (var joined = before(); joined; joined = before())
+      block = {sum: joined.sum + block.sum, labels: joined.labels.concat(block.labels)};
+    blocks.push(block);
+  });
+  var room = Math.max(0, height - (kept.length - 1) * line), n = 0;
+  blocks.forEach(function(block) {
+    var top = Math.min(room, Math.max(0, block.sum / block.labels.length));
+    block.labels.forEach(function(label) {
+      label.py = top + line * n++;
     });
-  }
-  labels.slice()
-      .sort(function(a, b) {
-        return b.must - a.must || a.at - b.at;
-      })
-      .forEach(function(label) {
-        var most = label.must ? height : line / 2;
-        for (var off = 0; off <= most; ++off) {
-          var y = [label.at + off, label.at - off].filter(free)[0];
-          if (y === undefined) continue;
-          label.py = y;
-          placed.push(label);
-          return;
-        }
-      });
-  return placed;
+  });
+  return kept;
 }
 
 // The width beside the plot for labels of these texts: a letter of bold text has some 8 pixels. Longer ones are cut.
@@ -275,8 +284,18 @@ function marksOf(w, floor, right) {
             fontWeight: {signal: 'datum.must ? 600 : 400'},
             fill: {signal: 'datum.must ? \'var(--ink)\' : \'var(--soft)\''}
           }),
+          readable('curve-ends', 'ends', {
+            x: {field: 'from', offset: 10},
+            y: {field: 'at'},
+            baseline: {value: 'middle'},
+            text: {field: 'text'},
+            fontSize: {value: 12},
+            fontWeight: {signal: 'datum.must ? 600 : 400'},
+            fill: {signal: 'datum.must ? \'var(--ink)\' : \'var(--soft)\''}
+          }),
           readable('answer-names', 'answers', {
-            x: {signal: 'clamp(datum.px, 30, ' + (w - 30) + ')'},
+            // Within the plot, so that no label of an axis is below it: a letter of bold text has some 7 pixels.
+            x: {signal: 'clamp(datum.px, 3.5 * length(datum.answer), ' + w + ' - 3.5 * length(datum.answer))'},
             y: {scale: 'y', field: 'y'},
             dy: {value: 22},
             align: {value: 'center'},

@@ -125,6 +125,30 @@ TEST(ReductionWindow, IsTheSameWhenSorted) {
   EXPECT_GT(curve[20].peter_panning, 0);
 }
 
+// The bound of a result is found again, and a result of 0 has the exact bound, which is at most the reduction.
+TEST(ReductionWindow, FindsTheBoundOfWhatIsShown) {
+  EXPECT_EQ(bound_of_shown(1, 0.9, 0.3), 1);
+  EXPECT_DOUBLE_EQ(bound_of_shown((0.6 - 0.25) / 0.75, 0.5, 0.25), 0.6);
+  EXPECT_EQ(bound_of_shown(0, 0.125, 0.25), 0.125);
+  EXPECT_EQ(bound_of_shown(0, 0.5, 0.25), 0.25);
+  EXPECT_EQ(bound_of_shown(0.5, 0.1, 0), 0.5);
+}
+
+// Both errors of what is shown, over the receivers of which it is known.
+TEST(ReductionWindow, HasTheErrorsOfWhatIsShown) {
+  ReductionWindow window;
+  window.add({1, 0, {.from = 0, .texels = 0, .bare = 0.25, .bound = 0.25}}, {.truth = 0, .soft = 0.25f, .bound = 0.5f});
+  window.add({0, 1, {.from = 1, .texels = 1, .bare = 1, .bound = 1}}, {.truth = 1, .soft = 0.75f, .bound = 1});
+  window.sort();
+  EXPECT_DOUBLE_EQ(window.shown(0).error, 0.25);
+  EXPECT_DOUBLE_EQ(window.shown(0).error_soft, 0.25);
+  EXPECT_DOUBLE_EQ(window.shown(0.2).error, (0.5 - 0.2) / 0.8 / 2);
+  EXPECT_DOUBLE_EQ(window.shown(0.5).error_soft, (0.25 + 0.25) / 2);
+  const LookupCurvePoint at = reduction_curve(window)[20];
+  EXPECT_DOUBLE_EQ(at.shown_error, window.shown(0.2).error);
+  EXPECT_DOUBLE_EQ(at.shown_error_soft, window.shown(0.2).error_soft);
+}
+
 TEST(ReductionWindow, SaysNothingOfNoReceiver) {
   const ReductionWindow window;
   EXPECT_TRUE(std::isnan(window.at(0).error));

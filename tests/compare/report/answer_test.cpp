@@ -46,5 +46,31 @@ TEST(Answer, WhatIsBrokenComesFirstWithItsBias) {
   EXPECT_EQ(body.find("recommend held"), std::string::npos) << "green beside the broken bound";
 }
 
+// A filtered map has no bias curve: the page speaks of its reduction, wherever it would speak of a bias.
+TEST(Answer, AFilteredMapIsAnsweredWithItsReduction) {
+  const std::string body = without_scripts(render_report(filtered_sample_results(), sample_picture));
+  const auto says = [&](const std::string& words) { return body.find(words) != std::string::npos; };
+  EXPECT_TRUE(says(" and lookup.reduction 0.17: the cheapest setting that is good enough."))
+      << body.substr(body.find("<p class=\"said\">"), 300);
+  EXPECT_TRUE(says("<dt>lookup.reduction</dt>"));
+  EXPECT_TRUE(says("Largest causes there, with this reduction (causes that no curve gives: as rendered)"));
+  EXPECT_TRUE(says("the light-bleed reduction window is not empty"));
+  EXPECT_TRUE(
+      says("Of 3 choices 2 have a usable light-bleed reduction window; 1 has none, so no light-bleed reduction makes "
+           "it good"));
+  EXPECT_TRUE(
+      says("No reduction is usable at 1 of 3 points</b>: no value of lookup.reduction keeps the leak at most 0.1"));
+  EXPECT_TRUE(says(
+      ">resolution 256\u202ftexels</a>: without a reduction the leak is 1%; 0.27 keeps it within 0.1%, and there the "
+      "reduction darkens 0.135% and over-darkening is 0.01%"));
+  EXPECT_TRUE(
+      says("The reduction as set is too small at 1 of 3 points</b>: it leaves a leak, and a larger one would not"));
+  EXPECT_TRUE(says("The reduction as set is too large at 1 of 3 points</b>: it darkens more than necessary"));
+  EXPECT_TRUE(says("with the light-bleed reduction as rendered"));
+  for (const char* wrong :
+       {"bias curve", "No bias", "usable bias", "The bias as", "with this bias", "the bias as", "Bias</th>"})
+    EXPECT_FALSE(says(wrong)) << wrong << ": " << body.substr(body.find(wrong) - 100, 300);
+}
+
 }  // namespace
 }  // namespace noonmark

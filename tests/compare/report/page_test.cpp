@@ -211,7 +211,8 @@ class BandsPage : public Browser {
     for (size_t k : {5u, 9u}) {
       for (int i = 0; i < 100; ++i) {
         const double r = i / 100.0, leak = std::max(0.0, 0.002 * (0.3 - r));
-        results.points[k].lookup_curve.push_back({"lookup.reduction", r, leak + 0.05 * r, leak, 0.001, 0, 0.05 * r});
+        results.points[k].lookup_curve.push_back(
+            {"lookup.reduction", r, leak + 0.05 * r, leak, 0.001, 0, 0.05 * r, 0, 0, 0, leak + 0.05 * r});
       }
       results.points[k].metrics.insert(
           {{"best_reduction", 0}, {"best_reduction_error", 0.0006}, {"reduction_min", 0.1}, {"reduction_max", 0.2}});
@@ -232,6 +233,30 @@ TEST_F(BandsPage, TheBiasChartDrawsTheBandsOfAllPlacements) {
 TEST_F(BandsPage, TheReductionChartDrawsTheSeriesAboveZeroAndTheWindow) {
   EXPECT_EQ(marks("chart-reduction", "line"), 4) << "error, leak, reduction and over-darkening; no Peter Panning";
   EXPECT_EQ(marks("chart-reduction", "rect"), 1) << "the window";
+}
+
+class FilteredPage : public Browser {
+ protected:
+  void SetUp() override { open(render_report(filtered_sample_results(), sample_picture), "reduction_probe.js"); }
+};
+
+TEST_F(FilteredPage, IsReadAtItsReduction) {
+  EXPECT_EQ(saw_["choice"], "Reduction") << "the switch of the whole page";
+  EXPECT_EQ(saw_["first"],
+            "No usable window. Without a reduction the leak is 1%; 0.27 keeps it within 0.1%, and there the "
+            "reduction darkens 0.135% and over-darkening is 0.01%, of which at most 0.1% each is allowed. Least "
+            "error at 0.2, with 1\u202f% on the exact map.");
+  EXPECT_EQ(saw_["second"], "Usable from 0.15 to 0.2. Least error at 0.2, with 0.5\u202f% on the exact map.");
+  EXPECT_EQ(saw_["windows"], (json{0, 1}));
+  EXPECT_EQ(saw_["bound"], "bound 0.1\u202f%") << "both bounds are equal";
+  EXPECT_EQ(saw_["bounds"], 1);
+  // The leak is 0 from 0.3 on: its line ends there, and none runs along the axis.
+  EXPECT_EQ(saw_["zeros"], 1) << "the end of the line alone";
+  EXPECT_EQ(saw_["dashed"], (json{"Error, mean |R5 − R1|", "Over-darkening (moments, too dark)"}));
+  const std::string verdict = saw_["verdict"];
+  EXPECT_NE(verdict.find(" at lookup.reduction 0.17, which is usable."), std::string::npos) << verdict;
+  EXPECT_NE(verdict.find("Usable reductions: 0.15 to 0.2."), std::string::npos) << verdict;
+  EXPECT_NE(saw_["command"].get<std::string>().find("lookup.reduction=0.17"), std::string::npos) << saw_["command"];
 }
 
 // Two groups of choices. One choice has no curve and no error, one has no usable window.

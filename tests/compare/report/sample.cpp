@@ -184,6 +184,36 @@ Results sample_results() {
   return results;
 }
 
+Results filtered_sample_results() {
+  Results results = sample_results();
+  results.bounds.clear(), results.laws.clear();
+  results.info.swept = {"map.resolution"};
+  results.points.resize(3);
+  results.planned_points = 3;
+  for (size_t k = 0; k < 3; ++k) {
+    PointRecord& point = results.points[k];
+    point.curve.reset(), point.worst_of.clear(), point.causes.clear();
+    point.settings["lookup.kind"] = "vsm", point.settings["filter.kind"] = "box",
+    point.settings["lookup.reduction"] = "0";
+    point.settings["map.resolution"] = std::to_string(256 << k), point.settings["map.extent_m"] = "10";
+    point.metrics["texel_work"] = std::pow(4.0, static_cast<double>(k));
+    point.metrics["acne"] = point.metrics["peter_panning"] = 0;
+    point.metrics.insert({{"leak", 0.002}, {"over_darkening", 0.0001}, {"reduction", 0}});
+    const double leaks = k == 0 ? 0.01 : 0.002;
+    for (int i = 0; i < 100; ++i) {
+      const double r = i / 100.0, leak = std::max(0.0, leaks * (1 - r / 0.3)),
+                   error = 0.01 / (1 << k) + 0.02 * std::abs(r - 0.2);
+      point.lookup_curve.push_back(
+          {"lookup.reduction", r, error, leak, 0.0001, 0, 0.005 * r, 0.001, 0.001, 0, error, 1.1 * error});
+    }
+    point.metrics.insert({{"best_reduction", 0.2}, {"best_reduction_error", 0.01 / (1 << k)}});
+    point.lookup_bounds = CauseBounds{};
+    if (k > 0) point.metrics.insert({{"reduction_min", 0.15}, {"reduction_max", 0.2}});
+  }
+  results.points[2].settings["lookup.reduction"] = "0.5";
+  return results;
+}
+
 std::string sample_picture(const std::string& path) {
   if (!path.starts_with("images/p0018-")) throw Error(ErrorKind::usage, "there is no " + path);
   const bool classes = path.find("classes") != std::string::npos, truth = path.find("truth") != std::string::npos;

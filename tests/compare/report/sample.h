@@ -9,6 +9,9 @@
 namespace noonmark {
 
 Results sample_results();
+// The same made to a sweep of a filtered map over three resolutions: the coarsest has no usable reduction, because of its leak,
+// and the finest is rendered with a reduction above its window.
+Results filtered_sample_results();
 // A valid PNG (8-bit RGB, stored without compression) for each path in sample_results. Throws for other paths.
 std::string sample_picture(const std::string& path);
 

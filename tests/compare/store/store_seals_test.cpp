@@ -169,7 +169,7 @@ TEST_F(StoreSeals, NoticeLostAndForeignRows) {
 // If a point is moved to another number, its seal and its numbers move too, but the name in the seal does not fit.
 TEST_F(StoreSeals, NoticeARenumberedPoint) {
   for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures", "images",
-                            "curve_windows", "worst_pixels", "cascades", "lookup_curves", "reduction_bounds"})
+                            "curve_windows", "worst_pixels", "cascades", "lookup_curves", "lookup_bounds"})
     edit("UPDATE " + std::string(table) + " SET point = 9 WHERE point = 1");
   edit("UPDATE seals SET name = 'point 9' WHERE name = 'point 1'");
   EXPECT_NE(refusal().find("rows of point 9 "), std::string::npos);
