@@ -4,9 +4,11 @@
 
 #include <map>
 
+#include "app/advise/recommend_filtered.h"
 #include "base/error.h"
 #include "compare/results/quantities.h"
 #include "measure/memory_estimate.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -34,6 +36,9 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
     raise(promise.error, worst_placed(point, accuracy));
     raise(promise.acne, worst_placed(point, "acne"));
     raise(promise.peter_panning, worst_placed(point, "peter_panning"));
+    if (!reads_moments(settings)) continue;
+    if (!promise.filtered) promise.filtered.emplace();
+    raise(*promise.filtered, filtered_shares(point));
   }
   return promise;
 }
@@ -77,9 +82,14 @@ EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engi
 
 std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended) {
   if (!advice.promise) return "error not known: " + advice.why_not_emulated;
-  return fmt::format("error {} with these lines (recommended: {}){}", percent_of(advice.promise->error),
-                     percent_of(recommended.error),
-                     advice.promise->all_views ? "" : ", measured at the given view alone");
+  return fmt::format("error {} with these lines (recommended: {}){}{}", percent_of(advice.promise->error),
+                     percent_of(recommended.error), advice.promise->all_views ? "" : ", measured at the given view alone",
+                     format_text(advice));
+}
+
+std::string format_text(const EngineAdvice& advice) {
+  if (!advice.emulated || !reads_moments(*advice.emulated)) return "";
+  return fmt::format(", measured with map.moments = {}", find_setting("map.moments").get(*advice.emulated));
 }
 
 std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& bounds, std::optional<double> error) {
@@ -91,6 +101,11 @@ std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& 
   };
   compare("acne", advice.promise->acne, bounds.acne_bound);
   compare("Peter Panning", advice.promise->peter_panning, bounds.peter_panning_bound);
+  if (const std::optional<FilteredShares>& shares = advice.promise->filtered) {
+    compare("leak", shares->leak, bounds.peter_panning_bound);
+    compare("over-darkening", shares->over_darkening, bounds.acne_bound);
+    compare("what the reduction darkens", shares->reduction, bounds.acne_bound);
+  }
   if (error) compare("error", advice.promise->error, *error);
   return broken.empty() ? "" : "these lines are not an answer: " + broken;
 }
