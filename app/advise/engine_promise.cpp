@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/advise/recommend_filtered.h"
+#include "app/advise/recommend_judge.h"
 #include "base/error.h"
 #include "compare/results/quantities.h"
 #include "measure/memory_estimate.h"
@@ -33,10 +34,12 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
     require_memory(bench.memory(settings, false, false), bench.memory_of_program(false), "the engine's map");
     const PointRecord point = bench.measure(settings, std::nullopt, metric_set_for(accuracy)).record;
     if (nothing_judged(point)) continue;
-    raise(promise.error, worst_placed(point, accuracy));
+    // As the error of an answer: of a filtered map that of the worst placement, where it is measured at each.
+    const bool filtered = reads_moments(settings);
+    raise(promise.error, worst_placed(point, filtered ? placed_accuracy(bench, settings, accuracy) : accuracy));
     raise(promise.acne, worst_placed(point, "acne"));
     raise(promise.peter_panning, worst_placed(point, "peter_panning"));
-    if (!reads_moments(settings)) continue;
+    if (!filtered) continue;
     if (!promise.filtered) promise.filtered.emplace();
     raise(*promise.filtered, filtered_shares(point));
   }

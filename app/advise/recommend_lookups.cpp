@@ -42,12 +42,8 @@ int rank_of(const Tried& tried) { return tried.held ? 0 : tried.usable() ? 1 : 2
 
 const Tried* best_of(const Advice& advice, const std::string& lookup) {
   const Tried* best = nullptr;
-  for (const Tried& tried : advice.tried) {
-    if (tried.settings.lookup.kind != lookup) continue;
-    if (!best || std::pair(rank_of(tried), order_of(tried, advice.request)) <
-                     std::pair(rank_of(*best), order_of(*best, advice.request)))
-      best = &tried;
-  }
+  for (const Tried& tried : advice.tried)
+    if (tried.settings.lookup.kind == lookup && (!best || is_nearer(tried, *best, advice.request))) best = &tried;
   return best;
 }
 
@@ -61,6 +57,10 @@ std::string why_not_measured(const Advice& advice) {
 }
 
 }  // namespace
+
+bool is_nearer(const Tried& tried, const Tried& than, const AdviceRequest& request) {
+  return std::pair(rank_of(tried), order_of(tried, request)) < std::pair(rank_of(than), order_of(than, request));
+}
 
 std::string outcome_name(LookupFate::Outcome outcome) {
   switch (outcome) {

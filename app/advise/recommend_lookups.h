@@ -25,6 +25,10 @@ std::string outcome_name(LookupFate::Outcome outcome);  // "not measured"
 // advice.
 std::vector<LookupFate> lookup_fates(const Advice& advice);
 
+// Of two settings that are no answer, whether the first came nearer to one: what keeps the bounds before what fails for the eye,
+// for an error or a budget, and that before what breaks a bound on causes, by how far.
+bool is_nearer(const Tried& tried, const Tried& than, const AdviceRequest& request);
+
 // By which multiple of its bound the worst of these shares is left. Infinite if a bound is 0 and its share is not.
 double excess(const FilteredShares& shares, const CurveOptions& bounds);
 

@@ -20,6 +20,8 @@ namespace {
 
 std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
+std::string million(double work) { return fmt::format("{:.3g} million", work / 1e6); }
+
 std::string filter_text(const FilterSettings& filter) {
   if (filter.kind == "none") return "no filter";
   if (filter.kind == "castano") return fmt::format("the filter castano {0} x {0}", filter.whole("size"));
@@ -43,6 +45,18 @@ std::string lookup_text(const Settings& settings) {
 // "19.5 mm", "1.2 m"
 std::string length_text(double metres) {
   return metres < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
+}
+
+std::string_view unit_of_bias(const Settings& settings) {
+  switch (settings.bias.unit) {
+    case BiasUnit::texel:
+      return "texels";
+    case BiasUnit::depth:
+      return "of the depth from near to far";
+    case BiasUnit::m:
+      break;
+  }
+  return "m";
 }
 
 // extent_m: of a directional light's map, to say how wide it and its texels are; 0: that is not said.
@@ -73,7 +87,7 @@ std::string settings_text(const Tried& tried, const AdviceRequest& request, doub
   if (tried.filtered())
     for (const char* part : {"tan", "normal_offset", "constant"})
       if (const double amount = tried.settings.bias[part]; amount > 0)
-        text += fmt::format(", bias.{} = {:g} {}", part, amount, find_setting("bias.unit").get(tried.settings));
+        text += fmt::format(", bias.{} = {:g} {}", part, amount, unit_of_bias(tried.settings));
   if (tried.reduction) text += fmt::format(", and lookup.reduction = {:g}", tried.reduction->value);
   if (tried.bias) text += fmt::format(", and {} = {:g} {}", tried.bias->parameter, tried.bias->value, tried.bias->unit);
   return text;
@@ -143,12 +157,20 @@ std::string eye_bounds_text(const AdviceRequest& request) {
   return text.empty() ? text : text + " at the given view";
 }
 
-// The dearest of the settings that cost less than the answer, and are none.
+// The dearest of the settings that cost less than the answer, and are none; of several of this cost, as filtered maps with the
+// same blur have it, the one that came nearest to an answer.
 const Tried* next_cheaper(const Advice& advice) {
   const Tried* found = nullptr;
   for (const Tried& tried : advice.tried)
-    if (tried.cost < advice.answer()->tried.cost) found = &tried;
+    if (tried.cost < advice.answer()->tried.cost &&
+        (!found || tried.cost > found->cost || (tried.cost == found->cost && is_nearer(tried, *found, advice.request))))
+      found = &tried;
   return found;
+}
+
+// A search allows less than the bounds, so a share above what it allows can be within the bound itself.
+std::string allowed_text(const Tried& tried) {
+  return tried.filtered() && !tried.usable() ? fmt::format(" A search allows {}.", searched_filtered_text()) : "";
 }
 
 // Whether the scene needs a shadow map at all.
@@ -303,8 +325,6 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
   return lines;
 }
 
-std::string million(double work) { return fmt::format("{:.3g} million", work / 1e6); }
-
 // "-65% to +187%", and from 0 on "-100%".
 std::string may_vary(const BiasChoice& bias) {
   const auto change = [&](double end) { return fmt::format("{:+.0f}%", 100 * (end / bias.value - 1)); };
@@ -382,19 +402,19 @@ std::vector<std::string> about_lines(const AdviceRequest& request) {
   return lines;
 }
 
-// The search has the exact map, and OpenGL has its own: which error of a filtered map is to be expected, and why they differ.
-std::string promise_of_rasteriser(const Advice& advice, const Answer& answer) {
-  const std::optional<PointRecord>& worst = answer.verified.worst;
-  if (!answer.tried.filtered() || !worst) return "";
-  const double shown = answer.verified.worst_error, exact = answer.tried.error;
-  std::string text = fmt::format(
-      "Expect the larger: {} of the search ({}), or {} of OpenGL at other placements ({}).", percent(exact),
-      has_placements(*answer.tried.worst) && advice.request.accuracy == "error" ? "the worst placement of the exact map"
-                                                                                : "the map's grid as it is set",
-      percent(shown), "its own map");
-  return text + fmt::format(" There OpenGL's map differs from the exact one by {} (depth format and rasteriser) and {} "
-                            "(rounding of the moments).",
-                            percent(metric_of(*worst, "precision")), percent(metric_of(*worst, "moment_precision")));
+// The errors of a filtered map: the search judges exact maps at its placements, and OpenGL its own map at others.
+std::string promise_of_both(const Answer& answer) {
+  const std::optional<PointRecord>& shown = answer.verified.worst;
+  if (!answer.tried.filtered() || !shown || !answer.tried.worst) return "";
+  const double searched = answer.tried.error, rendered = answer.verified.worst_error;
+  const bool placed = searched == worst_placed(*answer.tried.worst, "error");
+  return fmt::format(
+      "The error to expect is the larger of two, {}: {} {}, and {} of OpenGL's own map at the other placements. At the "
+      "worst of these OpenGL's map differs from the exact one by {} (depth format and rasteriser) and {} (rounding of "
+      "the moments).",
+      percent(std::max(searched, rendered)), percent(searched),
+      placed ? "at the worst of the searched placements of the exact map" : "with the grid where the settings put it",
+      percent(rendered), percent(metric_of(*shown, "precision")), percent(metric_of(*shown, "moment_precision")));
 }
 
 // What each answer buys beside the one before it, and what more texels would buy.
@@ -422,11 +442,14 @@ std::vector<std::string> lookups_text(const Advice& advice) {
   std::vector<std::string> lines;
   for (const LookupFate& fate : lookup_fates(advice))
     lines.push_back(fmt::format(
-        "{}: {}{}.", fate.lookup, fate.why,
-        !fate.best ? "; none of it was measured"
-                   : fmt::format(" ({}: {})", fate.outcome == LookupFate::Outcome::answer ? "set" : "its best",
-                                 settings_text(*fate.best, advice.request))));
-  if (!lines.empty()) lines.insert(lines.begin(), "What became of each lookup:");
+        "  {}: {}.", fate.lookup,
+        !fate.best ? fmt::format("not measured, because {}", fate.why)
+        : fate.outcome == LookupFate::Outcome::answer
+            ? fate.why
+            : fmt::format("its best is {} ({}); {}", settings_text(*fate.best, advice.request), million(fate.best->cost),
+                          fate.why)));
+  if (!lines.empty())
+    lines.insert(lines.begin(), fmt::format("What became of each lookup (a search allows {}):", searched_filtered_text()));
   return lines;
 }
 
@@ -498,7 +521,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
                                    : fmt::format("{} acne, {} Peter Panning", percent(answer.verified.worst_acne),
                                                  percent(answer.verified.worst_peter_panning)),
                   percent(answer.verified.worst_error)));
-  if (const std::string promise = promise_of_rasteriser(advice, answer); !promise.empty()) lines.push_back(promise);
+  if (const std::string both = promise_of_both(answer); !both.empty()) lines.push_back(both);
   if (tried.worst) {
     const std::string causes = causes_text(*tried.worst);
     lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(tried.error),
@@ -517,8 +540,8 @@ std::vector<std::string> advice_text(const Advice& advice) {
         advice.request.places[tried.place].covers));
   lines.push_back(fmt::format("Its work is {} texels written and texture instructions a frame.", million(tried.cost)));
   if (const Tried* cheaper = next_cheaper(advice))
-    lines.push_back(fmt::format("The next cheaper is {} ({}): {}.", settings_text(*cheaper, advice.request),
-                                million(cheaper->cost), cheaper->why_not));
+    lines.push_back(fmt::format("The next cheaper is {} ({}): {}.{}", settings_text(*cheaper, advice.request),
+                                million(cheaper->cost), cheaper->why_not, allowed_text(*cheaper)));
   else
     lines.push_back(fmt::format("Nothing cheaper was tried: the smallest map among the choices has {} texels a side.",
                                 advice.request.resolutions.front()));
