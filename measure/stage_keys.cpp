@@ -34,8 +34,7 @@ std::string own_blur_of(const Settings& settings) {
 }  // namespace
 
 std::string lookup_key_of(const Settings& settings) {
-  const std::string key =
-      settings_key(settings, {Stage::scene, Stage::view, Stage::lookup}) + own_blur_of(settings);
+  const std::string key = settings_key(settings, {Stage::scene, Stage::view, Stage::lookup}) + own_blur_of(settings);
   return Bias(settings.bias).polygon_offset() ? key + find_setting("map.format").get(settings) : key;
 }
 

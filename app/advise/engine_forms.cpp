@@ -24,14 +24,14 @@ constexpr SpreadChoice spread_choices[] = {{1, 1}, {1, 3}, {1, 8}, {2, 5}, {3, 7
 
 void take_three(Settings& settings, const SpreadChoice& blur) {
   bias_levels().front().apply(settings);
-  settings.lookup =
-      LookupSettings("three_vsm", {{"v_min", 1e-7}, {"reduction", 0.3}, {"reduction_span", 0.65}});
+  settings.lookup = LookupSettings("three_vsm", {{"v_min", 1e-7}, {"reduction", 0.3}, {"reduction_span", 0.65}});
   settings.lookup["radius"] = blur.radius;
   settings.lookup["samples"] = blur.samples;
 }
 
 std::string spread_text(double radius, int samples) {
-  return samples == 1 ? "no blur (blurSamples = 1)" : fmt::format("radius = {:g} and blurSamples = {}", radius, samples);
+  return samples == 1 ? "no blur (blurSamples = 1)"
+                      : fmt::format("radius = {:g} and blurSamples = {}", radius, samples);
 }
 
 // The field for a slope is normalBias: on every slope one deviation of the blur along the normal gives more depth than law 17
@@ -56,7 +56,8 @@ std::vector<FilterSettings> babylon_blurs() {
   const auto gaussian = [](int size) {
     return FilterSettings("gaussian", {{"size", size}, {"sigma_texels", (size - 1) / 6.0}});
   };
-  return {{"none", {}}, gaussian(5), {"box", {{"size", 3}}}, gaussian(9), {"box", {{"size", 5}}}, {"box", {{"size", 7}}}};
+  return {{"none", {}},           gaussian(5),           {"box", {{"size", 3}}}, gaussian(9),
+          {"box", {{"size", 5}}}, {"box", {{"size", 7}}}};
 }
 
 // depthScale: Babylon.js's default, and the largest that floats hold (lookup.exponent).
@@ -114,12 +115,16 @@ std::vector<BiasLevel> engine_form_levels(const std::string& lookup, const Curve
 
 std::string engine_form_text(std::string_view lookup) {
   if (lookup == "three_vsm")
-    return "three_vsm is three.js's VSMShadowMap. Searched are mapSize, radius with blurSamples (1 with 3 and 8, 2 with 5, 3 with 7, 4 with "
-           "9; and one sample), and normalBias (0, or the blur's deviation). Its reduction of 0.3 over a span of 0.65 and its "
+    return "three_vsm is three.js's VSMShadowMap. Searched are mapSize, radius with blurSamples (1 with 3 and 8, 2 "
+           "with 5, 3 with 7, 4 with "
+           "9; and one sample), and normalBias (0, or the blur's deviation). Its reduction of 0.3 over a span of 0.65 "
+           "and its "
            "least variance of 1e-7 are fixed. It is measured with floats of 32 bits (map.moments = 32f).";
   return fmt::format(
-      "{} is Babylon.js's use{}ExponentialShadowMap. Searched are the size of the map, depthScale (50 and 87), the blur (none, boxes "
-      "of blurBoxOffset 1 to 3, blurKernel 5 and 9, with blurScale = 1), and {}. It has no reduction of light bleeding. It is "
+      "{} is Babylon.js's use{}ExponentialShadowMap. Searched are the size of the map, depthScale (50 and 87), the "
+      "blur (none, boxes "
+      "of blurBoxOffset 1 to 3, blurKernel 5 and 9, with blurScale = 1), and {}. It has no reduction of light "
+      "bleeding. It is "
       "measured with floats of 32 bits (map.moments = 32f).",
       lookup, lookup == "babylon_close_esm" ? "BlurClose" : "Blur",
       lookup == "babylon_close_esm" ? "bias (0, or the blur's deviation)"

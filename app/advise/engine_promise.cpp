@@ -86,8 +86,8 @@ EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engi
 std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended) {
   if (!advice.promise) return "error not known: " + advice.why_not_emulated;
   return fmt::format("error {} with these lines (recommended: {}){}{}", percent_of(advice.promise->error),
-                     percent_of(recommended.error), advice.promise->all_views ? "" : ", measured at the given view alone",
-                     format_text(advice));
+                     percent_of(recommended.error),
+                     advice.promise->all_views ? "" : ", measured at the given view alone", format_text(advice));
 }
 
 std::string format_text(const EngineAdvice& advice) {

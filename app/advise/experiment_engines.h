@@ -15,7 +15,7 @@ namespace noonmark {
 
 // Which points the lines describe: the one home of this question.
 struct DescribedChoice {
-  std::vector<Settings> conditions;  // of the choice, at the recommended bias; at least one
+  std::vector<Settings> conditions;        // of the choice, at the recommended bias; at least one
   std::vector<const PointRecord*> points;  // the same, as they were measured; in the results
   // "the answer of this report"; empty: there is no other choice.
   std::string why;

@@ -61,9 +61,7 @@ std::vector<std::string> searched_lookups() {
   return names;
 }
 
-double blur_deviation_texels(const FilterSettings& blur) {
-  return deviation(find_filter(blur.kind).blur(blur));
-}
+double blur_deviation_texels(const FilterSettings& blur) { return deviation(find_filter(blur.kind).blur(blur)); }
 
 double short_deviation(std::span<const double> weights) { return std::ceil(deviation(weights) * 100) / 100; }
 

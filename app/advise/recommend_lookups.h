@@ -10,14 +10,15 @@ namespace noonmark {
 
 struct LookupFate {
   enum class Outcome {
-    answer,       // it is one of the three answers
-    lost,         // it keeps the bounds, as far as it was measured, and something else is cheaper, errs less or is simpler
-    broke,        // all of it that was measured breaks a bound
+    answer,  // it is one of the three answers
+    lost,    // it keeps the bounds, as far as it was measured, and something else is cheaper, errs less or is simpler
+    broke,   // all of it that was measured breaks a bound
     not_measured  // none of it could have been an answer
   } outcome = Outcome::not_measured;
   std::string lookup;           // lookup.kind
   const Tried* best = nullptr;  // in the advice: the answer, the best that lost, or what came nearest to the bounds
-  std::string why;              // a clause: "it has the same work, and an error of 0.25% in place of 0.24%, under the first condition"
+  std::string
+      why;  // a clause: "it has the same work, and an error of 0.25% in place of 0.24%, under the first condition"
 };
 std::string outcome_name(LookupFate::Outcome outcome);  // "not measured"
 

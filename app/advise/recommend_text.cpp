@@ -112,16 +112,17 @@ std::string bounds_text(const CurveOptions& bounds) {
 
 // The same of filtered maps, which have no acne.
 std::string filtered_bounds_text(const CurveOptions& bounds) {
-  return fmt::format("leak and Peter Panning each within {}, over-darkening and what the reduction darkens each within {}",
-                     percent(bounds.peter_panning_bound), percent(bounds.acne_bound));
+  return fmt::format(
+      "leak and Peter Panning each within {}, over-darkening and what the reduction darkens each within {}",
+      percent(bounds.peter_panning_bound), percent(bounds.acne_bound));
 }
 
 bool asks_for_filtered(const AdviceRequest& request) {
   return std::any_of(request.levels.begin(), request.levels.end(), [](const BiasLevel& one) { return one.filtered(); });
 }
 bool asks_for_compared(const AdviceRequest& request) {
-  return request.levels.empty() ||
-         std::any_of(request.levels.begin(), request.levels.end(), [](const BiasLevel& one) { return !one.filtered(); });
+  return request.levels.empty() || std::any_of(request.levels.begin(), request.levels.end(),
+                                               [](const BiasLevel& one) { return !one.filtered(); });
 }
 
 // With a gloss for readers who meet the words here first.
@@ -254,11 +255,11 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   if (nearest.filtered() && !nearest.usable() && nearest.worst) {
     const FilteredShares left = filtered_shares(*nearest.worst);
     const auto enough = [](double bound, double found, double share) { return std::max(bound, found / share); };
-    lines.push_back(fmt::format("Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
-                                percent(enough(request.curve.acne_bound, std::max(left.over_darkening, left.reduction),
-                                               searched_acne)),
-                                percent(enough(request.curve.peter_panning_bound, std::max(left.leak, left.peter_panning),
-                                               searched_peter_panning))));
+    lines.push_back(fmt::format(
+        "Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
+        percent(enough(request.curve.acne_bound, std::max(left.over_darkening, left.reduction), searched_acne)),
+        percent(enough(request.curve.peter_panning_bound, std::max(left.leak, left.peter_panning),
+                       searched_peter_panning))));
   }
   if (advice.least_resolution)
     lines.push_back(constant_text(*advice.least_resolution));
@@ -344,7 +345,8 @@ std::vector<std::string> answers_table(const Advice& advice) {
   const bool any_reduction = std::any_of(advice.answers.begin(), advice.answers.end(),
                                          [](const Answer& one) { return one.tried.reduction.has_value(); });
   std::vector<std::vector<std::string>> rows = {
-      {"answer", "work", "error", "edges in pixels, mean and 95%", "largest patch", any_reduction ? "bias or reduction may vary" : "bias may vary", "settings"}};
+      {"answer", "work", "error", "edges in pixels, mean and 95%", "largest patch",
+       any_reduction ? "bias or reduction may vary" : "bias may vary", "settings"}};
   for (const Answer& answer : advice.answers) {
     const Tried& tried = answer.tried;
     rows.push_back(
@@ -441,15 +443,15 @@ std::string steps_text(const Advice& advice) {
 std::vector<std::string> lookups_text(const Advice& advice) {
   std::vector<std::string> lines;
   for (const LookupFate& fate : lookup_fates(advice))
-    lines.push_back(fmt::format(
-        "  {}: {}.", fate.lookup,
-        !fate.best ? fmt::format("not measured, because {}", fate.why)
-        : fate.outcome == LookupFate::Outcome::answer
-            ? fate.why
-            : fmt::format("its best is {} ({}); {}", settings_text(*fate.best, advice.request), million(fate.best->cost),
-                          fate.why)));
+    lines.push_back(fmt::format("  {}: {}.", fate.lookup,
+                                !fate.best ? fmt::format("not measured, because {}", fate.why)
+                                : fate.outcome == LookupFate::Outcome::answer
+                                    ? fate.why
+                                    : fmt::format("its best is {} ({}); {}", settings_text(*fate.best, advice.request),
+                                                  million(fate.best->cost), fate.why)));
   if (!lines.empty())
-    lines.insert(lines.begin(), fmt::format("What became of each lookup (a search allows {}):", searched_filtered_text()));
+    lines.insert(lines.begin(),
+                 fmt::format("What became of each lookup (a search allows {}):", searched_filtered_text()));
   return lines;
 }
 
@@ -465,8 +467,8 @@ std::vector<std::string> advice_text(const Advice& advice) {
   if (advice.shadowed == 0) lines.push_back(needed_text(advice));
   lines.push_back(fmt::format("Set {}.", settings_text(tried, advice.request, answer.extent_m)));
   lines.push_back(fmt::format(
-      "That is the answer \"{}\". All answers keep {}{}{}{}:", kinds_text(answer),
-      glossed_bounds_text(advice), eye_bounds_text(advice.request),
+      "That is the answer \"{}\". All answers keep {}{}{}{}:", kinds_text(answer), glossed_bounds_text(advice),
+      eye_bounds_text(advice.request),
       advice.request.error ? fmt::format(", {} within {}", advice.request.accuracy, percent(*advice.request.error))
                            : "",
       advice.request.source_of_bounds.empty() ? "" : fmt::format(" (bounds: {})", advice.request.source_of_bounds)));
