@@ -288,7 +288,8 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
 // three.js's map has no reduction to choose: what the engine has fields for is searched, and the lines give what was found. Text, JSON
 // and the written experiment say what became of the other lookup.
 TEST_F(Recommend, ThreesOwnMapIsSearchedOverItsFields) {
-  ASSERT_EQ(recommend("layers", {"--lookups", "three_vsm,babylon_esm", "--views", "1", "--set", "map.resolution=512"}),
+  ASSERT_EQ(recommend("layers", {"--lookups", "three_vsm,babylon_esm", "--views", "1", "--acne", "0.15%", "--set",
+                                 "map.resolution=512"}),
             0)
       << output_;
   EXPECT_TRUE(says("VSMShadowMap of three.js with ")) << output_;
