@@ -4,9 +4,12 @@
 
 #include <map>
 
+#include "app/advise/recommend_filtered.h"
+#include "app/advise/recommend_judge.h"
 #include "base/error.h"
 #include "compare/results/quantities.h"
 #include "measure/memory_estimate.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -31,9 +34,14 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
     require_memory(bench.memory(settings, false, false), bench.memory_of_program(false), "the engine's map");
     const PointRecord point = bench.measure(settings, std::nullopt, metric_set_for(accuracy)).record;
     if (nothing_judged(point)) continue;
-    raise(promise.error, worst_placed(point, accuracy));
+    // As the error of an answer: of a filtered map that of the worst placement, where it is measured at each.
+    const bool filtered = reads_moments(settings);
+    raise(promise.error, worst_placed(point, filtered ? placed_accuracy(bench, settings, accuracy) : accuracy));
     raise(promise.acne, worst_placed(point, "acne"));
     raise(promise.peter_panning, worst_placed(point, "peter_panning"));
+    if (!filtered) continue;
+    if (!promise.filtered) promise.filtered.emplace();
+    raise(*promise.filtered, filtered_shares(point));
   }
   return promise;
 }
@@ -77,9 +85,14 @@ EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engi
 
 std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended) {
   if (!advice.promise) return "error not known: " + advice.why_not_emulated;
-  return fmt::format("error {} with these lines (recommended: {}){}", percent_of(advice.promise->error),
+  return fmt::format("error {} with these lines (recommended: {}){}{}", percent_of(advice.promise->error),
                      percent_of(recommended.error),
-                     advice.promise->all_views ? "" : ", measured at the given view alone");
+                     advice.promise->all_views ? "" : ", measured at the given view alone", format_text(advice));
+}
+
+std::string format_text(const EngineAdvice& advice) {
+  if (!advice.emulated || !reads_moments(*advice.emulated)) return "";
+  return fmt::format(", measured with map.moments = {}", find_setting("map.moments").get(*advice.emulated));
 }
 
 std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& bounds, std::optional<double> error) {
@@ -91,6 +104,11 @@ std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& 
   };
   compare("acne", advice.promise->acne, bounds.acne_bound);
   compare("Peter Panning", advice.promise->peter_panning, bounds.peter_panning_bound);
+  if (const std::optional<FilteredShares>& shares = advice.promise->filtered) {
+    compare("leak", shares->leak, bounds.peter_panning_bound);
+    compare("over-darkening", shares->over_darkening, bounds.acne_bound);
+    compare("what the reduction darkens", shares->reduction, bounds.acne_bound);
+  }
   if (error) compare("error", advice.promise->error, *error);
   return broken.empty() ? "" : "these lines are not an answer: " + broken;
 }

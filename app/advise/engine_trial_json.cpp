@@ -3,7 +3,10 @@
 namespace noonmark {
 
 nlohmann::json promise_json(const EnginePromise& promise) {
-  return {{"error", promise.error}, {"acne", promise.acne}, {"peter_panning", promise.peter_panning}};
+  nlohmann::json one{{"error", promise.error}, {"acne", promise.acne}, {"peter_panning", promise.peter_panning}};
+  if (const std::optional<FilteredShares>& shares = promise.filtered)
+    one.update({{"leak", shares->leak}, {"over_darkening", shares->over_darkening}, {"reduction", shares->reduction}});
+  return one;
 }
 
 nlohmann::json trial_json(const EngineTrial& trial) {

@@ -10,6 +10,7 @@
 
 #include "app/advise/recommend_filtered.h"
 #include "app/advise/recommend_judge.h"
+#include "app/advise/recommend_lookups.h"
 #include "app/advise/recommend_screening.h"
 #include "app/advise/recommend_verify.h"
 #include "base/error.h"
@@ -216,10 +217,11 @@ class Search {
     for (auto& [which, record] : of_condition) points.push_back(std::move(record));
     candidate.conditions = points.size();
     if (tried.filtered())
-      judge_reduction(bench_, tried, points, searched_, request_.accuracy);
+      judge_filtered(bench_, tried, points, searched_, request_.accuracy);
     else
       judge_bias(bench_, tried, std::move(points), searched_, request_.accuracy);
     if (!candidate.holds()) return;
+    if (tried.filtered()) tried.screened_error = screening_.error_of(tried);  // its reduction can be another one now
     tried.why_not = why_too_wrong(tried, request_);
     if (!candidate.holds()) return;
     candidate.narrow = tried.bias && tried.bias->narrow;
@@ -319,6 +321,7 @@ class Search {
       if (is_answer(one.tried) || !one.possible) continue;
       Tried tried = one.tried;
       if (one.holds()) {
+        tried.held = true;
         const Candidate* better = simpler(one);
         tried.why_not = better ? fmt::format("{} costs and errs hardly more, and is simpler or less fragile",
                                              name_of(better->tried, request_))
@@ -334,6 +337,7 @@ class Search {
     const double work = tried.cost / answer.cost;
     const auto errors = fmt::format("an error of {:.3g}% in place of {:.3g}%, under the first condition",
                                     100 * tried.screened_error, 100 * answer.screened_error);
+    if (work == 1) return fmt::format("it has the same work and {}", errors);
     if (work < 1) return fmt::format("it has {:.2g} times less work, but {}", 1 / work, errors);
     return tried.screened_error < answer.screened_error
                ? fmt::format("it has {}, but {:.2g} times the work", errors, work)
@@ -344,8 +348,9 @@ class Search {
   std::optional<Tried> look_at_nearest(const std::vector<Tried>& all) {
     const auto distance = [&](const Tried& tried) {
       if (tried.usable()) return std::pair(0, tried.error);
-      if (!tried.nearest) return std::pair(2, 0.0);
-      return std::pair(1, excess(*tried.nearest, searched_));
+      if (tried.nearest) return std::pair(1, excess(*tried.nearest, searched_));
+      if (tried.filtered() && tried.worst) return std::pair(1, excess(filtered_shares(*tried.worst), searched_));
+      return std::pair(2, 0.0);
     };
     const auto found = std::min_element(all.begin(), all.end(),
                                         [&](const Tried& a, const Tried& b) { return distance(a) < distance(b); });

@@ -90,8 +90,12 @@ struct Tried {
   std::optional<NearestBias> nearest;
   std::optional<EyeErrors> eye;  // at the given view, in full size; empty: not looked at
 
-  bool filtered() const;                             // a lookup that reads moments
-  bool usable() const { return bias || reduction; }  // it keeps the bounds on causes with some bias or reduction
+  bool as_is = false;  // a form of an engine that keeps the bounds on causes as it is
+  bool held = false;   // of Advice::tried: it keeps the bounds as far as it was measured, and something else is better
+
+  bool filtered() const;  // a lookup that reads moments
+  // It keeps the bounds on causes, with some bias or reduction where one is free.
+  bool usable() const { return bias || reduction || as_is; }
 };
 
 // At how many placements these settings are searched, along each axis.

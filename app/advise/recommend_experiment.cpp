@@ -55,8 +55,9 @@ std::string advice_experiment(const Answer& chosen, const Advice& advice, const 
   std::string scene = settings.scene.name;
   if (std::error_code none; std::filesystem::is_regular_file(scene, none))
     scene = std::filesystem::proximate(scene, folder);
-  std::string text = fmt::format("# Written by noonmark recommend. noonmark check judges it.\n\n[scene]\nname = {}\n",
-                                 toml_string(scene));
+  std::string text = "# Written by noonmark recommend. noonmark check judges it.\n";
+  for (const std::string& line : lookups_text(advice)) text += fmt::format("# {}\n", line);
+  text += fmt::format("\n[scene]\nname = {}\n", toml_string(scene));
   std::string over, group = "scene";
   for (const Setting& row : settings_table()) {
     const std::string name(row.name), value = row.get(settings);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/advise/engine_forms.h"
 #include "app/advise/recommend_judge.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/reduction_window.h"
@@ -26,8 +27,13 @@ std::vector<FilterSettings> blurs() {
   return {{"none", {}}, {"box", {{"size", 3}}}, {"box", {{"size", 5}}}, {"box", {{"size", 7}}}};
 }
 
-// Three digits, and no less than it is.
-double rounded_up(double value) { return std::ceil(value * 100) / 100; }
+double deviation(std::span<const double> weights) {
+  const double middle = (static_cast<double>(weights.size()) - 1) / 2;
+  double variance = 0.25;  // of a linear fetch half way between two texels, the most
+  for (size_t i = 0; i < weights.size(); ++i)
+    variance += weights[i] * (static_cast<double>(i) - middle) * (static_cast<double>(i) - middle);
+  return std::sqrt(variance);
+}
 
 BiasLevel filtered_level(const std::string& lookup, bool with_bias) {
   BiasLevel level;
@@ -40,7 +46,7 @@ BiasLevel filtered_level(const std::string& lookup, bool with_bias) {
     if (lookup.starts_with("evsm")) settings.lookup["floor"] = evsm_floor;
     if (!with_bias) return;
     settings.bias.unit = BiasUnit::texel;
-    settings.bias["tan"] = rounded_up(blur_deviation_texels(settings.filter));
+    settings.bias["tan"] = short_deviation(find_filter(settings.filter.kind).blur(settings.filter));
   };
   return level;
 }
@@ -51,24 +57,22 @@ std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); 
 
 std::vector<std::string> searched_lookups() {
   std::vector<std::string> names;
-  for (const LookupKind& lookup : lookups())
-    if (lookup.bound) names.emplace_back(lookup.name);
+  for (const LookupKind& lookup : lookups()) names.emplace_back(lookup.name);
   return names;
 }
 
-double blur_deviation_texels(const FilterSettings& blur) {
-  const std::vector<double> weights = find_filter(blur.kind).blur(blur);
-  const double middle = (static_cast<double>(weights.size()) - 1) / 2;
-  double variance = 0.25;  // of a linear fetch half way between two texels, the most
-  for (size_t i = 0; i < weights.size(); ++i)
-    variance += weights[i] * (static_cast<double>(i) - middle) * (static_cast<double>(i) - middle);
-  return std::sqrt(variance);
-}
+double blur_deviation_texels(const FilterSettings& blur) { return deviation(find_filter(blur.kind).blur(blur)); }
 
-std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups) {
+double short_deviation(std::span<const double> weights) { return std::ceil(deviation(weights) * 100) / 100; }
+
+std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups, const CurveOptions& searched) {
   std::vector<BiasLevel> levels;
   for (const std::string& lookup : lookups) {
     if (!find_lookup(lookup).reads_moments()) continue;
+    if (!reduction_is_free(lookup)) {
+      for (BiasLevel& level : engine_form_levels(lookup, searched)) levels.push_back(std::move(level));
+      continue;
+    }
     levels.push_back(filtered_level(lookup, false));
     if (darkens_planes(lookup)) levels.push_back(filtered_level(lookup, true));
   }
@@ -99,6 +103,13 @@ std::string why_not_filtered(const FilteredShares& shares, const CurveOptions& b
   return fmt::format("{}", fmt::join(broken, "; "));
 }
 
+std::string searched_filtered_text() {
+  return fmt::format(
+      "{:.0f}% of the bound on leak and Peter Panning (--peter-panning) and {:.0f}% of that on over-darkening and "
+      "reduction (--acne)",
+      100 * searched_peter_panning, 100 * searched_acne);
+}
+
 std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from) {
   std::vector<Settings> placed;
   for (int v = 0; v < n; ++v)
@@ -126,6 +137,7 @@ std::optional<ReductionChoice> window_of(const PointRecord& point) {
 
 std::string why_no_reduction(const PointRecord& point, const CurveOptions& searched) {
   FilteredShares shares = filtered_shares(point);
+  if (!reduction_is_free(setting_of(point, "lookup.kind"))) return why_not_filtered(shares, searched);
   const double leak = shares.leak;
   shares.leak = shares.reduction = 0;
   if (std::string broken = why_not_filtered(shares, searched); !broken.empty()) return broken;
@@ -135,11 +147,27 @@ std::string why_no_reduction(const PointRecord& point, const CurveOptions& searc
       percent(searched.peter_panning_bound), percent(searched.acne_bound), percent(leak));
 }
 
+namespace {
+
+// The point is the worst so far. False if it breaks a bound.
+bool take_point(Workbench& bench, Tried& tried, PointRecord shown, const CurveOptions& searched,
+                const std::string& accuracy) {
+  const double error = worst_placed(shown, placed_accuracy(bench, settings_of(shown), accuracy));
+  tried.why_not = why_not_filtered(filtered_shares(shown), searched);
+  const bool broken = !tried.why_not.empty();
+  if (broken || !tried.worst || !(error <= tried.error)) tried.error = error, tried.worst = std::move(shown);
+  return !broken;
+}
+
+void judge_as_is(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points, const CurveOptions& searched,
+                 const std::string& accuracy) {
+  tried.as_is = std::all_of(points.begin(), points.end(), [&](const PointRecord& point) {
+    return take_point(bench, tried, point, searched, accuracy);
+  });
+}
+
 void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
                      const CurveOptions& searched, const std::string& accuracy) {
-  tried.reduction.reset();
-  tried.worst.reset();
-  tried.why_not.clear();
   ReductionChoice choice{0, 0, most_reduction};
   double most_error = -1;
   for (const PointRecord& point : points) {
@@ -166,12 +194,22 @@ void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointReco
     Settings there = settings_of(point);
     there.lookup["reduction"] = choice.value;
     PointRecord shown = bench.measure(there, std::nullopt, metric_set_for(accuracy)).record;
-    const double error = worst_placed(shown, placed_accuracy(bench, there, accuracy));
-    tried.why_not = why_not_filtered(filtered_shares(shown), searched);
-    const bool broken = !tried.why_not.empty();
-    if (broken || !tried.worst || !(error <= tried.error)) tried.error = error, tried.worst = std::move(shown);
-    if (broken) return;
+    if (!take_point(bench, tried, std::move(shown), searched, accuracy)) return;
   }
+}
+
+}  // namespace
+
+void judge_filtered(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
+                    const CurveOptions& searched, const std::string& accuracy) {
+  tried.reduction.reset();
+  tried.as_is = false;
+  tried.worst.reset();
+  tried.why_not.clear();
+  if (reduction_is_free(tried.settings.lookup.kind))
+    judge_reduction(bench, tried, points, searched, accuracy);
+  else
+    judge_as_is(bench, tried, points, searched, accuracy);
 }
 
 }  // namespace noonmark

@@ -7,6 +7,7 @@
 // shadow. What the bound of the lookup and its reduction darken is held to the bound on acne.
 #pragma once
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,16 +16,19 @@
 
 namespace noonmark {
 
-// The lookups that can be chosen among, by name: those that compare or that bound the lit share. Forms of engines, whose blur or
-// reduction is their own, cannot.
+// The lookups that can be chosen among, by name: all. Forms of engines are searched over what the engine has fields for
+// (app/advise/engine_forms.h).
 std::vector<std::string> searched_lookups();
 
 // The levels of lookups that read moments, from searched_lookups(), in this order. A lookup that darkens lit slopes (law 17) comes
-// without a bias and with one of a standard deviation of the blur.
-std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups);
+// without a bias and with one of a standard deviation of the blur. searched: the bounds of the search.
+std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups,
+                                       const CurveOptions& searched = searched_bounds({}));
 
 // The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope.
 double blur_deviation_texels(const FilterSettings& blur);
+// The same of the weights of a blur, with two digits after the point, and no less than it is.
+double short_deviation(std::span<const double> weights);
 
 // Of these shares the largest over points and placements.
 FilteredShares filtered_shares(const PointRecord& point);
@@ -33,17 +37,21 @@ void raise(FilteredShares& most, const FilteredShares& other);
 // Which bounds these break, as a clause: "it leaks 0.2%". Empty: none.
 std::string why_not_filtered(const FilteredShares& shares, const CurveOptions& bounds);
 
+// The shares of these bounds that a search uses up, as searched_text().
+std::string searched_filtered_text();
+
 // The settings at n x n places of the grid of texels, the first of them `from` of a step off, each a point that OpenGL renders.
 std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from);
 
 // Of a point that is measured with a curve of these bounds and no reduction: what no reduction can mend, or that none keeps both
-// bounds. Empty: one does.
+// bounds. Of a form of an engine: what it breaks as it is. Empty: nothing.
 std::string why_no_reduction(const PointRecord& point, const CurveOptions& searched);
 
 // Chooses the reduction for the points, one for each condition, which are measured with a curve of the bounds of the search and no
 // reduction, and measures what it gives there: fills Tried::reduction, error and worst, or why_not and worst. With placements
 // the window is that of all of them, and the error the largest. Throws Error.
-void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
-                     const CurveOptions& searched, const std::string& accuracy);
+// Of a form of an engine there is nothing to choose: fills Tried::as_is, error and worst, or why_not and worst.
+void judge_filtered(Workbench& bench, Tried& tried, const std::vector<PointRecord>& points,
+                    const CurveOptions& searched, const std::string& accuracy);
 
 }  // namespace noonmark

@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/advise/engine_trial_json.h"
+#include "app/advise/recommend_lookups.h"
 #include "app/advise/recommend_text.h"
+#include "compare/results/quantities.h"
 #include "scenes/library.h"
 
 namespace noonmark {
@@ -67,12 +69,13 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
       one["reduction"] = {
           {"value", tried.reduction->value}, {"from", tried.reduction->low}, {"to", tried.reduction->high}};
     }
+    if (tried.as_is) one["error"] = tried.error, one["screened_error"] = tried.screened_error;
     if (tried.eye)
       one["eye"] = {{"edge_displacement_mean_pixels", tried.eye->edge_mean_pixels},
                     {edge_metric, tried.eye->edge_p95_pixels},
                     {patch_metric, tried.eye->wrong_patch},
                     {"flip", tried.eye->flip}};
-    if (!tried.why_not.empty()) one["why_not"] = tried.why_not;
+    if (!tried.why_not.empty()) one["why_not"] = tried.why_not, one["held"] = tried.held;
     return one;
   };
   json all;
@@ -82,6 +85,12 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
   all["scene"] = subject_of(advice.request.conditions.front());
   all["accuracy"] = advice.request.accuracy;
   all["answer"] = json();
+  all["lookups"] = json::array();
+  for (const LookupFate& fate : lookup_fates(advice)) {
+    json one{{"lookup", fate.lookup}, {"outcome", outcome_name(fate.outcome)}, {"why", fate.why}};
+    if (fate.best) one["best"] = of(*fate.best);
+    all["lookups"].push_back(one);
+  }
   all["answers"] = json::object();
   for (const Answer& answer : advice.answers) {
     json one = of(answer.tried);
@@ -95,6 +104,10 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
       one["verified"]["worst_leak"] = worst.leak;
       one["verified"]["worst_over_darkening"] = worst.over_darkening;
       one["verified"]["worst_reduction"] = worst.reduction;
+      if (answer.verified.worst)
+        one["verified"]["worst_error_causes"] = {
+            {"precision", metric_of(*answer.verified.worst, "precision")},
+            {"moment_precision", metric_of(*answer.verified.worst, "moment_precision")}};
     }
     for (AnswerKind kind : answer.kinds) all["answers"][answer_name(kind)] = one;
     if (&answer == advice.answer()) all["answer"] = one, all["answer"]["kind"] = answer_name(advice.request.answer);

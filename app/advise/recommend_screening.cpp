@@ -67,6 +67,12 @@ std::string why_too_wrong(const Tried& tried, const AdviceRequest& request) {
   return fmt::format("its error of {:.3g}% is above {:.3g}%", 100 * tried.error, 100 * *request.error);
 }
 
+double Screening::error_of(const Tried& tried) const {
+  const Settings settings = small_picture(tried.settings, request_.width_px);
+  return metric_of(bench_.measure(settings, std::nullopt, metric_set_for(request_.accuracy)).record,
+                   placed_accuracy(bench_, settings, request_.accuracy));
+}
+
 template <typename Is>
 const Candidate* Screening::find(const Is& is) const {
   const auto found = std::find_if(candidates_.begin(), candidates_.end(), is);
@@ -226,7 +232,7 @@ void Screening::measure(const Choice& choice) {
     if (!seen_) seen_ = seen_share(record);
     see(record);
     if (tried.filtered())
-      judge_reduction(bench_, tried, {record}, searched_, request_.accuracy);
+      judge_filtered(bench_, tried, {record}, searched_, request_.accuracy);
     else
       judge_bias(bench_, tried, {record}, searched_, request_.accuracy);
     tried.screened_error = tried.error;

@@ -56,6 +56,9 @@ class Screening {
   Settings of_choice(Settings condition, size_t level, size_t place, const FilterSettings& filter,
                      int resolution) const;
 
+  // The accuracy of the settings, with what was chosen for them, under the first condition and at one placement.
+  double error_of(const Tried& tried) const;
+
   // What was measured tells the largest share of receivers that are dark in the truth.
   void see(const PointRecord& record);
   double shadowed() const { return shadowed_; }

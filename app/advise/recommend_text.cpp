@@ -7,6 +7,9 @@
 #include <cmath>
 #include <map>
 
+#include "app/advise/engine_forms.h"
+#include "app/advise/recommend_filtered.h"
+#include "app/advise/recommend_lookups.h"
 #include "base/text.h"
 #include "compare/report/findings.h"
 #include "compare/results/number_text.h"
@@ -17,6 +20,8 @@ namespace {
 
 std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
+std::string million(double work) { return fmt::format("{:.3g} million", work / 1e6); }
+
 std::string filter_text(const FilterSettings& filter) {
   if (filter.kind == "none") return "no filter";
   if (filter.kind == "castano") return fmt::format("the filter castano {0} x {0}", filter.whole("size"));
@@ -25,6 +30,7 @@ std::string filter_text(const FilterSettings& filter) {
 
 // "VSM with a box of 5 texels"
 std::string lookup_text(const Settings& settings) {
+  if (!reduction_is_free(settings.lookup.kind)) return engine_form_name(settings);
   std::string name = settings.lookup.kind;
   std::transform(name.begin(), name.end(), name.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; });
@@ -39,6 +45,18 @@ std::string lookup_text(const Settings& settings) {
 // "19.5 mm", "1.2 m"
 std::string length_text(double metres) {
   return metres < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
+}
+
+std::string_view unit_of_bias(const Settings& settings) {
+  switch (settings.bias.unit) {
+    case BiasUnit::texel:
+      return "texels";
+    case BiasUnit::depth:
+      return "of the depth from near to far";
+    case BiasUnit::m:
+      break;
+  }
+  return "m";
 }
 
 // extent_m: of a directional light's map, to say how wide it and its texels are; 0: that is not said.
@@ -66,8 +84,10 @@ std::string settings_text(const Tried& tried, const AdviceRequest& request, doub
     text += fmt::format(", bias.normal_offset_axes = {:g} texels", offset);
   if (tried.settings.map.cull != MapSettings().cull)
     text += fmt::format(", map.cull = {}", find_setting("map.cull").get(tried.settings));
-  if (const double tan = tried.settings.bias["tan"]; tried.filtered() && tan > 0)
-    text += fmt::format(", bias.tan = {:g} texels", tan);
+  if (tried.filtered())
+    for (const char* part : {"tan", "normal_offset", "constant"})
+      if (const double amount = tried.settings.bias[part]; amount > 0)
+        text += fmt::format(", bias.{} = {:g} {}", part, amount, unit_of_bias(tried.settings));
   if (tried.reduction) text += fmt::format(", and lookup.reduction = {:g}", tried.reduction->value);
   if (tried.bias) text += fmt::format(", and {} = {:g} {}", tried.bias->parameter, tried.bias->value, tried.bias->unit);
   return text;
@@ -90,15 +110,36 @@ std::string bounds_text(const CurveOptions& bounds) {
                      percent(bounds.peter_panning_bound));
 }
 
+// The same of filtered maps, which have no acne.
+std::string filtered_bounds_text(const CurveOptions& bounds) {
+  return fmt::format(
+      "leak and Peter Panning each within {}, over-darkening and what the reduction darkens each within {}",
+      percent(bounds.peter_panning_bound), percent(bounds.acne_bound));
+}
+
+bool asks_for_filtered(const AdviceRequest& request) {
+  return std::any_of(request.levels.begin(), request.levels.end(), [](const BiasLevel& one) { return one.filtered(); });
+}
+bool asks_for_compared(const AdviceRequest& request) {
+  return request.levels.empty() || std::any_of(request.levels.begin(), request.levels.end(),
+                                               [](const BiasLevel& one) { return !one.filtered(); });
+}
+
 // With a gloss for readers who meet the words here first.
-std::string glossed_bounds_text(const CurveOptions& bounds) {
+std::string glossed_bounds_text(const Advice& advice) {
+  const CurveOptions& bounds = advice.request.curve;
+  if (std::all_of(advice.answers.begin(), advice.answers.end(), [](const Answer& one) { return one.tried.filtered(); }))
+    return fmt::format(
+        "leak (light where shadows overlap) and Peter Panning (a shadow leaves its object) each within {}, "
+        "over-darkening (shade on what is lit) and what lookup.reduction darkens each within {}",
+        percent(bounds.peter_panning_bound), percent(bounds.acne_bound));
   return fmt::format(
       "acne (a surface shadows itself) within {} and Peter Panning (a shadow leaves its object) within {}",
       percent(bounds.acne_bound), percent(bounds.peter_panning_bound));
 }
 
 // What the two bounds are about in a filtered map.
-std::string filtered_bounds_text(const CurveOptions& bounds) {
+std::string filtered_beside_compared(const CurveOptions& bounds) {
   return fmt::format(
       "A filtered map has no acne. It keeps its leak (light where shadows overlap) and its Peter Panning each within "
       "{}, and its "
@@ -117,12 +158,20 @@ std::string eye_bounds_text(const AdviceRequest& request) {
   return text.empty() ? text : text + " at the given view";
 }
 
-// The dearest of the settings that cost less than the answer, and are none.
+// The dearest of the settings that cost less than the answer, and are none; of several of this cost, as filtered maps with the
+// same blur have it, the one that came nearest to an answer.
 const Tried* next_cheaper(const Advice& advice) {
   const Tried* found = nullptr;
   for (const Tried& tried : advice.tried)
-    if (tried.cost < advice.answer()->tried.cost) found = &tried;
+    if (tried.cost < advice.answer()->tried.cost &&
+        (!found || tried.cost > found->cost || (tried.cost == found->cost && is_nearer(tried, *found, advice.request))))
+      found = &tried;
   return found;
+}
+
+// A search allows less than the bounds, so a share above what it allows can be within the bound itself.
+std::string allowed_text(const Tried& tried) {
+  return tried.filtered() && !tried.usable() ? fmt::format(" A search allows {}.", searched_filtered_text()) : "";
 }
 
 // Whether the scene needs a shadow map at all.
@@ -168,6 +217,14 @@ std::string condition_text(const PointRecord& point, const AdviceRequest& reques
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+// What is to be kept by all that was asked for.
+std::string kept_text(const AdviceRequest& request) {
+  std::string text = asks_for_compared(request) ? bounds_text(request.curve) : "";
+  if (asks_for_filtered(request))
+    text += fmt::format("{}{}", text.empty() ? "" : ", or of a filtered map ", filtered_bounds_text(request.curve));
+  return text;
+}
+
 // What would have to change, from what was tried: one sentence for each way.
 std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   const AdviceRequest& request = advice.request;
@@ -195,6 +252,15 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
         percent(enough(request.curve.acne_bound, nearest.nearest->acne, searched_acne)),
         percent(enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning, searched_peter_panning))));
   }
+  if (nearest.filtered() && !nearest.usable() && nearest.worst) {
+    const FilteredShares left = filtered_shares(*nearest.worst);
+    const auto enough = [](double bound, double found, double share) { return std::max(bound, found / share); };
+    lines.push_back(fmt::format(
+        "Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
+        percent(enough(request.curve.acne_bound, std::max(left.over_darkening, left.reduction), searched_acne)),
+        percent(enough(request.curve.peter_panning_bound, std::max(left.leak, left.peter_panning),
+                       searched_peter_panning))));
+  }
   if (advice.least_resolution)
     lines.push_back(constant_text(*advice.least_resolution));
   else if (!nearest.usable())
@@ -202,7 +268,7 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
         fmt::format("Finer texels: a resolution above {}, or a smaller extent.", advice.request.resolutions.back()));
   if (request.levels.empty())
     lines.push_back("Another kind of bias: the experiment gives one; without it all kinds are tried.");
-  if (!nearest.usable())
+  if (!nearest.usable() && !nearest.filtered())
     lines.push_back(
         "Or the mesh: parts that are closed, and that stand further apart than the bias that its slopes need.");
   return lines;
@@ -211,7 +277,7 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
 std::vector<std::string> nothing_works(const Advice& advice) {
   std::vector<std::string> lines;
   lines.push_back(
-      fmt::format("Nothing that was tried keeps {}{}{} under all conditions.", bounds_text(advice.request.curve),
+      fmt::format("Nothing that was tried keeps {}{}{} under all conditions.", kept_text(advice.request),
                   eye_bounds_text(advice.request),
                   advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : ""));
   const std::optional<Tried>& nearest = advice.nearest;
@@ -226,6 +292,7 @@ std::vector<std::string> nothing_works(const Advice& advice) {
   }
   lines.push_back("What would have to change:");
   for (const std::string& way : ways_out(advice, *nearest)) lines.push_back("- " + way);
+  for (std::string& line : lookups_text(advice)) lines.push_back(std::move(line));
   return lines;
 }
 
@@ -242,8 +309,8 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
       any_window = any_window || tried.usable();
     }
     if (finest && !any_window && level.filtered())
-      lines.push_back(fmt::format("With {} no lookup.reduction up to {} texels keeps the bounds under all conditions.",
-                                  level.name, finest));
+      lines.push_back(fmt::format("With {} nothing up to {} texels keeps {} under all conditions.", level.name, finest,
+                                  searched_filtered_text()));
     else if (finest && !any_window)
       lines.push_back(fmt::format("With {} nothing up to {} texels keeps {} under all conditions{}.", level.name,
                                   finest, searched_text(),
@@ -258,8 +325,6 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
   }
   return lines;
 }
-
-std::string million(double work) { return fmt::format("{:.3g} million", work / 1e6); }
 
 // "-65% to +187%", and from 0 on "-100%".
 std::string may_vary(const BiasChoice& bias) {
@@ -277,8 +342,11 @@ std::string kinds_text(const Answer& answer) {
 
 // The answers as a table, one line each, under a line of heads.
 std::vector<std::string> answers_table(const Advice& advice) {
+  const bool any_reduction = std::any_of(advice.answers.begin(), advice.answers.end(),
+                                         [](const Answer& one) { return one.tried.reduction.has_value(); });
   std::vector<std::vector<std::string>> rows = {
-      {"answer", "work", "error", "edges in pixels, mean and 95%", "largest patch", "bias may vary", "settings"}};
+      {"answer", "work", "error", "edges in pixels, mean and 95%", "largest patch",
+       any_reduction ? "bias or reduction may vary" : "bias may vary", "settings"}};
   for (const Answer& answer : advice.answers) {
     const Tried& tried = answer.tried;
     rows.push_back(
@@ -287,6 +355,7 @@ std::vector<std::string> answers_table(const Advice& advice) {
          tried.eye ? percent(tried.eye->wrong_patch) : "-",
          tried.bias        ? may_vary(*tried.bias)
          : tried.reduction ? fmt::format("reduction {:.3g} to {:.3g}", tried.reduction->low, tried.reduction->high)
+         : tried.as_is     ? "fixed"
                            : "-",
          settings_text(tried, advice.request)});
   }
@@ -314,12 +383,12 @@ std::string pictures_text(const Advice& advice, const Answer& answer) {
       std::any_of(advice.answers.begin(), advice.answers.end(), [](const Answer& one) { return one.tried.filtered(); });
   std::string text = fmt::format(
       "Work is that of a picture of {} x {} pixels. Error is the largest under {}, with the map's grid where the "
-      "settings put it{}; acne, Peter Panning and their like are held at {} placements of the grid{}. Both are "
-      "measured "
+      "settings put it{}; {} are held at {} placements of the grid{}. Both are measured "
       "in pictures {} pixels wide; recommended.toml measures full pictures, so its report has other numbers.",
       settings.view.width_px, settings.view.height_px, counted(answer.conditions, "condition"),
-      filtered ? " (of filtered maps, where the light has no size, at their worst placement)" : "", answer.placements,
-      other, std::min(advice.request.width_px, settings.view.width_px));
+      filtered ? " (of filtered maps, where the light has no size, at their worst placement on the exact map)" : "",
+      answer.tried.filtered() ? "leak, over-darkening and their like" : "acne, Peter Panning and their like",
+      answer.placements, other, std::min(advice.request.width_px, settings.view.width_px));
   if (answer.tried.eye)
     text +=
         " Edges and patch are measured at the given view, in full size: a camera that comes closer shows the texels.";
@@ -333,6 +402,21 @@ std::vector<std::string> about_lines(const AdviceRequest& request) {
     lines.push_back(
         fmt::format("The answer is for what was given: {}. For the scene alone it can be another one.", request.given));
   return lines;
+}
+
+// The errors of a filtered map: the search judges exact maps at its placements, and OpenGL its own map at others.
+std::string promise_of_both(const Answer& answer) {
+  const std::optional<PointRecord>& shown = answer.verified.worst;
+  if (!answer.tried.filtered() || !shown || !answer.tried.worst) return "";
+  const double searched = answer.tried.error, rendered = answer.verified.worst_error;
+  const bool placed = searched == worst_placed(*answer.tried.worst, "error");
+  return fmt::format(
+      "The error to expect is the larger of two, {}: {} {}, and {} of OpenGL's own map at the other placements. At the "
+      "worst of these OpenGL's map differs from the exact one by {} (depth format and rasteriser) and {} (rounding of "
+      "the moments).",
+      percent(std::max(searched, rendered)), percent(searched),
+      placed ? "at the worst of the searched placements of the exact map" : "with the grid where the settings put it",
+      percent(rendered), percent(metric_of(*shown, "precision")), percent(metric_of(*shown, "moment_precision")));
 }
 
 // What each answer buys beside the one before it, and what more texels would buy.
@@ -356,6 +440,21 @@ std::string steps_text(const Advice& advice) {
 
 }  // namespace
 
+std::vector<std::string> lookups_text(const Advice& advice) {
+  std::vector<std::string> lines;
+  for (const LookupFate& fate : lookup_fates(advice))
+    lines.push_back(fmt::format("  {}: {}.", fate.lookup,
+                                !fate.best ? fmt::format("not measured, because {}", fate.why)
+                                : fate.outcome == LookupFate::Outcome::answer
+                                    ? fate.why
+                                    : fmt::format("its best is {} ({}); {}", settings_text(*fate.best, advice.request),
+                                                  million(fate.best->cost), fate.why)));
+  if (!lines.empty())
+    lines.insert(lines.begin(),
+                 fmt::format("What became of each lookup (a search allows {}):", searched_filtered_text()));
+  return lines;
+}
+
 std::vector<std::string> advice_text(const Advice& advice) {
   if (!advice.answer()) {
     std::vector<std::string> lines = about_lines(advice.request);
@@ -368,14 +467,16 @@ std::vector<std::string> advice_text(const Advice& advice) {
   if (advice.shadowed == 0) lines.push_back(needed_text(advice));
   lines.push_back(fmt::format("Set {}.", settings_text(tried, advice.request, answer.extent_m)));
   lines.push_back(fmt::format(
-      "That is the answer \"{}\". All answers keep {}{}{}{}:", kinds_text(answer),
-      glossed_bounds_text(advice.request.curve), eye_bounds_text(advice.request),
+      "That is the answer \"{}\". All answers keep {}{}{}{}:", kinds_text(answer), glossed_bounds_text(advice),
+      eye_bounds_text(advice.request),
       advice.request.error ? fmt::format(", {} within {}", advice.request.accuracy, percent(*advice.request.error))
                            : "",
       advice.request.source_of_bounds.empty() ? "" : fmt::format(" (bounds: {})", advice.request.source_of_bounds)));
   for (std::string& line : answers_table(advice)) lines.push_back(std::move(line));
-  if (std::any_of(advice.answers.begin(), advice.answers.end(), [](const Answer& one) { return one.tried.filtered(); }))
-    lines.push_back(filtered_bounds_text(advice.request.curve));
+  const auto is_filtered = [](const Answer& one) { return one.tried.filtered(); };
+  if (std::any_of(advice.answers.begin(), advice.answers.end(), is_filtered) &&
+      !std::all_of(advice.answers.begin(), advice.answers.end(), is_filtered))
+    lines.push_back(filtered_beside_compared(advice.request.curve));
   lines.push_back(pictures_text(advice, answer));
   if (std::string steps = steps_text(advice); !steps.empty()) lines.push_back(std::move(steps));
   if (tried.bias)
@@ -394,6 +495,12 @@ std::vector<std::string> advice_text(const Advice& advice) {
         fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider "
                     "was found that costs little more.",
                     100 * fragile_below));
+  if (tried.as_is)
+    lines.push_back(fmt::format(
+        "It keeps {} under {} and at all {} placements of the map's grid that were searched, on the exact map. That is "
+        "{}, because conditions that were not searched may be a little worse. {}",
+        filtered_bounds_text(searched_bounds(advice.request.curve)), counted(answer.conditions, "condition"),
+        answer.placements, searched_filtered_text(), engine_form_text(tried.settings.lookup.kind)));
   if (tried.reduction)
     lines.push_back(fmt::format(
         "lookup.reduction keeps the leak within {} and what it darkens within {} from {:.3g} to {:.3g} under {} and at "
@@ -403,7 +510,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
         "may be a little worse.",
         percent(searched_bounds(advice.request.curve).peter_panning_bound),
         percent(searched_bounds(advice.request.curve).acne_bound), tried.reduction->low, tried.reduction->high,
-        counted(answer.conditions, "condition"), answer.placements, searched_text()));
+        counted(answer.conditions, "condition"), answer.placements, searched_filtered_text()));
   lines.push_back(
       fmt::format("Verified under the worst condition at {} other placements{}, {} pixels wide: the worst of them has "
                   "{} and {} error.",
@@ -416,6 +523,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
                                    : fmt::format("{} acne, {} Peter Panning", percent(answer.verified.worst_acne),
                                                  percent(answer.verified.worst_peter_panning)),
                   percent(answer.verified.worst_error)));
+  if (const std::string both = promise_of_both(answer); !both.empty()) lines.push_back(both);
   if (tried.worst) {
     const std::string causes = causes_text(*tried.worst);
     lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(tried.error),
@@ -434,11 +542,12 @@ std::vector<std::string> advice_text(const Advice& advice) {
         advice.request.places[tried.place].covers));
   lines.push_back(fmt::format("Its work is {} texels written and texture instructions a frame.", million(tried.cost)));
   if (const Tried* cheaper = next_cheaper(advice))
-    lines.push_back(fmt::format("The next cheaper is {} ({}): {}.", settings_text(*cheaper, advice.request),
-                                million(cheaper->cost), cheaper->why_not));
+    lines.push_back(fmt::format("The next cheaper is {} ({}): {}.{}", settings_text(*cheaper, advice.request),
+                                million(cheaper->cost), cheaper->why_not, allowed_text(*cheaper)));
   else
     lines.push_back(fmt::format("Nothing cheaper was tried: the smallest map among the choices has {} texels a side.",
                                 advice.request.resolutions.front()));
+  for (std::string& line : lookups_text(advice)) lines.push_back(std::move(line));
   if (advice.around)
     for (std::string& line : tornado_text(*advice.around)) lines.push_back(std::move(line));
   return lines;

@@ -11,6 +11,9 @@ namespace noonmark {
 // The answer as sentences, one in each element: first what it is for (AdviceRequest::about), or that nothing holds.
 std::vector<std::string> advice_text(const Advice& advice);
 
+// What became of each lookup that was asked for, a sentence for each under a heading; empty if one was.
+std::vector<std::string> lookups_text(const Advice& advice);
+
 // Why what is cheaper or simpler than the answer is none; empty without an answer. Sentences as above, for readers who ask.
 std::vector<std::string> rejected_text(const Advice& advice);
 

@@ -48,6 +48,7 @@ void judge(PointRecord shown, const Limits& limits, Verified& verified) {
                error = worst_placed(shown, limits.accuracy);
   verified.worst_acne = std::max(verified.worst_acne, acne);
   verified.worst_peter_panning = std::max(verified.worst_peter_panning, panning);
+  if (limits.filtered && !(error <= verified.worst_error && verified.worst)) verified.worst = shown;
   verified.worst_error = std::max(verified.worst_error, error);
   bool held = true;
   if (limits.filtered) {

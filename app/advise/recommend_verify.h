@@ -4,21 +4,18 @@
 #include <optional>
 #include <string>
 
+#include "app/advise/filtered_shares.h"
 #include "compare/ladder/bias_curves.h"
 #include "measure/workbench.h"
 
 namespace noonmark {
-
-// What filtered maps do wrong in place of acne, as shares of the counted receivers.
-struct FilteredShares {
-  double leak = 0, over_darkening = 0, reduction = 0, peter_panning = 0;
-};
 
 struct Verified {
   int placements = 0;                                               // that were judged
   int rendered = 0;                                                 // of these, by OpenGL with its own map
   double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over all of these
   FilteredShares filtered;                                          // of a filtered map: the largest of each
+  std::optional<PointRecord> worst;                                 // that of worst_error; of a filtered map
   std::optional<PointRecord> broken;                                // the first that breaks a bound
 };
 

@@ -53,6 +53,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   run.picture();
   run.picture_lights();
   run.judge();
+  run.advise();
   run.show_recommended();
   run.show_failures();
   run.write();

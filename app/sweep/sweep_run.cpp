@@ -260,6 +260,15 @@ void SweepRun::judge() {
   store_->set_laws(outcome_.results.laws);
 }
 
+void SweepRun::advise() {
+  Results& results = outcome_.results;
+  if (options_.shard || outcome_.interrupted) return;
+  if (std::string lines = experiment_engines(bench_, results); lines != results.info.engines) {
+    results.info.engines = std::move(lines);
+    store_->set_info(results.info, results.planned_points);
+  }
+}
+
 void SweepRun::write() {
   progress_->report_alone();
   write_report(outcome_.results, folder_.path());

@@ -61,6 +61,28 @@ CLI::Validator one_of(std::vector<std::string> words) {
   });
 }
 
+std::vector<std::string> words_of(const std::vector<std::string>& lists) {
+  std::vector<std::string> words;
+  for (const std::string& list : lists)
+    for (size_t begin = 0; begin <= list.size();) {
+      const size_t end = std::min(list.find(',', begin), list.size());
+      words.push_back(list.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  return words;
+}
+
+CLI::Validator list_of(std::vector<std::string> words) {
+  const CLI::Validator one = one_of(std::move(words));
+  return validator([one](std::string& list) -> std::string {
+    for (std::string& word : words_of({list})) {
+      if (word.empty() && !list.empty()) return fmt::format("'{}' has a comma without a name beside it", list);
+      if (std::string mistake = one(word); !mistake.empty()) return mistake;
+    }
+    return "";
+  });
+}
+
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, "|")); }
 
 CLI::Validator as_share() {

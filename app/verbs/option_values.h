@@ -39,6 +39,9 @@ CLI::Validator above_zero();
 // One of these words; a wrong one suggests the nearest. joined(): the words as the option's kind, "one|other".
 CLI::Validator one_of(std::vector<std::string> words);
 std::string joined(const std::vector<std::string>& words);
+// A list of these words with commas between them; and the words of several lists.
+CLI::Validator list_of(std::vector<std::string> words);
+std::vector<std::string> words_of(const std::vector<std::string>& lists);
 
 // For CLI::Option::transform: a share as "0.005" or "0.5%" becomes its number (app/definition/share_text.h).
 CLI::Validator as_share();

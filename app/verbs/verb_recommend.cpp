@@ -255,6 +255,9 @@ void add_cascades(AdviceRequest& request, const Experiment& experiment, Workbenc
 
 // --lookups: beside lookups that compare, or in their place, filtered maps.
 void add_lookups(AdviceRequest& request, const Experiment& experiment, const std::vector<std::string>& lookups) {
+  for (auto one = lookups.begin(); one != lookups.end(); ++one)
+    if (std::find(lookups.begin(), one, *one) != one)
+      throw Error(ErrorKind::usage, fmt::format("--lookups names '{}' twice; name each lookup once", *one));
   for (const char* group : {"lookup.", "bias.", "map.moments", "filter."})
     if (gives(experiment, group))
       throw Error(
@@ -265,7 +268,7 @@ void add_lookups(AdviceRequest& request, const Experiment& experiment, const std
   if (request.conditions.front().cascades.count > 1)
     throw Error(ErrorKind::usage, "--lookups is of one map; set cascades.count = 1, or leave it out");
   if (std::find(lookups.begin(), lookups.end(), "compare") == lookups.end()) request.levels.clear();
-  for (BiasLevel& level : filtered_levels(lookups)) {
+  for (BiasLevel& level : filtered_levels(lookups, searched_bounds(request.curve))) {
     if (kind_of_light(request.light).map_shape() == MapShape::cube)
       throw Error(ErrorKind::usage,
                   fmt::format("--lookups {}: a point light's cube map has lookup.kind = compare alone; leave it out",
@@ -301,11 +304,11 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
   request.between = light == LightKind::directional && !gives(experiment, "map.resolution");
   take_choices(request, experiment);
   request.width_px = searched_width_px(bench, request.conditions.front());
-  if (!options.lookups.empty()) add_lookups(request, experiment, options.lookups);
-  if (options.cascades) add_cascades(request, experiment, bench, say);
   request.curve = experiment.curve;
   if (options.acne) request.curve.acne_bound = *options.acne;
   if (options.peter_panning) request.curve.peter_panning_bound = *options.peter_panning;
+  if (!options.lookups.empty()) add_lookups(request, experiment, options.lookups);
+  if (options.cascades) add_cascades(request, experiment, bench, say);
   request.eye = eye_bounds(experiment, options);
   request.accuracy = experiment.accuracy;
   request.error = options.error;
@@ -338,12 +341,16 @@ std::vector<EngineAdvice> engines_of(const Answer& answer, const AdviceRequest& 
   return engine_advice(settings, make_light_frame(scene, settings), scene, farthest_m);
 }
 
-// The engines whose lines are printed.
-std::vector<std::string> shown_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan) {
+// The engines whose lines are printed. Without a wish it is the first of those that have the lookup of an engine, or of all.
+std::vector<std::string> shown_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan,
+                                       const std::vector<EngineAdvice>& engines) {
   std::vector<std::string> words;
   if (plan) words = plan->names;
   if (options.lines) words.push_back(*options.lines);
-  if (words.empty()) words.push_back(engine_words().front());
+  const auto with_lines =
+      std::find_if(engines.begin(), engines.end(), [](const EngineAdvice& engine) { return !engine.lines.empty(); });
+  if (words.empty())
+    words.push_back(with_lines == engines.end() ? engine_words().front() : engine_word(with_lines->engine));
   return words;
 }
 
@@ -419,7 +426,7 @@ int recommend(const RecommendOptions& options) {
   if (advice.around)
     write_file_atomically(out + "/recommended.html",
                           to_tornado_page(*advice.around, std::string(build_facts().version)));
-  if (!arguments.json) print_advice(advice, engines, shown_engines(options, plan), no_lines, bench, out);
+  if (!arguments.json) print_advice(advice, engines, shown_engines(options, plan, engines), no_lines, bench, out);
   require_frames(engines);
   return broken_in_engine(engines) ? 1 : 0;
 }
@@ -498,8 +505,7 @@ RunVerb add_recommend(CLI::App& verb) {
           "Also try filtered maps: lookups to choose among, compare and others (repeatable; or a list with commas)")
       ->take_all()
       ->expected(1)
-      ->delimiter(',')
-      ->check(one_of(searched_lookups()))
+      ->check(list_of(searched_lookups()))
       ->type_name(joined(searched_lookups()))
       ->default_str("compare");
   verb.add_flag("--around", options->around,
@@ -529,6 +535,7 @@ RunVerb add_recommend(CLI::App& verb) {
           folders_of({"plate", "checks/helmet.toml"}, [](const std::string& what) { return folder_of_advice(what); }));
   return [options](const std::string& command) {
     options->arguments.command = command;
+    options->lookups = words_of(options->lookups);
     const ThreadLimit limit(options->arguments.threads);
     return recommend(*options);
   };

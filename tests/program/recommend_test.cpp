@@ -83,7 +83,10 @@ TEST_F(Recommend, AFilteredMapHoldsByItsReduction) {
       0)
       << output_;
   EXPECT_TRUE(says("VSM without a blur, and lookup.reduction = ")) << output_;
-  EXPECT_TRUE(says("A filtered map has no acne. It keeps its leak")) << output_;
+  EXPECT_TRUE(says("All answers keep leak (light where shadows overlap) and Peter Panning")) << output_;
+  EXPECT_FALSE(says(" acne")) << output_;
+  EXPECT_TRUE(says("The error to expect is the larger of two")) << output_;
+  EXPECT_EQ(found()["lookups"], json::array()) << "one was asked for";
   EXPECT_TRUE(says("16 other placements, rendered by OpenGL")) << output_;
   EXPECT_TRUE(says("There are no lines for lookup.kind = vsm.")) << output_;
   const json answer = found()["answer"];
@@ -106,7 +109,15 @@ TEST_F(Recommend, AFilteredMapHoldsByItsReduction) {
 
 // What a search of lookups cannot be combined with is said.
 TEST_F(Recommend, LookupsAreChosenByTheSearch) {
-  EXPECT_EQ(recommend("layers", {"--lookups", "three_vsm"}), 2);
+  EXPECT_EQ(recommend("layers", {"--lookups", "four_vsm"}), 2);
+  EXPECT_EQ(recommend("layers", {"--lookups", "vsm,vsm"}), 2);
+  EXPECT_TRUE(says("--lookups names 'vsm' twice")) << output_;
+  EXPECT_EQ(recommend("layers", {"--lookups", "vsm", "--lookups", "esm,vsm"}), 2);
+  EXPECT_TRUE(says("--lookups names 'vsm' twice")) << output_;
+  for (const char* list : {"vsm,", ",vsm", "vsm,,esm"}) {
+    EXPECT_EQ(recommend("layers", {"--lookups", list}), 2);
+    EXPECT_TRUE(says("has a comma without a name beside it")) << output_;
+  }
   EXPECT_EQ(recommend("layers", {"--lookups", "vsm", "--around"}), 2);
   EXPECT_TRUE(says("--around varies lookups that compare")) << output_;
   EXPECT_EQ(recommend("layers", {"--lookups", "vsm", "--set", "bias.constant=0.1"}), 2);
@@ -270,7 +281,55 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_EQ(run({"report", "checked"}), 0) << output_;
   EXPECT_NE(text("checked/report.html").find(engines), std::string::npos);
   EXPECT_EQ(run({"run", "mine.toml", "--out", "swept"}), 0) << output_;
-  EXPECT_EQ(text("swept/report.html").find("<pre class=\"engines\">"), std::string::npos) << "no one choice to type";
+  EXPECT_NE(text("swept/report.html").find("<pre class=\"engines\">Of point "), std::string::npos)
+      << "the answer's lines";
+}
+
+// three.js's map has no reduction to choose: what the engine has fields for is searched, and the lines give what was found. Text, JSON
+// and the written experiment say what became of the other lookup.
+TEST_F(Recommend, ThreesOwnMapIsSearchedOverItsFields) {
+  ASSERT_EQ(recommend("layers", {"--lookups", "three_vsm,babylon_esm", "--views", "1", "--acne", "0.15%", "--set",
+                                 "map.resolution=512"}),
+            0)
+      << output_;
+  EXPECT_TRUE(says("VSMShadowMap of three.js with ")) << output_;
+  EXPECT_TRUE(says("renderer.shadowMap.type = THREE.VSMShadowMap;")) << output_;
+  EXPECT_TRUE(says("measured with map.moments = 32f")) << output_;
+  const json advice = found(), answer = advice["answer"];
+  EXPECT_EQ(answer["settings"]["lookup.reduction"], "0.3");
+  EXPECT_FALSE(answer.contains("reduction"));
+  const json three = advice["engines"][0];
+  EXPECT_EQ(three["promise"]["error"], answer["error"]);
+  EXPECT_NEAR(three["promise"]["reduction"].get<double>(), answer["verified"]["worst_reduction"].get<double>(), 1e-3);
+  ASSERT_EQ(advice["lookups"].size(), 2u);
+  EXPECT_EQ(advice["lookups"][0]["outcome"], "answer");
+  const json other = advice["lookups"][1];
+  EXPECT_EQ(other["lookup"], "babylon_esm");
+  EXPECT_NE(other["outcome"], "answer");
+  const std::string why = other["why"];
+  EXPECT_FALSE(why.empty());
+  EXPECT_TRUE(says("  babylon_esm: ") && says(why.c_str())) << output_;
+  EXPECT_NE(text("out/recommended.toml").find(why), std::string::npos);
+  EXPECT_EQ(run({"check", "out/recommended.toml"}), 0) << output_;
+}
+
+// Of a sweep the report has the lines of the point that its answer names, with the error that they give and in which numbers.
+TEST_F(Recommend, ASweepHasTheLinesOfItsAnswer) {
+  write(
+      "swept.toml",
+      "scene = \"plate\"\npictures = \"none\"\n[view]\nwidth_px = 160\nheight_px = 90\n[lookup]\nkind = \"three_vsm\"\n"
+      "reduction = 0.3\nreduction_span = 0.65\n[map]\nmoments = \"16f\"\n[sweep]\nmap.resolution = [128, 256]\n"
+      "lookup.radius = [3, 1]\n");
+  ASSERT_EQ(run({"run", "swept.toml", "--out", "swept"}), 0) << output_;
+  const std::string page = text("swept/report.html");
+  EXPECT_NE(page.find("<pre class=\"engines\">Of point 3, map.resolution = 256, lookup.radius = 1: "),
+            std::string::npos);
+  EXPECT_NE(page.find("light.shadow.mapSize.set(256, 256);"), std::string::npos);
+  EXPECT_NE(page.find("light.shadow.radius = 1;"), std::string::npos);
+  EXPECT_NE(
+      page.find(
+          "measured with map.moments = 32f, in plate, 160 x 90 pixels; the point itself, with map.moments = 16f, has "),
+      std::string::npos);
 }
 
 // What recommend says is what the report of its file says: the bias in the file.

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/advise/filtered_shares.h"
 #include "scenes/scene.h"
 #include "technique/light_frame.h"
 #include "technique/settings.h"
@@ -23,6 +24,7 @@ namespace noonmark {
 // What lines give, measured: the largest over conditions and placements.
 struct EnginePromise {
   double error = 0, acne = 0, peter_panning = 0;  // shares
+  std::optional<FilteredShares> filtered = {};    // of a filtered map that Noonmark drew
   bool all_views = true;                          // false: the first condition alone, because the map is large
 };
 
