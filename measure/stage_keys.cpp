@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "technique/lookups.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -21,25 +20,13 @@ std::string map_key_of(const Settings& settings) {
   return fits_view(settings.map.fit) ? key + settings_key(settings, {Stage::view}) : key;
 }
 
-namespace {
-
-// The parameters of a lookup belong to the ladder alone, because they change what is made of the texels and not which ones are
-// read; but for those of a blur of its own, which are to it what filter.* is to others.
-std::string own_blur_of(const Settings& settings) {
-  if (!find_lookup(settings.lookup.kind).spread) return "";
-  return fmt::format("lookup.radius={}\nlookup.samples={}\n", find_setting("lookup.radius").get(settings),
-                     find_setting("lookup.samples").get(settings));
-}
-
-}  // namespace
-
 std::string lookup_key_of(const Settings& settings) {
-  const std::string key = settings_key(settings, {Stage::scene, Stage::view, Stage::lookup}) + own_blur_of(settings);
+  const std::string key = settings_key(settings, {Stage::scene, Stage::view, Stage::lookup});
   return Bias(settings.bias).polygon_offset() ? key + find_setting("map.format").get(settings) : key;
 }
 
 std::string lookup_work_of(const Settings& settings) {
-  std::string key = map_key_of(settings) + settings_key(settings, {Stage::view, Stage::lookup}) + own_blur_of(settings);
+  std::string key = map_key_of(settings) + settings_key(settings, {Stage::view, Stage::lookup});
   const Bias bias(settings.bias);
   for (const ActivePart& part : bias.compared()) key += std::string(part.part->name) + ' ';
   for (const char* setting : {"bias.unit", "map.lit_beyond_far"}) key += find_setting(setting).get(settings) + ' ';

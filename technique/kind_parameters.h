@@ -26,6 +26,7 @@ struct KindParameter {
   double initial = 0;       // the default; of a choice its index
   std::string_view help;    // after the names of the rows that read it: "box, gaussian: <help>"
   std::span<const std::string_view> choices = {};
+  bool of_blur = false;  // of a lookup: which texels a receiver reads depends on it, as on filter.*
 
   std::string_view name() const { return setting.substr(setting.find('.') + 1); }
 };

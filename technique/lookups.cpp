@@ -112,7 +112,8 @@ constexpr KindParameter radius{.setting = "lookup.radius",
                                .initial = 1,
                                .help =
                                    "shadow.radius: the taps of each pass of the blur stand evenly from this far on one "
-                                   "side to this far on the other."};
+                                   "side to this far on the other.",
+                               .of_blur = true};
 
 constexpr KindParameter samples{.setting = "lookup.samples",
                                 .unit = "taps",
@@ -120,7 +121,8 @@ constexpr KindParameter samples{.setting = "lookup.samples",
                                 .min = 1,
                                 .max = 25,
                                 .initial = 8,
-                                .help = "shadow.blurSamples: taps of each pass of the blur."};
+                                .help = "shadow.blurSamples: taps of each pass of the blur.",
+                                .of_blur = true};
 
 bool always(const LookupSettings&) { return true; }
 bool within_one(const LookupSettings& settings) { return moment_forms[settings.whole("moments")] != "plain"; }

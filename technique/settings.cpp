@@ -426,8 +426,8 @@ std::vector<Setting> make_table() {
   after("filter.kind", FilterTable::parameters(),
         [](const KindParameter* parameter) { return kind_row(filters(), *parameter, MEMBER(filter)); });
   after("lookup.kind", LookupTable::parameters(), [](const KindParameter* parameter) {
-    // What the taps read does not depend on it.
-    return kind_row(lookups(), *parameter, MEMBER(lookup)).only_read_by({Stage::ladder});
+    const Setting row = kind_row(lookups(), *parameter, MEMBER(lookup));
+    return parameter->of_blur ? row : row.only_read_by({Stage::ladder});
   });
   const std::vector<Setting> cascades = cascade_rows();
   table.insert(std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.unit"; }),
