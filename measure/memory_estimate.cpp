@@ -72,9 +72,9 @@ constexpr double per_cascade_pixel = 130;
 // Of the flicker to the next frame: four lookups and what is booked of them, which pixels see a receiver and which light
 // reaches it there, and the receivers as they are uploaded again.
 constexpr double per_flicker_pixel = 90;
-// Of a lookup in a map of moments: four more causes, the moments that each receiver fetches, on both sides of OpenGL, and what
-// another reduction would give, also of what OpenGL shows, in a list of up to twice its size.
-constexpr double per_moment_pixel = 16 + 32 + 80 + 2 * sizeof(ReductionWindow::Shown);
+// Of a lookup in a map of moments: four more causes, the moments that each receiver fetches, on both sides of OpenGL and kept for
+// curve.over, and what another reduction would give, also of what OpenGL shows, in a list of up to twice its size.
+constexpr double per_moment_pixel = 16 + 32 + 16 + 80 + 2 * sizeof(ReductionWindow::Shown);
 constexpr double per_asked_moments = 3 * 16;  // as they are read back, of two maps one after the other
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
 

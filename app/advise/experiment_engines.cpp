@@ -52,14 +52,15 @@ DescribedChoice described(const Choice& choice, const std::optional<BiasChoice>&
   return made;
 }
 
-// "point 4, map.resolution = 512, lookup.radius = 2"; with the bias, if it is another one than the point's.
+// "point 4, map.resolution = 512, lookup.radius = 2"; with the bias or the reduction, if it is another one than the point's.
 std::string name_of(const DescribedChoice& choice, const Results& results) {
   const PointRecord& first = *choice.points.front();
   std::string text = fmt::format("point {}", first.id);
   for (const std::string& name : choice_settings(results.info))
     text += fmt::format(", {} = {}", name, setting_text(setting_of(first, name)));
   for (const Setting& row : settings_table())
-    if (row.name.starts_with("bias.") && row.get(choice.conditions.front()) != setting_of(first, std::string(row.name)))
+    if ((row.name.starts_with("bias.") || row.name.starts_with("lookup.")) &&
+        row.get(choice.conditions.front()) != setting_of(first, std::string(row.name)))
       text += fmt::format(", at {} = {}", row.name, setting_text(row.get(choice.conditions.front())));
   return text;
 }

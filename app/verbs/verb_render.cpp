@@ -156,8 +156,11 @@ std::string cures_of_precision(const Settings& settings) {
     if (const std::string_view name = read.parameter->setting;
         name == "lookup.v_min" || name == "lookup.floor" || name == "lookup.moment_bias")
       cures.push_back(name);
+  const std::string values =
+      cures.empty() ? "" : fmt::format(" (curve.over = \"{}\" of an experiment gives its values)", cures.front());
   if (settings.map.moments != MomentFormat::f32) cures.push_back("map.moments = 32f");
-  return cures.empty() ? "bring near and far closer together" : fmt::format("what may: {}", fmt::join(cures, ", "));
+  return cures.empty() ? "bring near and far closer together"
+                       : fmt::format("what may: {}{}", fmt::join(cures, ", "), values);
 }
 
 // Of a lookup in a map of moments: what another lookup.reduction would do.
