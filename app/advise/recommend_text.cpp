@@ -581,8 +581,12 @@ std::string advice_engines(const std::vector<EngineAdvice>& engines) {
   std::string text = "These settings in other engines, and what each cannot express. Made by Noonmark.\n";
   for (const EngineAdvice& engine : engines) {
     text += fmt::format("\n{} ({})\n", engine.engine, engine.version);
-    for (const std::string& line : engine_lines(engine)) text += fmt::format("    {}\n", line);
-    for (const std::string& sentence : engine.cannot) text += fmt::format("  - {}\n", sentence);
+    const std::vector<std::string> lines = engine_lines(engine);
+    for (const std::string& line : lines) text += fmt::format("    {}\n", line);
+    // A sentence that stands in place of the lines is not said twice.
+    for (const std::string& sentence : engine.cannot)
+      if (std::none_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.ends_with(sentence); }))
+        text += fmt::format("  - {}\n", sentence);
     text += fmt::format("  Source: {}\n", engine.source);
   }
   return text;

@@ -395,6 +395,7 @@ class Reader : private SettingsReader {
   // That a point has the curve that this table asks for.
   void require_curve_over() const {
     if (!curve_over_) return;
+    if (!experiment_.curve_enabled) fail(*curve_over_, "curve.over is given, and curve.enabled is false");
     const std::string& over = experiment_.curve.over.setting;
     const std::vector<Settings> all = points(experiment_);
     if (std::none_of(all.begin(), all.end(), [&](const Settings& one) { return has_curve_over(one, over); }))

@@ -130,8 +130,9 @@ void SweepRun::show_recommended() {
   if (options_.shard || outcome_.interrupted) return;
   keep_recommended_picture(outcome_.results, *store_, folder_.path(), [&](int64_t id, const Settings& at_bias) {
     progress_->shown.set_left(progress_->pictures, 1);
-    progress_->shown.say(fmt::format("pictures of point {} at the recommended {}", id,
-                                     free_setting_words(*find_point(outcome_.results.points, id))));
+    const PointRecord& point = *find_point(outcome_.results.points, id);
+    progress_->shown.say(fmt::format("pictures of point {} at the {}{}", id,
+                                     lacks_window(point) ? "best " : "recommended ", free_setting_words(point)));
     room_.require_room_for(static_cast<size_t>(id));
     survey_.scenes.require_unchanged(bench_, at_bias);
     return bench_.measure(at_bias, std::nullopt);

@@ -197,10 +197,12 @@ void print_curve_over(const Measurement& m) {
   if (curve.empty()) return;
   const auto best = std::min_element(curve.begin(), curve.end(),
                                      [](const auto& a, const auto& b) { return a.shown_error < b.shown_error; });
-  fmt::print("\n  {:<18}{:>12}{:>12}{:>12}{:>16}{:>15}\n", best->parameter, "error", "exact map", "leak",
+  const std::string& setting = best->parameter;
+  const std::string unit = setting == "bias.constant" ? " " + find_setting("bias.unit").get(m.technique.settings) : "";
+  fmt::print("\n  {:<20}{:>12}{:>12}{:>12}{:>16}{:>15}\n", setting + unit, "error", "exact map", "leak",
              "over_darkening", "peter_panning");
   for (const LookupCurvePoint& at : curve)
-    fmt::print("  {:<18.4g}{:>11.5f}%{:>11.5f}%{:>11.5f}%{:>15.5f}%{:>14.5f}%{}\n", at.value, 100 * at.shown_error,
+    fmt::print("  {:<20.4g}{:>11.5f}%{:>11.5f}%{:>11.5f}%{:>15.5f}%{:>14.5f}%{}\n", at.value, 100 * at.shown_error,
                100 * at.error, 100 * at.leak, 100 * at.over_darkening, 100 * at.peter_panning,
                &at == &*best ? "  least error" : "");
 }

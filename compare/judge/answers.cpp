@@ -1,5 +1,6 @@
 #include "compare/judge/answers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,7 +28,9 @@ std::optional<ThreeAnswers> three_answers(std::span<const CostAndError> settings
   if (!least) return std::nullopt;
   ThreeAnswers answers;
   answers.least = *least;
-  answers.budget = budget.value_or(budget_of_least * settings[*least].cost);
+  // Never below the least cost, also where a cost is negative: then a multiple of it is smaller.
+  const double cost = settings[*least].cost;
+  answers.budget = budget.value_or(std::max(cost, budget_of_least * cost));
   const auto within = [&](const CostAndError& one) { return one.cost <= answers.budget; };
   const auto no_cheaper_does = [&](const CostAndError& one) {
     return within(one) && !least_by(

@@ -176,6 +176,10 @@ std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& resul
     least = std::min(least, error);
   }
   if (allowed.empty()) return std::nullopt;
+  const PointRecord& first = choice.first();
+  // A bias that is off is acne or a gap, so it keeps away from both ends where that costs little. A reduction that is off leaks or
+  // darkens a little more or less, so it is the one of least error.
+  const double flat = free_setting(first) == FreeSetting::reduction ? 1 : flat_error;
   // The factor by which the scene may change before the bias is no longer usable.
   const auto distance = [&](double bias) {
     return std::min(window->low > 0 ? bias / window->low : std::numeric_limits<double>::infinity(),
@@ -183,10 +187,9 @@ std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& resul
   };
   std::optional<double> best;
   for (const auto& [bias, error] : allowed)
-    if (error <= flat_error * least && (!best || distance(bias) > distance(*best))) best = bias;
+    if (error <= flat * least && (!best || distance(bias) > distance(*best))) best = bias;
   double value = short_decimal(*best, low, high);
   if (value != *best && !meets_all(demands, value)) value = *best;
-  const PointRecord& first = choice.first();
   return BiasChoice{curve_parameter(first), curve_unit(first), value, *window, narrow};
 }
 

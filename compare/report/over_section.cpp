@@ -48,6 +48,7 @@ nlohmann::json over_of(const PointRecord& point) {
   nlohmann::json json{{"parameter", point.over_curve.front().parameter}};
   for (const LookupCurvePoint& at : point.over_curve)
     for (const DrawnOver& series : series_of_over) json[series.name].push_back(drawn_value(at.*series.value));
+  if (point.over_curve.front().parameter == "bias.constant") json["unit"] = setting_of(point, "bias.unit");
   if (const auto set = number_of(setting_of(point, point.over_curve.front().parameter))) json["as_set"] = *set;
   return json;
 }

@@ -318,10 +318,12 @@ Markup criterion_text(const Recommendation& found, const Results& results) {
       keeps_bounds_of_others(found.choice, results) ? ", also each that the experiment asks of other settings alone"
                                                     : "",
       italic(error_label(results.info.accuracy)),
-      found.bias ? fmt::format("; of the values whose error is within {:.0f}\u202f% of the least, the {} is the one "
-                               "furthest from both ends of its window, so it need not be the best one",
-                               100 * (flat_error - 1), noun)
-                 : "");
+      found.bias && free_setting(found.choice.first()) == FreeSetting::reduction
+          ? std::string("; of the values in its window the reduction is the one of least error")
+      : found.bias ? fmt::format("; of the values whose error is within {:.0f}\u202f% of the least, the {} is the one "
+                                 "furthest from both ends of its window, so it need not be the best one",
+                                 100 * (flat_error - 1), noun)
+                   : "");
 }
 
 }  // namespace

@@ -409,6 +409,7 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"[curve]\nover = \"lookup.vmin\"", "2:8", "did you mean 'lookup.v_min'?"},
       {"[curve]\nover = \"lookup.v_min\"", "2:8", "no point has a lookup.kind that reads it"},
       {"[lookup]\nkind = \"msm\"\n[curve]\nover = \"lookup.v_min\"", "4:8", "no point has a lookup.kind that reads it"},
+      {"[lookup]\nkind = \"vsm\"\n[curve]\nenabled = false\nover = \"lookup.v_min\"", "5:8", "curve.enabled is false"},
       {"[curve]\nover_values = [0, 1]", "2:15", "curve.over, which is not given"},
       {"[lookup]\nkind = \"vsm\"\n[curve]\nover = \"lookup.v_min\"\nover_values = [1e-7, 1e-7]", "5:15", "ascend"},
       {"[lookup]\nkind = \"vsm\"\n[curve]\nover = \"lookup.v_min\"\nover_values = [1e-7, 2]", "5:15", "lookup.v_min"},

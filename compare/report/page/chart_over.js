@@ -18,6 +18,9 @@ function nameOf(s) {
 function colourOf(s) {
   return s === 'exact_map' ? 'var(--ink)' : of.colourOf(s);
 }
+function titleOf(curve) {
+  return curve.parameter + (curve.unit ? ' in ' + curve.unit : '');
+}
 function best(curve) {
   return curve.error.indexOf(Math.min.apply(null, curve.error.filter(kit.finite)));
 }
@@ -91,7 +94,7 @@ var stops, self = kit.chart('over', function(width) {
         {name: 'x', type: 'point', domain: names, range: [0, w]},
         {name: 'y', type: 'log', zero: false, domain: [range.bottom, range.top], range: [h, 0]}
       ],
-      axes: [of.axis(range), {orient: 'bottom', scale: 'x', labelOverlap: true, title: curve.parameter}],
+      axes: [of.axis(range), {orient: 'bottom', scale: 'x', labelOverlap: true, title: titleOf(curve)}],
       marks: marks
     },
     hover: function(view, plot) {

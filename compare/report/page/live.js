@@ -179,7 +179,7 @@ function start(bytes) {
       numbers = {metrics: p.metrics, words: ', as set'};
     } else if (isAt(recommendedBias())) {
       found = own(kind === 'truth' ? name : name + recommended);  // no bias changes the truth
-      numbers = {metrics: p.at.metrics, words: ', recommended'};
+      numbers = {metrics: p.at.metrics, words: p.at.usable ? ', recommended' : ', of least error, not usable'};
     }
     whole.hidden = !found;
     canvas.hidden = Boolean(found);

@@ -40,6 +40,15 @@ TEST(ThreeAnswers, AreOneWhereNothingDearerIsBetter) {
   EXPECT_EQ(cheap.best, 1u);
 }
 
+// A multiple of a negative cost is below it.
+TEST(ThreeAnswers, AreTheCheapestWhereCostsAreNegative) {
+  const std::vector<CostAndError> front = {{-2, 3.0}, {-1, 1.0}};
+  const ThreeAnswers found = three_answers(front, std::nullopt).value();
+  EXPECT_EQ(found.least, 0u);
+  EXPECT_EQ(found.balanced, 0u);
+  EXPECT_EQ(found.best, 0u);
+}
+
 TEST(ThreeAnswers, LeaveOutWhatIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   const std::vector<CostAndError> all = {{nan, 0}, {1, nan}, {infinity, 0}, {1, infinity}, {2, 1}};

@@ -104,6 +104,8 @@ TEST(FreeSetting, TheRecommendedReductionLiesInTheWindow) {
   EXPECT_EQ(found.bias->parameter, "lookup.reduction");
   EXPECT_EQ(found.bias->unit, "");
   EXPECT_GE(found.bias->value, 0.1 * bias_margin);
+  for (const double other : {0.105, 0.15, 0.2, 0.25, 0.285})
+    EXPECT_LE(found.error.worst, metric_at(results.points[0], "error_soft", other) * (1 + 1e-12)) << other;
   EXPECT_LE(found.bias->value, 0.3 / bias_margin);
   EXPECT_DOUBLE_EQ(found.error.worst, metric_at(results.points[0], "error_soft", found.bias->value));
   results.points[0].metrics.erase("reduction_min");

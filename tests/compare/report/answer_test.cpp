@@ -50,7 +50,7 @@ TEST(Answer, WhatIsBrokenComesFirstWithItsBias) {
 TEST(Answer, AFilteredMapIsAnsweredWithItsReduction) {
   const std::string body = without_scripts(render_report(filtered_sample_results(), sample_picture));
   const auto says = [&](const std::string& words) { return body.find(words) != std::string::npos; };
-  EXPECT_TRUE(says(" and lookup.reduction 0.17: the cheapest setting that is good enough."))
+  EXPECT_TRUE(says(" and lookup.reduction 0.19: the cheapest setting that is good enough."))
       << body.substr(body.find("<p class=\"said\">"), 300);
   EXPECT_TRUE(says("<dt>lookup.reduction</dt>"));
   EXPECT_TRUE(says("Largest causes there, with this reduction (causes that no curve gives: as rendered)"));

@@ -254,9 +254,9 @@ TEST_F(FilteredPage, IsReadAtItsReduction) {
   EXPECT_EQ(saw_["zeros"], 1) << "the end of the line alone";
   EXPECT_EQ(saw_["dashed"], (json{"Error, mean |R5 − R1|", "Over-darkening (moments, too dark)"}));
   const std::string verdict = saw_["verdict"];
-  EXPECT_NE(verdict.find(" at lookup.reduction 0.17, which is usable."), std::string::npos) << verdict;
+  EXPECT_NE(verdict.find(" at lookup.reduction 0.19, which is usable."), std::string::npos) << verdict;
   EXPECT_NE(verdict.find("Usable reductions: 0.15 to 0.2."), std::string::npos) << verdict;
-  EXPECT_NE(saw_["command"].get<std::string>().find("lookup.reduction=0.17"), std::string::npos) << saw_["command"];
+  EXPECT_NE(saw_["command"].get<std::string>().find("lookup.reduction=0.19"), std::string::npos) << saw_["command"];
 }
 
 // Two groups of choices. One choice has no curve and no error, one has no usable window.
