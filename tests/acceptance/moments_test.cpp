@@ -345,8 +345,8 @@ TEST(MomentCurve, HasTheNumbersOfMeasuringEachReduction) {
   }
 }
 
-// Another number of the lookup: the curve is what measuring each value gives, with OpenGL's rounding too, of each formula, with
-// half floats, where the map's edge crosses the picture, of cascades, and in a light's room where the bias is in texels.
+// Another number of the lookup: the curve is what measuring each value gives, with OpenGL's rounding too. Of several formulas, with
+// half floats, where the map's edge crosses the picture, and of two cascades with a bias in texels.
 TEST(MomentCurve, HasTheNumbersOfMeasuringEachValueOfAnotherSetting) {
   Workbench bench(gl::DebugMode::fatal);
   struct Case {
