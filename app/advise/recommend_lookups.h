@@ -30,7 +30,7 @@ std::vector<LookupFate> lookup_fates(const Advice& advice);
 // for an error or a budget, and that before what breaks a bound on causes, by how far.
 bool is_nearer(const Tried& tried, const Tried& than, const AdviceRequest& request);
 
-// By which multiple of its bound the worst of these shares is left. Infinite if a bound is 0 and its share is not.
+// Each share divided by its bound, and of these the largest: 2 is twice the bound. Infinite if a bound is 0 and its share is not.
 double excess(const FilteredShares& shares, const CurveOptions& bounds);
 
 }  // namespace noonmark

@@ -158,8 +158,8 @@ std::string eye_bounds_text(const AdviceRequest& request) {
   return text.empty() ? text : text + " at the given view";
 }
 
-// The dearest of the settings that cost less than the answer, and are none; of several of this cost, as filtered maps with the
-// same blur have it, the one that came nearest to an answer.
+// Of the settings that cost less than the answer and break a bound: the dearest. Filtered maps with the same blur cost the same;
+// of equal costs it is the one that exceeds its bounds least.
 const Tried* next_cheaper(const Advice& advice) {
   const Tried* found = nullptr;
   for (const Tried& tried : advice.tried)

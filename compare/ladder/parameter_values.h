@@ -1,5 +1,5 @@
-// Which numbers of a lookup in a map of moments have a curve besides lookup.reduction: those that only the lookup itself reads,
-// so that another value needs neither another map nor another blur.
+// Which settings of a lookup in a map of moments have a curve besides lookup.reduction. Only the lookup reads them: the map and
+// its blur are the same at every value.
 //
 //   const ParameterValues asked{"lookup.v_min", {0, 1e-6, 1e-4}};
 //   for (double value : values_of(asked, settings)) measure(with(settings, asked.setting, value));

@@ -59,25 +59,7 @@ var stops, self = kit.chart('over', function(width) {
   function at(i) {
     return {value: i * step};
   }
-  var marks = [{
-    type: 'group',
-    from: {facet: {name: 'one', data: 'rows', groupby: 'series'}},
-    marks: [{
-      type: 'line',
-      from: {data: 'one'},
-      interactive: false,
-      encode: {
-        enter: {
-          x: {field: 'place'},
-          y: {scale: 'y', field: 'v'},
-          stroke: {field: 'colour'},
-          strokeJoin: {value: 'round'},
-          strokeDash: {field: 'dash'},
-          strokeWidth: {field: 'thick'}
-        }
-      }
-    }]
-  }];
+  var marks = [of.lines({field: 'place'})];
   [[best(curve), 'least error', 0], [curve.value.indexOf(curve.as_set), 'as set', 1]].forEach(function(m) {
     if (m[0] >= 0) marks = marks.concat(of.mark(at(m[0]), m[1], m[2], m[0] > 0.7 * names.length ? -1 : 1, h));
   });

@@ -56,25 +56,7 @@ var stops, self = kit.chart('reduction', function(width) {
   var marks = [], usable = kit.windowOfReduction(point);
   if (usable) marks.push(of.window(at(usable.from), at(usable.to), h));
   marks = marks.concat(of.bounds(bounds, w, 4));
-  marks.push({
-    type: 'group',
-    from: {facet: {name: 'one', data: 'rows', groupby: 'series'}},
-    marks: [{
-      type: 'line',
-      from: {data: 'one'},
-      interactive: false,
-      encode: {
-        enter: {
-          x: {scale: 'x', field: 'r'},
-          y: {scale: 'y', field: 'v'},
-          stroke: {field: 'colour'},
-          strokeJoin: {value: 'round'},
-          strokeDash: {field: 'dash'},
-          strokeWidth: {field: 'thick'}
-        }
-      }
-    }]
-  });
+  marks.push(of.lines({scale: 'x', field: 'r'}));
   [[point.metrics.best_reduction, 'least error', 0], [curve.as_set, 'as set', 1]].forEach(function(m) {
     if (kit.finite(m[0])) marks = marks.concat(of.mark(at(m[0]), m[1], m[2], m[0] > 0.7 ? -1 : 1, h));
   });

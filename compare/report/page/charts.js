@@ -546,6 +546,28 @@ function curveMark(x, name, row, side, height) {
     }
   ];
 }
+// The series of the data `rows`, a line each. A row has series, v, colour, dash and thick. x: encoding of its place.
+function curveLines(x) {
+  return {
+    type: 'group',
+    from: {facet: {name: 'one', data: 'rows', groupby: 'series'}},
+    marks: [{
+      type: 'line',
+      from: {data: 'one'},
+      interactive: false,
+      encode: {
+        enter: {
+          x: x,
+          y: {scale: 'y', field: 'v'},
+          stroke: {field: 'colour'},
+          strokeJoin: {value: 'round'},
+          strokeDash: {field: 'dash'},
+          strokeWidth: {field: 'thick'}
+        }
+      }
+    }]
+  };
+}
 // The line under the pointer, at the signal `hover`; none below 0.
 function curveCursor(height) {
   return {
@@ -628,6 +650,7 @@ page.kit = {
     window: curveWindow,
     bounds: curveBounds,
     mark: curveMark,
+    lines: curveLines,
     cursor: curveCursor,
     axis: curveAxis,
     hover: curveHover,

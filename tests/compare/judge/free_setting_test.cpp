@@ -1,4 +1,4 @@
-// The free setting of a point with a map of moments is its reduction: what is read off its curve, and what is recommended.
+// Tests of the free setting of a point with a map of moments. It is the light-bleed reduction.
 #include <gtest/gtest.h>
 
 #include <algorithm>

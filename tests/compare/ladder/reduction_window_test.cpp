@@ -125,7 +125,8 @@ TEST(ReductionWindow, IsTheSameWhenSorted) {
   EXPECT_GT(curve[20].peter_panning, 0);
 }
 
-// The bound of a result is found again, and a result of 0 has the exact bound, which is at most the reduction.
+// bound_of_shown() inverts the reduction. A result of 0 has lost its bound; then the exact bound is taken, but not more than the
+// reduction.
 TEST(ReductionWindow, FindsTheBoundOfWhatIsShown) {
   EXPECT_EQ(bound_of_shown(1, 0.9, 0.3), 1);
   EXPECT_DOUBLE_EQ(bound_of_shown((0.6 - 0.25) / 0.75, 0.5, 0.25), 0.6);
