@@ -30,7 +30,8 @@ GLint gl_wrap(Wrap wrap);
 // The textures of an array of maps of moments: what its texels store, blurred along u, and blurred along v too, which the lookup reads.
 struct MomentTextures {
   std::string key;  // of the settings that they depend on
-  std::array<Texture, 3> passes;
+  // What the texels store; lookup.level halvings of it; after the first pass of the blur; after both.
+  std::vector<Texture> passes;
 };
 
 struct ShadowMap::Impl {

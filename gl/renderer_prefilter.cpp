@@ -31,6 +31,16 @@ GLenum texture_format(MomentFormat format, int channels) {
 static_assert(static_cast<int>(Wrap::repeat) == 0 && static_cast<int>(Wrap::clamp_to_edge) == 1 &&
               static_cast<int>(Wrap::clamp_to_border) == 2);
 
+glm::ivec3 size_of_level(glm::ivec3 size, int level) { return {size.x >> level, size.y >> level, size.z}; }
+
+// The texels of the next level that hold a texel of the set.
+TexelSet halved(const TexelSet& texels) {
+  TexelSet made(texels.size() / 2);
+  for (int y = 0; y < texels.size().y; ++y) texels.each_in_row(y, [&](int x, size_t) { made.add({x / 2, y / 2}); });
+  made.close();
+  return made;
+}
+
 void set_taps(Program& program, std::span<const SpreadBlur::Tap> taps) {
   for (size_t k = 0; k < taps.size(); ++k) {
     program.set(fmt::format("tap_texel[{}]", k).c_str(), taps[k].texel);
@@ -55,18 +65,20 @@ const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& m
   if (kernel.size() > widest_blur)
     throw std::logic_error("a blur of more texels than shaders/prefilter/blur.frag takes");
   const glm::vec4 border = lookup.stored(1.0f);
+  const int level = lookup.level();
   for (const TiledMaps& array : m.arrays) {
     MomentTextures made{key, {}};
-    for (Texture& texture : made.passes) {
-      const bool stored = &texture == &made.passes.front();
-      texture = make_array(stored ? stored_format : format, array.size);
-      check_memory("a map of moments", array.size.x, array.size.y);
+    for (int pass = 0; pass < level + 3; ++pass) {
+      const glm::ivec3 size = size_of_level(array.size, std::min(pass, level));
+      made.passes.push_back(make_array(pass == 0 ? stored_format : format, size));
+      check_memory("a map of moments", size.x, size.y);
     }
     m.moments.push_back(std::move(made));
   }
   Program& store =
       programs.get({"shaders/screen.vert", "shaders/prefilter/store.frag"}, moment_slots(programs, technique));
   set_lookup_uniforms(store, technique);
+  Program& halve = programs.get({"shaders/screen.vert", "shaders/prefilter/halve.frag"});
   const SpreadBlur* const spread = lookup.spread();
   Program& blur =
       spread ? programs.get({"shaders/screen.vert", "shaders/prefilter/spread.frag"}, moment_slots(programs, technique))
@@ -84,20 +96,22 @@ const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& m
   run(time_ms, [&] {
     for (size_t n = 0; n < m.arrays.size(); ++n)
       for (int layer = 0; layer < m.arrays[n].size.z; ++layer) {
-        const glm::ivec2 size(m.arrays[n].size);
-        const std::array<Texture, 3>& passes = m.moments[n].passes;
-        draw_into_colour_layer(passes[0].id(), layer, size);
-        glBindTextureUnit(2, m.arrays[n].texture.id());
-        store.set("layer", layer);
-        draw_screen(store);
-        blur.set("layer", layer);
-        for (size_t pass = 0; pass < 2; ++pass) {
-          draw_into_colour_layer(passes[pass + 1].id(), layer, size);
-          glBindTextureUnit(2, passes[pass].id());
-          const bool along_v = (pass == 1) != (spread != nullptr);
+        const std::vector<Texture>& passes = m.moments[n].passes;
+        // Draws pass `pass` from the one before it.
+        const auto draw = [&](int pass, Program& program) {
+          draw_into_colour_layer(passes[static_cast<size_t>(pass)].id(), layer,
+                                 glm::ivec2(size_of_level(m.arrays[n].size, std::min(pass, level))));
+          glBindTextureUnit(2, pass == 0 ? m.arrays[n].texture.id() : passes[static_cast<size_t>(pass) - 1].id());
+          program.set("layer", layer);
+          draw_screen(program);
+        };
+        draw(0, store);
+        for (int halved = 1; halved <= level; ++halved) draw(halved, halve);
+        for (const bool second : {false, true}) {
+          const bool along_v = second != (spread != nullptr);
           blur.set("along", along_v ? glm::ivec2(0, 1) : glm::ivec2(1, 0));
           if (spread) set_taps(blur, along_v ? spread->along_v : spread->along_u);
-          draw_screen(blur);
+          draw(level + (second ? 2 : 1), blur);
         }
       }
   });
@@ -170,24 +184,34 @@ MomentEvidence Renderer::read_moments(const ShadowMap& map, std::span<const Tech
   const Technique& technique = techniques[which];
   const ShadowMap::Impl::Place place = map.impl_->places[which];
   const MomentTextures& textures = r.moments_of(map, technique, nullptr)[place.array];
-  const glm::ivec2 size = map.size(static_cast<int>(which));
-  MomentEvidence evidence;
-  const std::array<std::vector<glm::vec4>*, 3> read = {&evidence.stored, &evidence.blurred_once, &evidence.blurred};
   constexpr int band = 256;  // rows that are read at a time
   std::vector<glm::vec4> rows;
-  for (size_t pass = 0; pass < read.size(); ++pass) {
-    read[pass]->resize(texels.count());
+  // The texels of a set in a pass, whose texture has the size of the set's image.
+  const auto read = [&](size_t pass, const TexelSet& of) {
+    const glm::ivec2 size = of.size();
+    std::vector<glm::vec4> moments(of.count());
     for (int first = 0; first < size.y; first += band) {
       const int count = std::min(band, size.y - first);
       rows.resize(static_cast<size_t>(size.x) * static_cast<size_t>(count));
       glGetTextureSubImage(textures.passes[pass].id(), 0, 0, first, place.layer, size.x, count, 1, GL_RGBA, GL_FLOAT,
                            static_cast<GLsizei>(rows.size() * sizeof(glm::vec4)), rows.data());
       for (int row = 0; row < count; ++row)
-        texels.each_in_row(first + row, [&](int x, size_t index) {
-          (*read[pass])[index] = rows[static_cast<size_t>(row) * static_cast<size_t>(size.x) + static_cast<size_t>(x)];
+        of.each_in_row(first + row, [&](int x, size_t index) {
+          moments[index] = rows[static_cast<size_t>(row) * static_cast<size_t>(size.x) + static_cast<size_t>(x)];
         });
     }
+    return moments;
+  };
+  MomentEvidence evidence;
+  const auto level = static_cast<size_t>(technique.moments->level());
+  for (size_t n = 0; n <= level; ++n) {
+    TexelSet of = n == 0 ? texels : halved(evidence.levels.back().texels);
+    std::vector<glm::vec4> moments = read(n, of);
+    evidence.levels.push_back({std::move(of), std::move(moments)});
   }
+  const TexelSet& blurred = evidence.levels.back().texels;
+  evidence.blurred_once = read(level + 1, blurred);
+  evidence.blurred = read(level + 2, blurred);
 
   Program& fetch =
       r.programs.get({"shaders/screen.vert", "shaders/fetch_moments.frag"}, lookup_slots(r.programs, technique));

@@ -39,8 +39,8 @@ bool same_map(const LightFrame& a, const LightFrame& b) {
          a.cube_axes == b.cube_axes && a.near_m == b.near_m && a.far_m == b.far_m && a.tile_size() == b.tile_size();
 }
 
-// How far from the place looked up a tap may read, in texels of a flat map: its offset, the texel that it snaps to or
-// blends with, and a texel for parts of a bias that move the lookup.
+// How far from the place looked up a tap may read, in texels of a flat map: its offset, the texel (of the mip level) that it
+// snaps to or blends with, and a texel for parts of a bias that move the lookup.
 double reach_of_taps(const TapPattern& pattern) {
   double reach = 0;
   for (int variant = 0; variant < pattern.variants; ++variant)
@@ -48,7 +48,7 @@ double reach_of_taps(const TapPattern& pattern) {
       const glm::vec3 o = glm::abs(pattern.offset(variant, tap));
       reach = std::max<double>({reach, o.x, o.y});
     }
-  return reach + 3;
+  return reach + 2 + pattern.block;
 }
 
 // Whether the map holds a point of the world and all its taps.

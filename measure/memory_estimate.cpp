@@ -133,7 +133,9 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
     const LookupKind& kind = find_lookup(s.lookup.kind);
     const double each = (s.map.moments == MomentFormat::f32 ? 4 : 2) * kind.channels;
     const double stored = kind.spread ? 4 * kind.channels : each;  // what a blur of spreads reads has 32 bits
-    moments = 2 * texels * (stored + 2 * each) + std::min(taps, texels) * per_asked_moments + pixels * per_moment_pixel;
+    const double level = texels / (pattern.block * pattern.block), halved = (texels - level) / 3;  // of all levels
+    moments = 2 * (texels * stored + (halved + 2 * level) * each) + std::min(taps, texels) * per_asked_moments +
+              pixels * per_moment_pixel;
   }
   const double maps = s.cascades.count;
   if (maps > 1) scene += pixels * sizeof(double) * maps;  // ReceiverTruth::share
@@ -196,6 +198,7 @@ double outside_texels(const Scene& scene, const Technique& technique) {
       const glm::vec3 o = glm::abs(pattern.offset(variant, tap));
       reach = std::max<double>({reach, o.x, o.y});
     }
+  reach += pattern.block - 1;
   const double inside = static_cast<double>(frame.resolution) * frame.rows;
   glm::dvec2 low(0), high(frame.tile_size());
   if (const auto tan_cone = frame.light().tan_half_cone(frame)) {  // no lookup lies beyond the cone

@@ -95,10 +95,17 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
           for (int tap = 0; tap < probe.taps(); ++tap) {
             const glm::ivec2 texel = probe.texel(i, tap);
             if (std::exchange(before[static_cast<size_t>(tap)], texel) == texel) continue;
-            const glm::ivec2 read = wrapped(texel, size, wrap_);
+            const glm::ivec2 read = wrapped(texel, size, wrap_, probe.pattern.block);
             if (read.x >= 0) wanted_->add(read);
             if (!inside_map(texel, size)) outside.add(texel);
           }
+          if (!probe.pattern.blurred || wrap_ != Wrap::clamp_to_edge) continue;
+          // A blur at the edge reads texels beside it that no tap reads if all taps lie outside.
+          const int block = probe.pattern.block;
+          const glm::ivec2 corner = probe.fetch_corner(probe.map_texels[i]);
+          for (const glm::ivec2 of : {glm::ivec2(0), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(1)})
+            each_texel_of_blur(wrapped(corner + of, size / block, wrap_), probe.pattern.fetches_along(), block, size,
+                               wrap_, [&](int, int, glm::ivec2 texel) { wanted_->add(texel); });
         }
       });
   outside_rows.combine_each(

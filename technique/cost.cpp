@@ -137,12 +137,21 @@ FrameCost frame_cost(const Settings& settings, int tiles, int64_t map_texels, in
                          receivers * cost.lookup.texels * moments;
     return cost;
   }
-  const auto width = static_cast<int64_t>(tap_pattern(settings).kernel.size());
-  cost.pass_fetches = map_texels * (1 + 2 * width);
-  cost.texel_work += 3 * map_texels + cost.pass_fetches;
-  cost.map_bytes += 2 * map_texels * moments;
+  // Each halving reads four texels of the level before for each texel that it writes; the blur is that of the last level.
+  const TapPattern pattern = tap_pattern(settings);
+  const auto width = static_cast<int64_t>(pattern.kernel.size());
+  int64_t written = map_texels, halved = 0, level = map_texels;
+  for (int block = pattern.block; block > 1; block /= 2) {
+    level /= 4;
+    halved += level;
+  }
+  written += halved + 2 * level;
+  const int64_t moments_read = 4 * halved + 2 * width * level;
+  cost.pass_fetches = map_texels + moments_read;
+  cost.texel_work += written + cost.pass_fetches;
+  cost.map_bytes += (map_texels + halved + level) * moments;  // the blur's second pass writes where it came from
   cost.traffic_bytes =
-      map_texels * (2 * texel + 3 * moments + 2 * width * moments) + receivers * cost.lookup.texels * moments;
+      2 * map_texels * texel + (written + moments_read) * moments + receivers * cost.lookup.texels * moments;
   return cost;
 }
 

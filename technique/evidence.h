@@ -11,6 +11,7 @@
 #include "base/image.h"
 #include "technique/bias_parts.h"
 #include "technique/tap_pattern.h"
+#include "technique/texel_set.h"
 
 namespace noonmark {
 
@@ -46,7 +47,11 @@ struct LookupProbe {
   bool asks(size_t i) const { return bias_unit[i] != 0; }
 
   int taps() const { return pattern.taps; }
-  int middle_tap() const { return pattern.taps / 2; }  // for a box it is the tap at P
+  // For a box it is the tap at P; of bilinear taps, which have none there, the texel to its upper right.
+  int middle_tap() const {
+    const int side = pattern.blended_side;
+    return pattern.bilinear() ? side / 2 * (side + 1) : pattern.taps / 2;
+  }
 
   // The offset of a tap's exact place from P: in texels for a flat map, in metres along the world's axes for a cube.
   glm::vec3 offset(size_t i, int tap) const {
@@ -65,12 +70,15 @@ struct LookupProbe {
   // The same for a flat map, if receiver i had this position in the map.
   glm::ivec2 texel_at(glm::vec2 at, size_t i, int tap) const {
     if (pattern.bilinear()) {  // the fetch of 2 x 2 texels begins at the texel whose centre is to the lower left of P
-      const int side = pattern.blended_side, before = (side - 2) / 2;
-      return floored(at - 0.5f) + glm::ivec2(tap % side - before, tap / side - before);
+      const int side = pattern.blended_side, block = pattern.block, before = (side / block - 2) / 2;
+      return block * (fetch_corner(at) - before) + glm::ivec2(tap % side, tap / side);
     }
     const glm::vec3 o = offset(i, tap);
     return floored(at + glm::vec2(o));
   }
+
+  // Bilinear taps: the texel (of the mip level) to the lower left of a receiver at this position in the map.
+  glm::ivec2 fetch_corner(glm::vec2 at) const { return floored(pattern.fetch_place(at)); }
 
   // Of a square of taps (TapPattern::texel_side()): the column and the row that tap t of each row and column reads, for t
   // from 0 on. Flat maps.
@@ -109,10 +117,7 @@ struct LookupProbe {
   // The weight of a tap. The weights of one receiver have the sum 1.
   double weight(size_t i, int tap) const { return pattern.bilinear() ? weight_at(map_texels[i], tap) : 1.0 / taps(); }
   // Of a bilinear tap, if the receiver had this position in the map.
-  double weight_at(glm::vec2 position, int tap) const {
-    const glm::vec2 at = position - 0.5f;
-    return pattern.weight(tap, glm::dvec2(at) - glm::dvec2(glm::floor(at)));
-  }
+  double weight_at(glm::vec2 position, int tap) const { return pattern.weight(tap, pattern.fetch_fraction(position)); }
 
   // Texels are clamped to this range, in the shader too. For a texel t within it, the sampler takes (t + 0.5) /
   // resolution back to texels with an error below a fifth of a texel. So every wrap mode finds texel t.
@@ -183,9 +188,16 @@ struct TapTruth {
 
 // What OpenGL made of a map for a lookup that reads moments: each stage from the one before it.
 struct MomentEvidence {
-  // Of each texel, by TexelSet::index: what it stores, after the first pass of the blur (along u; of a SpreadBlur along v),
-  // and after both.
-  std::vector<glm::vec4> stored, blurred_once, blurred;
+  // The texels of a mip level that hold a texel that was asked for, and their moments by TexelSet::index.
+  struct Level {
+    TexelSet texels;
+    std::vector<glm::vec4> moments;
+  };
+  // What the texels of the map store, and the means of 2 x 2 texels of the level before: up to the level that is blurred
+  // (lookup.level).
+  std::vector<Level> levels;
+  // Of the texels of the last level: after the first pass of the blur (along u; of a SpreadBlur along v), and after both.
+  std::vector<glm::vec4> blurred_once, blurred;
   Image<glm::vec4> fetched;  // by the lookup of each receiver
 };
 

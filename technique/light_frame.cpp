@@ -226,7 +226,7 @@ std::optional<FittedMap> moved_fit(const Scene& scene, const Settings& settings,
   if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, settings.map, axes, slice);
   if (settings.map.fit == MapFit::sphere) return fit_to_sphere(scene, settings, axes, slice);
   if (fits_corners(settings.map.fit)) return fit_to_corners(scene, settings, axes, slice);
-  if (settings.map.fit == MapFit::casters) return fit_to_casters(scene, settings.map, axes);
+  if (settings.map.fit == MapFit::casters) return fit_to_casters(scene, settings, axes);
   return std::nullopt;
 }
 
@@ -369,6 +369,7 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings, const 
   frame.far_m = settings.map.far_m.value_or(volume.far_m);
   frame.resolution = frame.rows = settings.map.resolution;
   frame.tiles = kind.tiles(settings.map);
+  frame.texel_block = texel_block(settings);
   if (!(frame.near_m < frame.far_m) || !std::isfinite(frame.far_m - frame.near_m))
     throw SettingConflict("map.far_m",
                           fmt::format("the map's near plane ({} m) is not before its far plane ({} m); set "

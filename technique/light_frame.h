@@ -63,6 +63,9 @@ struct LightFrame {
   double bias_scale = 1;  // of the compared depth's bias in this map (cascades.bias_scales)
   int resolution = 1;     // texels along the width of a tile
   int rows = 1;           // texels along its height
+  // Texels along a side of what a lookup reads as one texel (TapPattern::block). So the grid that snapping keeps in place,
+  // and over which placements are spread, is that of whole blocks.
+  int texel_block = 1;
   int tiles = 1;
 
   bool operator==(const LightFrame&) const = default;

@@ -29,12 +29,12 @@ void KindOfLight::texel_axes(const LightFrame& frame, glm::dvec3, glm::dvec3& ri
 }
 
 void KindOfLight::place_grid(LightFrame& frame, const Placements& placements, int placement) const {
-  shift_grid(frame, placements.shift_texels(placement));
+  shift_grid(frame, static_cast<double>(frame.texel_block) * placements.shift_texels(placement));
 }
 
-std::vector<PlacementFact> KindOfLight::placement_facts(const LightFrame&, const Placements& placements,
+std::vector<PlacementFact> KindOfLight::placement_facts(const LightFrame& placed, const Placements& placements,
                                                         int placement) const {
-  const glm::dvec2 shift = placements.shift_texels(placement);
+  const glm::dvec2 shift = static_cast<double>(placed.texel_block) * placements.shift_texels(placement);
   return {{"shift_u_texels", shift.x}, {"shift_v_texels", shift.y}};
 }
 

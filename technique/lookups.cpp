@@ -68,6 +68,16 @@ constexpr KindParameter moments{.setting = "lookup.moments",
                                     "bits (Peters, Klein 2015).",
                                 .choices = moment_forms};
 
+constexpr KindParameter level{.setting = "lookup.level",
+                              .unit = "",
+                              .type = ValueType::integer,
+                              .max = 3,
+                              .help =
+                                  "mip level of the map of moments that is blurred and read: each of its texels is the "
+                                  "mean of 2^level x 2^level texels of the map, whose size must be a multiple of that. "
+                                  "Filter sizes are in texels of the level. 1 is Babylon.js's blurScale = 2.",
+                              .of_blur = true};
+
 constexpr KindParameter reduction{
     .setting = "lookup.reduction",
     .unit = "fraction",
@@ -141,7 +151,7 @@ std::vector<LookupKind> make_lookups() {
                "how much of the depths is behind the receiver",
        .law = "never darker than the comparison (law 13); leak at most (a / (a + 2b))² (law 15); no bias on planes "
               "(law 17)",
-       .reads = {{&v_min}, {&reduction}, {&reduction_span, darkens_all}},
+       .reads = {{&v_min}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(vsm),
        .channels = 2,
        .within_one = always},
@@ -150,7 +160,7 @@ std::vector<LookupKind> make_lookups() {
                "to 1, "
                "Markov's bound",
        .law = "never darker than the comparison (law 13); a lit gap of ln 2 / c at a contact (law 19)",
-       .reads = {{&exponent}, {&reduction}, {&reduction_span, darkens_all}},
+       .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(esm),
        .channels = 1,
        .warp_power = 1},
@@ -159,7 +169,11 @@ std::vector<LookupKind> make_lookups() {
                "with z "
                "from -1 to 1",
        .law = "never darker than the comparison (law 13); leak at most 1 / (2 e^(c b) − 1)² (law 15)",
-       .reads = {{&exponent, beyond_float<exponent>}, {&variance_floor}, {&reduction}, {&reduction_span, darkens_all}},
+       .reads = {{&exponent, beyond_float<exponent>},
+                 {&variance_floor},
+                 {&level},
+                 {&reduction},
+                 {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(evsm2),
        .channels = 2,
        .warp_power = 2},
@@ -169,6 +183,7 @@ std::vector<LookupKind> make_lookups() {
        .reads = {{&exponent, beyond_float<exponent>},
                  {&negative_exponent, beyond_float<negative_exponent>},
                  {&variance_floor},
+                 {&level},
                  {&reduction},
                  {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(evsm4),
@@ -181,14 +196,14 @@ std::vector<LookupKind> make_lookups() {
        .law = "never darker than the comparison (law 13); leak at most 1 / (2 (1 + 2b/a)² − 1)² (law 15); lit planes "
               "need a "
               "bias of one standard deviation (law 17)",
-       .reads = {{&moment_bias}, {&moments}, {&reduction}, {&reduction_span, darkens_all}},
+       .reads = {{&moment_bias}, {&moments}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(msm),
        .channels = 4,
        .within_one = within_one},
       {.name = "msm_hausdorff",
        .help = "moment shadow map over the distributions within the map's range (Hausdorff's problem)",
        .law = "never darker than the comparison (law 13), nor lighter than msm",
-       .reads = {{&moment_bias}, {&moments}, {&reduction}, {&reduction_span, darkens_all}},
+       .reads = {{&moment_bias}, {&moments}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(msm_hausdorff),
        .channels = 4,
        .within_one = within_one},
@@ -196,7 +211,7 @@ std::vector<LookupKind> make_lookups() {
        .help = "Babylon.js's exponential shadow map (useBlurExponentialShadowMap): from the blurred e^(-c z), the lit "
                "fraction 1 - e^(c d) E[e^(-c z)]. What is in the map itself is dark without a bias",
        .law = "no bound: a receiver in the map is lit by 1 - e^(-c b) with the bias b",
-       .reads = {{&exponent}, {&reduction}, {&reduction_span, darkens_all}},
+       .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(babylon_esm),
        .channels = 1,
        .warp_power = 1,
@@ -207,7 +222,7 @@ std::vector<LookupKind> make_lookups() {
                "blurred depth z",
        .law = "no bound: shadows grow with the gap between caster and receiver; a caster that covers ln 2 / (c gap) of "
               "the blur makes half shade",
-       .reads = {{&exponent}, {&reduction}, {&reduction_span, darkens_all}},
+       .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MOMENT_FORMULAS(babylon_close_esm),
        .channels = 1,
        .within_one = always,
@@ -251,13 +266,22 @@ std::span<const KindParameter* const> LookupTable::parameters() {
 
 TapPattern tap_pattern(const Settings& settings) {
   if (!reads_moments(settings)) return tap_pattern(settings.filter);
+  TapPattern pattern;
   if (find_lookup(settings.lookup.kind).spread) {
     SpreadBlur blur = spread_blur(settings.lookup);
-    TapPattern pattern = fetches_of(std::move(blur.kernel_u));
+    pattern = fetches_of(std::move(blur.kernel_u));
     pattern.kernel_v = std::move(blur.kernel_v);
-    return pattern;
+  } else {
+    pattern = fetches_of(find_filter(settings.filter.kind).blur(settings.filter), texel_block(settings));
   }
-  return fetches_of(find_filter(settings.filter.kind).blur(settings.filter));
+  pattern.blurred = true;
+  return pattern;
+}
+
+int texel_block(const Settings& settings) {
+  for (const auto& read : find_lookup(settings.lookup.kind).reads)
+    if (read.parameter == &level) return 1 << settings.lookup.whole(level.name());
+  return 1;
 }
 
 const BiasPart* curve_part(const Settings& settings) {

@@ -69,6 +69,9 @@ inline bool reads_moments(const Settings& settings) { return find_lookup(setting
 // fetch blends.
 TapPattern tap_pattern(const Settings& settings);
 
+// Texels of the map along a side of a texel of the mip level that the lookup reads (lookup.level); 1 if it reads the map's own.
+int texel_block(const Settings& settings);
+
 // The part of the bias whose curve is exact in one pass: none of a lookup in a map of moments, which has no verdicts of taps.
 const BiasPart* curve_part(const Settings& settings);
 // Whether lookup.reduction alone turns the bound of a map of moments into its result, so that the results at other reductions

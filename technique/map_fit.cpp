@@ -141,7 +141,7 @@ FittedMap fit_to_sphere(const Scene& scene, const Settings& settings, const Ligh
   const MapSettings& map = settings.map;
   const ViewSlice whole{0, slice ? 0 : map.reach_m.value_or(diagonal_of(scene))};
   const FittedSphere sphere = sphere_of_slice(scene, settings, slice ? *slice : whole);
-  const glm::dvec2 area = lights::area_around(glm::dvec2(sphere.radius_m), 1, map);
+  const glm::dvec2 area = lights::area_around(glm::dvec2(sphere.radius_m), texel_block(settings), map);
   const glm::dvec3 middle = axes.to_light(sphere.middle_m);
   const double near_m =
       std::min(depths_inside(scene, axes, middle, area * (1 + lights::map_margin)).least, middle.z - sphere.radius_m);
@@ -271,7 +271,8 @@ class Behind {
 
 }  // namespace
 
-std::optional<FittedMap> fit_to_casters(const Scene& scene, const MapSettings& map, const LightFrame& axes) {
+std::optional<FittedMap> fit_to_casters(const Scene& scene, const Settings& settings, const LightFrame& axes) {
+  const MapSettings& map = settings.map;
   Behind behind(scene, axes.forward);
   Box casters;
   const auto in_light = [&](const glm::uvec3& t) {
@@ -296,8 +297,8 @@ std::optional<FittedMap> fit_to_casters(const Scene& scene, const MapSettings& m
   }
   if (!(casters.low.x <= casters.high.x)) return std::nullopt;
   const glm::dvec2 size(casters.high - casters.low), middle = 0.5 * glm::dvec2(casters.low + casters.high);
-  // A texel more on each side: the grid's placements, shifts and snapping move the map by up to one.
-  const glm::dvec2 area = lights::area_around(0.5 * size, 2, map);
+  // A texel (of the mip level) more on each side: the grid's placements, shifts and snapping move the map by up to one.
+  const glm::dvec2 area = lights::area_around(0.5 * size, 2 * texel_block(settings), map);
   const Depths depths = depths_inside(scene, axes, middle, area * (1 + lights::map_margin));
   return FittedMap{lights::with_margin(area, depths.least, depths.most), middle};
 }

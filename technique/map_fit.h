@@ -67,6 +67,6 @@ FittedMap fit_to_corners(const Scene& scene, const Settings& settings, const Lig
 // the map must read so there (map.wrap = clamp_to_border). Points within the rounding of the scene's float positions are on
 // the plane. A triangle along the light's rays, or one of very many that would take too long to prove, counts as a caster:
 // the square is never too small. Nothing if nothing casts.
-std::optional<FittedMap> fit_to_casters(const Scene& scene, const MapSettings& map, const LightFrame& axes);
+std::optional<FittedMap> fit_to_casters(const Scene& scene, const Settings& settings, const LightFrame& axes);
 
 }  // namespace noonmark

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 #include "technique/filters.h"
@@ -36,7 +37,8 @@ MomentLookup::MomentLookup(const Settings& settings)
       parameters_(parameters_of<in_float::LookupParameters>(*kind_, settings.lookup)),
       exact_(parameters_of<in_extended::LookupParameters>(*kind_, settings.lookup)),
       reduction_(settings.lookup["reduction"]),
-      span_(settings.lookup["reduction_span"]) {
+      span_(settings.lookup["reduction_span"]),
+      level_(std::countr_zero(static_cast<unsigned>(texel_block(settings)))) {
   if (!kind_->reads_moments()) throw std::logic_error("MomentLookup: the lookup compares depths");
   bare_ = exact_;
   bare_.v_min = bare_.floor = bare_.moment_bias = 0;
@@ -52,8 +54,8 @@ MomentLookup::MomentLookup(const Settings& settings)
 
 std::string MomentLookup::key() const {
   const in_float::LookupParameters& p = parameters_;
-  std::string key = fmt::format("{} {} {} {} {} {}", kind_->name, static_cast<int>(format_), p.exponent,
-                                p.negative_exponent, p.moments, fmt::join(kernel_, " "));
+  std::string key = fmt::format("{} {} {} {} {} {} {}", kind_->name, static_cast<int>(format_), p.exponent,
+                                p.negative_exponent, p.moments, level_, fmt::join(kernel_, " "));
   if (spread_)
     for (const SpreadBlur::Tap& tap : spread_->along_u) key += fmt::format(" {} {}", tap.texel, tap.next);
   return key;

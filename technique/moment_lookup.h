@@ -27,6 +27,7 @@ class MomentLookup {
   MomentFormat format() const { return format_; }
   const in_float::LookupParameters& parameters() const { return parameters_; }
   std::span<const double> kernel() const { return kernel_; }  // of the blur, along each axis; sum 1
+  int level() const { return level_; }                        // how often the stored texels are halved before the blur
   // Its own blur, in place of a kernel; null: the blur is the kernel's.
   const SpreadBlur* spread() const { return spread_ ? &*spread_ : nullptr; }
   // Of all that the texels of a blurred map depend on, besides the depths.
@@ -62,6 +63,7 @@ class MomentLookup {
   in_extended::LookupParameters exact_, bare_;
   double reduction_, span_;
   bool given_span_ = false;  // otherwise it is 1 - r
+  int level_;
   std::vector<double> kernel_;
   std::optional<SpreadBlur> spread_;
 };

@@ -2,7 +2,8 @@
 // depends on that, although nobody chooses it. Each kind of light defines how its placements differ
 // (KindOfLight::place_grid).
 //
-// Of a flat map, S x S placements shift the grid by whole multiples of 1/S texel along each axis. They are a stratified
+// Of a flat map, S x S placements shift the grid by whole multiples of 1/S texel along each axis (of a texel of the mip
+// level that a lookup reads: LightFrame::texel_block). They are a stratified
 // sample of all placements, because a shift by one texel gives the same grid. The texel centres of all placements form
 // one finer grid, the *lattice*: S points along each side of a texel. So one set of light-side rays, through the points
 // of the lattice, answers for every placement.

@@ -177,6 +177,23 @@ std::string no_direction_up(const Settings& s, std::optional<LightKind>) {
   return s.view.up && *s.view.up == glm::dvec3(0) ? "view.up = 0,0,0 is no direction; give another, or auto" : "";
 }
 
+// The texels of a mip level are means of whole blocks of texels.
+std::string undivided_map(const Settings& s) {
+  const int block = texel_block(s);
+  if (block == 1) return "";
+  if (!s.map.aspect)
+    return "lookup.level needs a map whose height is known; set map.aspect to a number, or lookup.level = 0";
+  std::vector<double> sizes = s.cascades.count > 1 ? s.cascades.resolutions : std::vector<double>();
+  if (sizes.empty()) sizes = {static_cast<double>(s.map.resolution), static_cast<double>(s.map.rows())};
+  for (const double size : sizes)
+    if (const int texels = static_cast<int>(size); texels % block != 0)
+      return fmt::format(
+          "lookup.level = {} halves the map's {} texels {} times, and they are no multiple of {}; take {} or {} texels",
+          s.lookup.whole("level"), texels, s.lookup.whole("level"), block, std::max(1, texels / block) * block,
+          (texels / block + 1) * block);
+  return "";
+}
+
 // What a map of moments cannot be combined with.
 std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> light) {
   if (!reads_moments(s)) return "";
@@ -193,6 +210,7 @@ std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> l
         "lookup.kind = {} has a blur of its own, of lookup.samples over lookup.radius; set filter.kind = none", kind);
   if (s.filter.kind == "box" && s.filter["step_texels"] != 1)
     return fmt::format("lookup.kind = {} blurs neighbouring texels; set filter.step_texels = 1", kind);
+  if (const std::string why = undivided_map(s); !why.empty()) return why;
   if (tap_reference(s.bias.reference).plane)
     return fmt::format(
         "bias.reference = {} gives each tap a depth of its own, and lookup.kind = {} has one for all; set "

@@ -322,11 +322,11 @@ std::vector<Setting> make_table() {
            "(map.fit = sphere).",
            MEMBER(map.snap))
           .refused(snapped_perspective),
-      real("map.shift_u_texels", "texels", -1, 1,
+      real("map.shift_u_texels", "texels", -8, 8,
            "Moves the map with its texel grid to the light's right, to try another alignment of texels and edges.",
            MEMBER(map.shift_u_texels))
           .refused(cube_shifted_along_u),
-      real("map.shift_v_texels", "texels", -1, 1, "Moves the map with its texel grid up, as the light sees it.",
+      real("map.shift_v_texels", "texels", -8, 8, "Moves the map with its texel grid up, as the light sees it.",
            MEMBER(map.shift_v_texels))
           .refused(cube_shifted_along_v),
       point("map.turn_deg", "deg",
@@ -427,6 +427,7 @@ std::vector<Setting> make_table() {
         [](const KindParameter* parameter) { return kind_row(filters(), *parameter, MEMBER(filter)); });
   after("lookup.kind", LookupTable::parameters(), [](const KindParameter* parameter) {
     const Setting row = kind_row(lookups(), *parameter, MEMBER(lookup));
+    if (parameter->name() == "level") return row.only_read_by({Stage::map, Stage::lookup});  // LightFrame::texel_block
     return parameter->of_blur ? row : row.only_read_by({Stage::ladder});
   });
   const std::vector<Setting> cascades = cascade_rows();

@@ -9,10 +9,11 @@ namespace noonmark {
 
 double TapPattern::along_axis(int axis, int texel, double fraction) const {
   if (axis_weight) return axis_weight(texel, fraction, blended_side - 1);
-  const int fetches = blended_side - 1;
+  const int fetches = fetches_along(), at = texel / block;
   const std::vector<double>& weights = axis == 0 ? kernel : along_v();
-  return (texel < fetches ? weights[static_cast<size_t>(texel)] * (1 - fraction) : 0) +
-         (texel > 0 ? weights[static_cast<size_t>(texel) - 1] * fraction : 0);
+  return ((at < fetches ? weights[static_cast<size_t>(at)] * (1 - fraction) : 0) +
+          (at > 0 ? weights[static_cast<size_t>(at) - 1] * fraction : 0)) /
+         block;
 }
 
 int TapPattern::fetches() const {
@@ -24,7 +25,7 @@ int TapPattern::fetches() const {
 double TapPattern::reach_texels() const {
   float reach = 0;
   for (const glm::vec3& o : offsets) reach = std::max({reach, std::abs(o.x), std::abs(o.y)});
-  return static_cast<double>(reach) + 0.5;
+  return static_cast<double>(reach) + block / 2.0;
 }
 
 namespace {

@@ -30,10 +30,18 @@ struct TapPattern {
   // Bilinear taps: a comparison sampler blends this many texels along each axis, and the taps are the square of them. 0
   // means that all taps have the same weight.
   int blended_side = 0;
+  int fetches_along() const { return blended_side / block - 1; }  // of a kernel
   bool bilinear() const { return blended_side > 0; }
-  // The weights of bilinear taps come from one of these two. `kernel` holds the weights of blended_side - 1 fetches
-  // along one axis (sum 1); each fetch blends 2 x 2 texels by the position of P between their centres. If `kernel` is
-  // empty, axis_weight gives the weight of each texel along one axis (sum 1), and s is the fraction.
+  // A fetch of a map of moments reads texels of its mip level, each the mean of block x block texels of the shadow map
+  // (lookup.level). Each texel of the block is a tap; its exact place keeps its distance to P, so it is up to half a block
+  // from the texel's centre. 1: the fetch reads the map's own texels.
+  int block = 1;
+  // What the fetch reads is a sum that a blur stored, so that near the edge of the map its texels are those around the
+  // wrapped place, not the wrapped texels of the taps.
+  bool blurred = false;
+  // The weights of bilinear taps come from one of these two. `kernel` holds the weights of fetches_along() fetches
+  // along one axis (sum 1); each fetch blends 2 x 2 texels (of the mip level) by the position of P between their centres.
+  // If `kernel` is empty, axis_weight gives the weight of each texel along one axis (sum 1), and s is the fraction.
   std::vector<double> kernel;
   std::vector<double> kernel_v = {};  // along v if they differ, as many; empty: those of `kernel`
   const std::vector<double>& along_v() const { return kernel_v.empty() ? kernel : kernel_v; }
@@ -44,13 +52,20 @@ struct TapPattern {
   // The taps along the side of a square of texels, bilinear or not; 0: the taps are no such square.
   int texel_side() const { return bilinear() ? blended_side : square_side; }
 
-  // Weight of a bilinear tap. fraction: the position of P between the centres of the texels to its lower left and upper
-  // right.
+  // Bilinear taps: a position in the map, in texels, as the place of a fetch: floor() of it is the texel (of the mip level)
+  // to the lower left of P, and the rest the fraction.
+  glm::vec2 fetch_place(glm::vec2 map_texels) const { return map_texels / static_cast<float>(block) - 0.5f; }
+  glm::dvec2 fetch_fraction(glm::vec2 map_texels) const {
+    const glm::vec2 at = fetch_place(map_texels);
+    return glm::dvec2(at) - glm::dvec2(glm::floor(at));
+  }
+
+  // Weight of a bilinear tap. fraction: fetch_fraction().
   double weight(int tap, glm::dvec2 fraction) const {
     if (!bilinear()) return 1.0 / taps;
     return along_axis(0, tap % blended_side, fraction.x) * along_axis(1, tap / blended_side, fraction.y);
   }
-  // Of its column (axis 0) or of its row (axis 1) alone. fraction: along that axis.
+  // Of its column (axis 0) or of its row (axis 1) alone, from 0 to blended_side - 1. fraction: along that axis.
   double along_axis(int axis, int texel, double fraction) const;
 
   // Texture instructions for one receiver: one for each tap, or one for each 2 x 2 texels that a sampler blends.

@@ -50,17 +50,38 @@ class Check {
     for (const double weight : lookup_.kernel()) kernel_.push_back(static_cast<float>(weight));
   }
 
-  void texel(glm::ivec2 at, size_t index, MomentContractCounts& counts) const {
+  // Of the map itself.
+  void stored(size_t index, MomentContractCounts& counts) const {
     ++counts.texels;
     // What a blur of spreads reads is the depth of the map itself.
     const MomentFormat format = lookup_.spread() ? MomentFormat::f32 : lookup_.format();
-    counts.stored += !holds(format, moments_.stored[index], lookup_.stored(map_[index]), stored_error_);
+    counts.stored += !holds(format, moments_.levels.front().moments[index], lookup_.stored(map_[index]), stored_error_);
+  }
+
+  // Of a mip level from 1 on.
+  void halved(size_t level, glm::ivec2 at, size_t index, MomentContractCounts& counts) const {
+    const MomentEvidence::Level& from = moments_.levels[level - 1];
+    const auto read = [&](int x, int y) -> std::optional<glm::vec4> {
+      const glm::ivec2 texel = 2 * at + glm::ivec2(x, y);
+      if (!from.texels.has(texel)) return std::nullopt;
+      return from.moments[from.texels.index(texel)];
+    };
+    const auto a = read(0, 0), b = read(1, 0), c = read(0, 1), d = read(1, 1);
+    if (!a || !b || !c || !d) return;
+    ++counts.sums;
+    const glm::vec4 mean = 0.25f * ((*a + *b) + (*c + *d));
+    counts.blurred += !holds(lookup_.format(), moments_.levels[level].moments[index], mean, no_error);
+  }
+
+  // Of the last level.
+  void blurred(glm::ivec2 at, size_t index, MomentContractCounts& counts) const {
+    const std::vector<glm::vec4>& stored = moments_.levels.back().moments;
     if (const SpreadBlur* const spread = lookup_.spread()) {
-      spread_pass(moments_.stored, moments_.blurred_once, at, index, {0, 1}, spread->along_v, counts);
+      spread_pass(stored, moments_.blurred_once, at, index, {0, 1}, spread->along_v, counts);
       spread_pass(moments_.blurred_once, moments_.blurred, at, index, {1, 0}, spread->along_u, counts);
       return;
     }
-    for (const auto& [from, to, way] : {std::tuple(&moments_.stored, &moments_.blurred_once, glm::ivec2(1, 0)),
+    for (const auto& [from, to, way] : {std::tuple(&stored, &moments_.blurred_once, glm::ivec2(1, 0)),
                                         std::tuple(&moments_.blurred_once, &moments_.blurred, glm::ivec2(0, 1))}) {
       const std::optional<glm::vec4> sum = summed(*from, at, way);
       if (!sum) continue;
@@ -73,7 +94,8 @@ class Check {
     if (!e_.probe.asks(i)) return;
     const float reference = e_.probe.reference[i];
     const glm::vec4 fetched = moments_.fetched[i];
-    if (const std::optional<Blend> blend = blend_at(glm::dvec2(e_.probe.map_texels[i]) - 0.5)) {
+    const double block = e_.probe.pattern.block;
+    if (const std::optional<Blend> blend = blend_at(glm::dvec2(e_.probe.map_texels[i]) / block - 0.5)) {
       ++counts.fetches;
       bool held = true;
       for (int c = 0; c < lookup_.kind().channels; ++c) {
@@ -108,12 +130,13 @@ class Check {
     return true;
   }
 
-  // Of the texel outside or inside the map; empty if it was not read.
+  // Of the texel of the last level outside or inside the map; empty if it was not read.
   std::optional<glm::vec4> at(const std::vector<glm::vec4>& pass, glm::ivec2 texel) const {
-    const glm::ivec2 read = wrapped(texel, map_.size(), e_.map.wrap);
+    const TexelSet& texels = moments_.levels.back().texels;
+    const glm::ivec2 read = wrapped(texel, texels.size(), e_.map.wrap);
     if (read.x < 0) return border_;
-    if (!map_.texels->has(read)) return std::nullopt;
-    return pass[map_.texels->index(read)];
+    if (!texels.has(read)) return std::nullopt;
+    return pass[texels.index(read)];
   }
 
   std::optional<glm::vec4> summed(const std::vector<glm::vec4>& pass, glm::ivec2 texel, glm::ivec2 way) const {
@@ -158,7 +181,8 @@ class Check {
   // sampler's weights are. A blend is linear between the centres of texels.
   std::optional<Blend> blend_at(glm::dvec2 place) const {
     const glm::dvec2 across = glm::abs(place);
-    const double off = 0x1p-8 + 8 * 0x1p-24 * std::max({across.x, across.y, static_cast<double>(map_.size().x)});
+    const auto width = static_cast<double>(moments_.levels.back().texels.size().x);
+    const double off = 0x1p-8 + 8 * 0x1p-24 * std::max({across.x, across.y, width});
     Blend blend{glm::dvec4(HUGE_VAL), glm::dvec4(-HUGE_VAL)};
     const auto places = [&](double x) {
       std::vector<double> all = {x - off, x + off};
@@ -214,11 +238,22 @@ MomentContractCounts& MomentContractCounts::operator+=(const MomentContractCount
 MomentContractCounts check_moments(const LookupEvidence& e, const MapDepths& map, const MomentEvidence& moments,
                                    const Image<float>& result) {
   const Check check(e, map, moments, result);
-  const TexelSet& texels = *map.texels;
-  MomentContractCounts counts = counted(static_cast<size_t>(texels.size().y), [&](size_t row, auto& found) {
-    const int y = static_cast<int>(row);
-    texels.each_in_row(y, [&](int x, size_t index) { check.texel({x, y}, index, found); });
-  });
+  MomentContractCounts counts;
+  const auto count_level = [&](const TexelSet& texels, const auto& each) {
+    counts += counted(static_cast<size_t>(texels.size().y), [&](size_t row, auto& found) {
+      const int y = static_cast<int>(row);
+      texels.each_in_row(y, [&](int x, size_t index) { each(glm::ivec2(x, y), index, found); });
+    });
+  };
+  for (size_t level = 0; level < moments.levels.size(); ++level)
+    count_level(moments.levels[level].texels, [&](glm::ivec2 at, size_t index, auto& found) {
+      if (level == 0)
+        check.stored(index, found);
+      else
+        check.halved(level, at, index, found);
+    });
+  count_level(moments.levels.back().texels,
+              [&](glm::ivec2 at, size_t index, auto& found) { check.blurred(at, index, found); });
   counts += counted(e.truth.facing.size(), [&](size_t i, auto& found) {
     if (e.truth.facing[i]) check.receiver(i, found);
   });

@@ -16,7 +16,7 @@ namespace noonmark {
 // Shares of what was checked that is off by more than its stage can be.
 struct MomentContractCounts {
   uint64_t texels = 0, stored = 0;    // what a texel stores, from the depth that the sampler returns
-  uint64_t sums = 0, blurred = 0;     // a sum of a pass of the blur
+  uint64_t sums = 0, blurred = 0;     // a sum of a halving or of a pass of the blur
   uint64_t fetches = 0, fetched = 0;  // what the lookup fetches, from the blurred texels
   uint64_t results = 0, lit = 0;      // the result, from what was fetched
   MomentContractCounts& operator+=(const MomentContractCounts& more);
@@ -26,7 +26,8 @@ struct MomentContractCounts {
 // lookup. Checked are the texels of the map's set and the facing receivers:
 //   stored   equal to the formula in float on this side, as the format holds it: bit for bit in 32 bits; one of the two
 //            neighbours in 16, where OpenGL may round to either. exp() is within 3 + 2 |x| units (GLSL 4.50, 4.7.1).
-//   blurred  the sum of products in the shader's order, in float, as the format holds it; of a blur that stores a spread
+//   blurred  the sum of products in the shader's order, in float, as the format holds it; of a halving (lookup.level) the
+//            mean of four; of a blur that stores a spread
 //            (technique/spread_blur.h) within the error of float arithmetic. Texels of which a neighbour was not read are
 //            left out.
 //   fetched  between the blends with weights that are off by 2^-8, as samplers of GPUs have them.

@@ -17,10 +17,9 @@ void blended_depths(const LookupEvidence& e, size_t i, const ReceiverTaps& taps,
                     std::vector<double>& weights) {
   depths.clear(), weights.clear();
   const TapPattern& pattern = e.probe.pattern;
-  const int side = pattern.blended_side, size = side - 1, before = (side - 2) / 2;
-  const glm::ivec2 map = e.exact_map.size(), first = e.probe.texel(i, 0);
-  const glm::ivec2 corner = first + before;  // the lower left of the four texels
-  if (inside_map(corner, map) && inside_map(corner + 1, map)) {
+  const glm::ivec2 map = e.exact_map.size(), level = map / pattern.block;
+  const glm::ivec2 corner = e.probe.fetch_corner(e.probe.map_texels[i]);  // the lower left of the four texels
+  if (inside_map(corner, level) && inside_map(corner + 1, level)) {
     depths.resize(taps.size()), weights.resize(taps.size());
     for (size_t t = 0; t < taps.size(); ++t) {
       depths[t] = static_cast<double>(taps.depth_in(e.exact_map, t));
@@ -28,32 +27,32 @@ void blended_depths(const LookupEvidence& e, size_t i, const ReceiverTaps& taps,
     }
     return;
   }
-  const glm::vec2 at = e.probe.map_texels[i] - 0.5f;
-  const glm::dvec2 s = glm::dvec2(at) - glm::dvec2(glm::floor(at));
+  const glm::dvec2 s = pattern.fetch_fraction(e.probe.map_texels[i]);
+  const double whole = pattern.block * pattern.block;
   for (const int y : {0, 1})
     for (const int x : {0, 1}) {
       const double share = (x ? s.x : 1 - s.x) * (y ? s.y : 1 - s.y);
-      const glm::ivec2 middle = wrapped(corner + glm::ivec2(x, y), map, e.map.wrap);
+      const glm::ivec2 middle = wrapped(corner + glm::ivec2(x, y), level, e.map.wrap);
       if (middle.x < 0) {
         depths.push_back(static_cast<double>(border_depth)), weights.push_back(share);
         continue;
       }
-      for (int v = 0; v < size; ++v)
-        for (int u = 0; u < size; ++u) {
-          const glm::ivec2 texel = wrapped(middle + glm::ivec2(u, v) - size / 2, map, e.map.wrap);
-          depths.push_back(static_cast<double>(texel.x < 0 ? border_depth : e.exact_map.at(texel)));
-          weights.push_back(share * pattern.kernel[static_cast<size_t>(u)] * pattern.along_v()[static_cast<size_t>(v)]);
-        }
+      each_texel_of_blur(
+          middle, pattern.fetches_along(), pattern.block, map, e.map.wrap, [&](int u, int v, glm::ivec2 texel) {
+            const bool border = texel.x < 0;
+            const double weight =
+                share * pattern.kernel[static_cast<size_t>(u)] * pattern.along_v()[static_cast<size_t>(v)];
+            depths.push_back(static_cast<double>(border ? border_depth : e.exact_map.at(texel)));
+            weights.push_back(border ? weight : weight / whole);
+          });
     }
 }
 
 // What a linear fetch gives at a receiver of the texels of a blur that stores spreads, without rounding.
 Spread fetched_spread(const LookupEvidence& e, size_t i, std::vector<double>& depths) {
   const SpreadBlur& blur = *e.moments->spread();
-  const int reach = blur.size() / 2;
-  const glm::ivec2 map = e.exact_map.size(), corner = e.probe.texel(i, 0) + reach;
-  const glm::vec2 at = e.probe.map_texels[i] - 0.5f;
-  const glm::dvec2 s = glm::dvec2(at) - glm::dvec2(glm::floor(at));
+  const glm::ivec2 map = e.exact_map.size(), corner = e.probe.fetch_corner(e.probe.map_texels[i]);
+  const glm::dvec2 s = e.probe.pattern.fetch_fraction(e.probe.map_texels[i]);
   Spread fetched;
   for (const int y : {0, 1})
     for (const int x : {0, 1}) {
@@ -64,11 +63,9 @@ Spread fetched_spread(const LookupEvidence& e, size_t i, std::vector<double>& de
         continue;
       }
       depths.clear();
-      for (int v = -reach; v <= reach; ++v)
-        for (int u = -reach; u <= reach; ++u) {
-          const glm::ivec2 texel = wrapped(middle + glm::ivec2(u, v), map, e.map.wrap);
-          depths.push_back(static_cast<double>(texel.x < 0 ? border_depth : e.exact_map.at(texel)));
-        }
+      each_texel_of_blur(middle, blur.size(), 1, map, e.map.wrap, [&](int, int, glm::ivec2 texel) {
+        depths.push_back(static_cast<double>(texel.x < 0 ? border_depth : e.exact_map.at(texel)));
+      });
       const Spread one = spread_of(blur, depths);
       fetched.mean += share * one.mean;
       fetched.deviation += share * one.deviation;

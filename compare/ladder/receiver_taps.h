@@ -130,7 +130,7 @@ class ReceiverTaps {
     }
     size_t inside = 0;
     for (int tap = 0; tap < static_cast<int>(size_); ++tap) {
-      const glm::ivec2 texel = probe.texel(i, tap), at = wrapped(texel, map_size, settings.wrap);
+      const glm::ivec2 texel = probe.texel(i, tap), at = wrapped(texel, map_size, settings.wrap, probe.pattern.block);
       inside += inside_map(texel, map_size);
       beside_ += at.x < 0;
       index_.push_back(at.x < 0 ? on_border : static_cast<uint32_t>(texels.index(at)));
@@ -150,8 +150,7 @@ class ReceiverTaps {
   void list_weights(const LookupProbe& probe, size_t i) {
     weight_u_.clear(), weight_v_.clear();
     if (!blended_) return;
-    const glm::vec2 at = probe.map_texels[i] - 0.5f;
-    const glm::dvec2 fraction = glm::dvec2(at) - glm::dvec2(glm::floor(at));
+    const glm::dvec2 fraction = probe.pattern.fetch_fraction(probe.map_texels[i]);
     for (int t = 0; t < probe.pattern.blended_side; ++t) {
       weight_u_.push_back(probe.pattern.along_axis(0, t, fraction.x));
       weight_v_.push_back(probe.pattern.along_axis(1, t, fraction.y));

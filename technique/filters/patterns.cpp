@@ -33,9 +33,10 @@ std::vector<double> gaussian_weights(int size, double sigma) {
   return weights;
 }
 
-TapPattern fetches_of(std::vector<double> kernel) {
+TapPattern fetches_of(std::vector<double> kernel, int block) {
   TapPattern pattern;
-  pattern.blended_side = static_cast<int>(kernel.size()) + 1;
+  pattern.block = block;
+  pattern.blended_side = block * (static_cast<int>(kernel.size()) + 1);
   pattern.kernel = std::move(kernel);
   pattern.taps = pattern.blended_side * pattern.blended_side;
   pattern.offsets = square_of_taps(pattern.blended_side, 1);

@@ -15,8 +15,9 @@ int rotations(const FilterSettings& settings, int taps);
 std::vector<double> equal_weights(int size);
 std::vector<double> gaussian_weights(int size, double sigma_texels);
 
-// Linear fetches with a spacing of one texel, of these weights along each axis.
-TapPattern fetches_of(std::vector<double> kernel);
+// Linear fetches with a spacing of one texel, of these weights along each axis; of a mip level whose texels are the means of
+// block x block texels of the map.
+TapPattern fetches_of(std::vector<double> kernel, int block = 1);
 
 // Taps that a sampler blends with weights along each axis, over size + 1 texels. `weight` is the function <name>_weight
 // of the filter's formula.

@@ -60,8 +60,10 @@ class Directional final : public KindOfLight {
     // is the world's origin, moved along the light to where depths are measured from.
     if (map.snap) {
       const glm::dvec3 anchor = glm::dot(light.position_m, frame.forward) * frame.forward;
+      const double block = frame.texel_block;
       frame.anchor_texels =
-          glm::round(glm::dvec2(glm::dot(frame.origin_m, frame.right), glm::dot(frame.origin_m, frame.up)) / w);
+          block * glm::round(glm::dvec2(glm::dot(frame.origin_m, frame.right), glm::dot(frame.origin_m, frame.up)) /
+                             (block * w));
       frame.anchor_m = anchor;
       frame.origin_m = anchor + w * (frame.anchor_texels.x * frame.right + frame.anchor_texels.y * frame.up);
     }

@@ -25,6 +25,8 @@ const std::vector<PlacedMoments> placed_moments = {
     {"msm", {{"lookup.kind", "msm"}, {"bias.constant", "0.002"}}},
     {"three_vsm", {{"lookup.kind", "three_vsm"}, {"filter.kind", "none"}, {"lookup.reduction_span", "0.65"}}},
     {"spot", {{"scene.name", "spot-room"}, {"filter.size", "3"}}},
+    {"halved", {{"lookup.level", "1"}, {"filter.size", "3"}}},
+    {"halved_twice", {{"lookup.kind", "msm"}, {"lookup.level", "2"}, {"filter.kind", "none"}}},
     {"beyond_far", {{"map.far_m", "7"}}},
     {"strips", {{"filter.size", "9"}}},
 };
@@ -50,8 +52,10 @@ TEST_P(EveryMomentPlacement, HasTheNumbersOfMeasuringItByItself) {
   double low = 0, high = 1, shown_at_worst = 0, worst = -1;
   for (int p = 0; p < placements.count(); ++p) {
     Settings one = settings;
-    one.map.shift_u_texels += placements.shift_texels(p).x;
-    one.map.shift_v_texels += placements.shift_texels(p).y;
+    // Over one texel of the level that is read.
+    const double block = std::exp2(settings.lookup["level"]);
+    one.map.shift_u_texels += block * placements.shift_texels(p).x;
+    one.map.shift_v_texels += block * placements.shift_texels(p).y;
     const Measurement m = bench.measure(one, options);
     for (const char* name : {"peter_panning", "aliasing", "aliasing_dark", "aliasing_light", "aliasing_rms", "coverage",
                              "coverage_dark", "coverage_light", "leak", "over_darkening", "reduction"})

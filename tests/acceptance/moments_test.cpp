@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <tuple>
 
 #include "base/error.h"
 #include "compare/ladder/measure.h"
 #include "compare/ladder/parameter_values.h"
+#include "technique/cost.h"
 #include "technique/lookups.h"
 #include "technique/map_address.h"
 #include "technique/setting_rules.h"
@@ -87,6 +90,21 @@ INSTANTIATE_TEST_SUITE_P(
         SceneCase{"VsmClamped", "cube-room", {{"map.wrap", "clamp_to_edge"}, {"map.format", "16"}}},
         SceneCase{"VsmOffset", "cube-room", {{"bias.normal_offset", "0.05"}}},
         SceneCase{"VsmSpot", "spot-room", {{"map.extent_m", "auto"}}},
+        SceneCase{"VsmHalved", "cube-room", {{"lookup.level", "1"}}},
+        SceneCase{"VsmHalvedThriceAndClamped",
+                  "cube-room",
+                  {{"lookup.level", "3"}, {"map.wrap", "clamp_to_edge"}, {"map.extent_m", "2"}}},
+        SceneCase{"MsmHalvedTwiceUnderASpot",
+                  "spot-room",
+                  {{"lookup.kind", "msm"}, {"lookup.level", "2"}, {"filter.kind", "none"}, {"map.extent_m", "auto"}}},
+        SceneCase{"EsmHalvedInHalfFloats",
+                  "cube-room",
+                  {{"lookup.kind", "esm"},
+                   {"lookup.exponent", "11"},
+                   {"lookup.level", "1"},
+                   {"filter.kind", "gaussian"},
+                   {"map.wrap", "repeat"},
+                   {"map.moments", "16f"}}},
         SceneCase{"Esm", "cube-room", {{"lookup.kind", "esm"}}},
         SceneCase{"EsmHalf", "cube-room", {{"lookup.kind", "esm"}, {"lookup.exponent", "11"}, {"map.moments", "16f"}}},
         SceneCase{"Evsm2", "pillars", {{"lookup.kind", "evsm2"}, {"map.extent_m", "auto"}}},
@@ -133,15 +151,19 @@ INSTANTIATE_TEST_SUITE_P(
 class BlurredMap {
  public:
   BlurredMap(const MeasuredMap& map, const Settings& s)
-      : depth_(map.exact), wrap_(s.map.wrap), size_(s.filter.whole("size")) {}
+      : depth_(map.exact),
+        wrap_(s.map.wrap),
+        size_(s.filter.whole("size")),
+        block_(1 << s.lookup.whole("level")),
+        texels_(depth_.size() / block_) {}
 
   // (mean, mean of the squares) of a texel, as the sampler finds it.
   glm::dvec2 at(glm::ivec2 texel) const {
-    const glm::ivec2 read = wrapped(texel, depth_.size(), wrap_);
+    const glm::ivec2 read = wrapped(texel, texels_, wrap_);
     return read.x < 0 ? glm::dvec2(1) : blurred(read);
   }
   glm::dvec2 fetched(glm::vec2 map_texels) const {
-    const glm::vec2 at_centre = map_texels - 0.5f;
+    const glm::dvec2 at_centre = glm::dvec2(map_texels) / static_cast<double>(block_) - 0.5;
     const glm::ivec2 corner(glm::floor(at_centre));
     const glm::dvec2 s = glm::dvec2(at_centre) - glm::dvec2(corner);
     return glm::mix(glm::mix(at(corner), at(corner + glm::ivec2(1, 0)), s.x),
@@ -153,22 +175,38 @@ class BlurredMap {
     glm::dvec2 sum(0);
     for (int v = -size_ / 2; v <= size_ / 2; ++v)
       for (int u = -size_ / 2; u <= size_ / 2; ++u) {
-        const glm::ivec2 read = wrapped(middle + glm::ivec2(u, v), depth_.size(), wrap_);
-        const double depth = read.x < 0 ? 1 : static_cast<double>(depth_.at(read));
-        sum += glm::dvec2(depth, depth * depth);
+        const glm::ivec2 read = wrapped(middle + glm::ivec2(u, v), texels_, wrap_);
+        sum += read.x < 0 ? glm::dvec2(1) : mean_of_block(read);
       }
     return sum / static_cast<double>(size_ * size_);
+  }
+  // Of the texels of the map that a texel of the level covers.
+  glm::dvec2 mean_of_block(glm::ivec2 texel) const {
+    glm::dvec2 sum(0);
+    for (int y = 0; y < block_; ++y)
+      for (int x = 0; x < block_; ++x) {
+        const glm::ivec2 read = block_ * texel + glm::ivec2(x, y);
+        EXPECT_TRUE(depth_.texels->has(read));  // what is not in the set has a depth of 1
+        const auto depth = static_cast<double>(depth_.at(read));
+        sum += glm::dvec2(depth, depth * depth);
+      }
+    return sum / static_cast<double>(block_ * block_);
   }
 
   const MapDepths& depth_;
   Wrap wrap_;
-  int size_;
+  int size_, block_;
+  glm::ivec2 texels_;
 };
 
 TEST(MomentLadder, IsThatOfTheBlurredMapAlsoAcrossItsBorder) {
   Workbench bench(gl::DebugMode::fatal);
-  for (const char* wrap : {"clamp_to_border", "clamp_to_edge", "repeat"}) {
-    const Settings s = with_moments({{"map.wrap", wrap}, {"map.lit_beyond_far", "false"}});
+  for (const auto& [wrap, level, extent_m] :
+       {std::tuple("clamp_to_border", "0", "8"), std::tuple("clamp_to_edge", "0", "8"), std::tuple("repeat", "0", "8"),
+        std::tuple("clamp_to_border", "2", "8"), std::tuple("clamp_to_edge", "1", "2"),
+        std::tuple("repeat", "3", "2")}) {
+    const Settings s = with_moments(
+        {{"map.wrap", wrap}, {"lookup.level", level}, {"map.extent_m", extent_m}, {"map.lit_beyond_far", "false"}});
     const Measurement m = of_moments(bench, s);
     const BlurredMap map(m.maps.front(), s);
     size_t compared = 0, at_border = 0;
@@ -180,13 +218,48 @@ TEST(MomentLadder, IsThatOfTheBlurredMapAlsoAcrossItsBorder) {
       const double lit = d <= b.x ? 1 : variance / (variance + (d - b.x) * (d - b.x));
       // The variance from moments in double has 2^-53 of a square; a float keeps 2^-24 of the result.
       const double gap = std::max(std::abs(d - b.x), 1e-9);
-      EXPECT_NEAR(m.ladder[Rung::on_exact_map][i], lit, 1e-6 + 1e-15 / (gap * gap)) << wrap << " " << i;
+      EXPECT_NEAR(m.ladder[Rung::on_exact_map][i], lit, 1e-6 + 1e-15 / (gap * gap)) << wrap << " " << level << " " << i;
       ++compared;
       const glm::vec2 edge = glm::min(probe.map_texels[i], 128.0f - probe.map_texels[i]);
       at_border += std::abs(std::min(edge.x, edge.y)) < 1;
     }
     EXPECT_GT(compared, 5000u);
     EXPECT_GT(at_border, 30u) << wrap;
+  }
+}
+
+// A level of one texel's width is nearly a box of the map; both read the same scene. And a level of a finer map is what a
+// blur of that map is at the texels of the level, so more levels blur more.
+TEST(MomentLevel, BlursMoreAndCostsLess) {
+  Workbench bench(gl::DebugMode::fatal);
+  std::map<int, double> filter;
+  std::map<int, FrameCost> cost;
+  for (const int level : {0, 1, 2, 3}) {
+    const Settings s = with_moments({{"lookup.level", std::to_string(level)}, {"map.resolution", "256"}});
+    const Measurement m = of_moments(bench, s);
+    filter[level] = metric(m, "filter");
+    const LightFrame& frame = m.maps.front().technique.frame;
+    cost[level] = frame_cost(s, 1, frame.texels(), 0, 1);
+    EXPECT_EQ(frame.texel_block, 1 << level);
+  }
+  for (const int level : {1, 2, 3}) {
+    EXPECT_GT(filter[level], 1.3 * filter[level - 1]) << level;
+    EXPECT_LT(cost[level].texel_work, cost[level - 1].texel_work) << level;
+    EXPECT_LT(cost[level].map_bytes, cost[level - 1].map_bytes) << level;
+  }
+}
+
+// A setting of the level is a setting of the blur: a bench that measured another level before gives the same numbers.
+TEST(MomentLevel, IsMeasuredAnewAfterAnotherOne) {
+  Workbench used(gl::DebugMode::fatal);
+  for (const char* level : {"0", "2", "1"}) {
+    const Settings s = with_moments({{"lookup.level", level}, {"map.snap", "true"}});
+    Workbench fresh(gl::DebugMode::fatal);
+    const std::map<std::string, double> again = of_moments(used, s).record.metrics;
+    for (const auto& [name, value] : of_moments(fresh, s).record.metrics)
+      if (!name.starts_with("truth_by_")) {
+        EXPECT_EQ(again.at(name), value) << level << " " << name;
+      }
   }
 }
 

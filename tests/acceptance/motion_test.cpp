@@ -130,6 +130,22 @@ TEST(Motion, EachBrokenConditionBringsItsOwnClassAlone) {
   }
 }
 
+// A texel of a level of a map of moments is a block of texels of the map, and the map moves by whole blocks.
+TEST(Motion, OfALevelOfAMapOfMomentsKeepsItsGridAndDepths) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings level = with({{"lookup.kind", "vsm"},
+                               {"filter.kind", "box"},
+                               {"filter.size", "3"},
+                               {"lookup.level", "2"},
+                               {"map.resolution", "252"}},
+                              steady());
+  const Sums sums = over_frames(bench, level, 10);
+  // A fetch's place is a float from 0 to 1, whose rounding is another one at another place of the same grid.
+  EXPECT_LE(sums.grid, 0x1p-24);
+  EXPECT_EQ(sums.depth, 0);
+  EXPECT_GT(over_frames(bench, with({{"map.snap", "false"}}, level), 10).grid, 0x1p-14);
+}
+
 // A camera that zooms changes the extent: the grid's class alone.
 TEST(Motion, AZoomMovesTheGrid) {
   Workbench bench(gl::DebugMode::fatal);

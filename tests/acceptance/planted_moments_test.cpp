@@ -9,6 +9,7 @@ using acceptance::with_moments;
 
 const char* const vsm_file = "technique/lookups/vsm.glsl";
 const char* const blur = "shaders/prefilter/blur.frag";
+const char* const halve = "shaders/prefilter/halve.frag";
 const char* const blurred_texel = "shaders/prefilter/texel.glsl";
 const char* const spread = "shaders/prefilter/spread.frag";
 const char* const fetch = "shaders/filter/moments.glsl";
@@ -50,6 +51,11 @@ std::vector<Planted> defects() {
                  with_moments(),
                  {.shaders = patched(blur, "kernel[k] * moments_at", "1.001 * kernel[k] * moments_at")},
                  {{"contract_blur", 0, 0.9}},
+                 all_but("contract_blur")});
+  all.push_back({"MomentsHalvedToOneTexelOfFour",
+                 with_moments({{"lookup.level", "1"}}),
+                 {.shaders = patched(halve, "first + ivec2(1, 0)", "first")},
+                 {{"contract_blur", 0, 0.01}},
                  all_but("contract_blur")});
   all.push_back({"MomentsOfADarkBorder",
                  with_moments(),

@@ -35,8 +35,8 @@ def babylon(engine_filter, kind, bias, shot, *blurs):
             [[f"map.extent_m={EXTENT * WIDENED}", f"lookup.kind={kind}", "lookup.exponent=50", f"bias.constant={bias}", *blur] for blur in blurs])
 
 
-def box(size):
-    return ["filter.kind=box", f"filter.size={size}"]
+def box(size, level=0):
+    return ["filter.kind=box", f"filter.size={size}", f"lookup.level={level}"]
 
 
 # The name, what is shot, and what is predicted: one point, or two between which the frame lies.
@@ -50,7 +50,12 @@ CASES = [("three.js `VSMShadowMap`, `radius=3 blurSamples=7`", *three(0, radius=
           *babylon("useBlurCloseExponentialShadowMap", "babylon_close_esm", 0.0005, ["blurScale=1", "useKernelBlur=true", "blurKernel=9"],
                    ["filter.kind=gaussian", "filter.size=9", "filter.sigma_texels=1.3333333"])),
          ("Babylon.js `useBlurCloseExponentialShadowMap`, its defaults",
-          *babylon("useBlurCloseExponentialShadowMap", "babylon_close_esm", 0.0005, [], box(5), box(7))),
+          *babylon("useBlurCloseExponentialShadowMap", "babylon_close_esm", 0.0005, [], box(3, level=1))),
+         ("the same with `blurBoxOffset=0`",
+          *babylon("useBlurCloseExponentialShadowMap", "babylon_close_esm", 0.0005, ["blurBoxOffset=0"], ["filter.kind=none", "lookup.level=1"])),
+         ("the same with `useKernelBlur=true blurKernel=9`, `blurScale` 2",
+          *babylon("useBlurCloseExponentialShadowMap", "babylon_close_esm", 0.0005, ["useKernelBlur=true", "blurKernel=9"],
+                   ["filter.kind=gaussian", "filter.size=9", "filter.sigma_texels=1.3333333", "lookup.level=1"])),
          ("Babylon.js `useBlurExponentialShadowMap`, `blurScale=1 bias=0.02`",
           *babylon("useBlurExponentialShadowMap", "babylon_esm", 0.02, ["blurScale=1"], box(3)))]
 
@@ -85,6 +90,8 @@ TYPED = [("three.js, the lines of a report, `radius=2.5 blurSamples=6`", "three/
          ("Babylon.js, the lines of a report, close, `depthScale=80`, Gaussian of 5", "babylon/page.html",
           ["lookup.kind=babylon_close_esm", "lookup.exponent=80", "bias.constant=0.0007", "filter.kind=gaussian", "filter.size=5",
            "filter.sigma_texels=0.6666667"]),
+         ("Babylon.js, the lines of a report, close, box of 5 on half the texels", "babylon/page.html",
+          ["lookup.kind=babylon_close_esm", "lookup.exponent=60", "bias.constant=0.0007", *box(5, level=1)]),
          ("Babylon.js, the lines of a report, `depthScale=60`, box of 7", "babylon/page.html",
           ["lookup.kind=babylon_esm", "lookup.exponent=60", "bias.constant=0.03", *box(7)])]
 for i, (name, page, settings) in enumerate(TYPED):

@@ -97,6 +97,13 @@ TEST(Cost, AddsThePassesOverAMapOfMoments) {
   const FrameCost vsm = frame_cost(s, 1, 100, 10, 1);
   EXPECT_EQ(vsm.pass_fetches, 100 * (1 + 5 + 5));
   EXPECT_EQ(vsm.texel_work, 100 + 10 + 3 * 100 + vsm.pass_fetches);
+  // 1600 texels stored, 400 and 100 halved from four each, and 100 blurred twice, of 5 each.
+  s.lookup["level"] = 2;
+  const FrameCost halved = frame_cost(s, 1, 1600, 10, 1);
+  EXPECT_EQ(halved.pass_fetches, 1600 + 4 * (400 + 100) + 2 * 5 * 100);
+  EXPECT_EQ(halved.texel_work, 1600 + 10 + 1600 + 400 + 100 + 2 * 100 + halved.pass_fetches);
+  EXPECT_EQ(halved.map_bytes, 1600 * 4 + 8 * (1600 + 400 + 100 + 100));
+  s.lookup["level"] = 0;
   s.filter.kind = "none";
   s.lookup.kind = "three_vsm";
   s.lookup["samples"] = 8, s.lookup["radius"] = 4;

@@ -37,6 +37,11 @@ TEST(MapAddress, WrapsAsOpenGLSays) {
                 glm::ivec2(far < 0 ? 0 : n - 1, far < 0 ? n - 1 : 0));
     }
   }
+  // Of blocks of two texels: the last whole block is the edge.
+  EXPECT_EQ(wrapped({-1, 9}, {8, 8}, Wrap::clamp_to_edge, 2), glm::ivec2(1, 7));
+  EXPECT_EQ(wrapped({-2, 8}, {8, 8}, Wrap::clamp_to_edge, 2), glm::ivec2(0, 6));
+  EXPECT_EQ(wrapped({-7, 15}, {8, 8}, Wrap::clamp_to_edge, 4), glm::ivec2(1, 7));
+  EXPECT_EQ(wrapped({-8, 13}, {8, 8}, Wrap::clamp_to_edge, 4), glm::ivec2(0, 5));
   // A map that is not square: each axis uses its own size.
   EXPECT_EQ(wrapped({7, 7}, {3, 18}, Wrap::repeat), glm::ivec2(1, 7));
   EXPECT_EQ(wrapped({7, 19}, {3, 18}, Wrap::clamp_to_edge), glm::ivec2(2, 17));

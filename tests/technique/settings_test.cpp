@@ -66,6 +66,7 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
                                            "cascades.exponent",
                                            "cascades.blend",
                                            "cascades.bias_scales",
+                                           "lookup.level",
                                            "lookup.exponent",
                                            "lookup.negative_exponent"};
   const std::set<std::string_view> units = {"s",      "px",        "m",     "deg",     "texels",  "taps",

@@ -11,6 +11,7 @@
 
 #include "technique/evidence.h"
 #include "technique/filters.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -61,6 +62,59 @@ TEST(TapPattern, OfASquareHasTheColumnsAndRowsOfItsDiagonal) {
                   glm::vec3(p.offset(0, column * (side + 1)).x, p.offset(0, row * (side + 1)).y, 0));
   }
   EXPECT_EQ(squares, 5);
+}
+
+// A tap is a texel of a block of the level that is read; with a place of its own that keeps its distance to P. Brute force:
+// the weights of the level's texels by their hats, shared out over their blocks.
+TEST(TapPattern, OfALevelIsItsTexelsShareOfTheBlend) {
+  Settings s;
+  s.lookup.kind = "vsm";
+  s.filter = filter("gaussian", 3);
+  const std::vector<double> kernel = find_filter("gaussian").blur(s.filter);
+  for (const int level : {0, 1, 2, 3}) {
+    s.lookup["level"] = level;
+    const TapPattern p = tap_pattern(s);
+    const int block = 1 << level;
+    ASSERT_EQ(p.block, block);
+    ASSERT_EQ(p.taps, 16 * block * block);
+    LookupProbe probe;
+    probe.pattern = p;
+    double reach = 0;
+    for (const float x : {0.0f, 0.25f, 3.5f, 7.75f, 4.9375f, 5.9375f, 11.9375f, 15.9375f}) {
+      const glm::vec2 at(x, 16 - x);
+      std::map<std::pair<int, int>, double> weights;
+      double sum = 0;
+      for (int t = 0; t < p.taps; ++t) {
+        const glm::ivec2 texel = probe.texel_at(at, 0, t);
+        EXPECT_EQ(weights.count({texel.x, texel.y}), 0u);
+        weights[{texel.x, texel.y}] = probe.weight_at(at, t);
+        sum += probe.weight_at(at, t);
+        const glm::vec2 way = glm::abs(glm::vec2(texel) + 0.5f - at);
+        reach = std::max<double>({reach, way.x, way.y});
+        // The exact place is within half a block of the texel's centre.
+        const glm::vec2 moved = glm::abs(at + glm::vec2(p.offset(0, t)) - (glm::vec2(texel) + 0.5f));
+        EXPECT_LE(std::max(moved.x, moved.y), static_cast<float>(block) / 2);
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+      const auto along = [&](int texel, double position) {
+        const double middle = std::floor(texel / static_cast<double>(block));
+        double weight = 0;
+        for (int k = -1; k <= 1; ++k)
+          weight +=
+              kernel[static_cast<size_t>(k + 1)] * std::max(0.0, 1 - std::abs(position / block - 0.5 - middle + k));
+        return weight / block;
+      };
+      for (int v = -8; v < 40; ++v)
+        for (int u = -8; u < 40; ++u) {
+          const auto found = weights.find({u, v});
+          EXPECT_NEAR(found == weights.end() ? 0 : found->second,
+                      along(u, static_cast<double>(at.x)) * along(v, static_cast<double>(at.y)), 1e-12)
+              << level << " " << x << " " << u << " " << v;
+        }
+    }
+    EXPECT_LE(reach, p.reach_texels());
+    EXPECT_GT(reach, p.reach_texels() - 0.6);
+  }
 }
 
 TEST(TapPattern, OfABoxHasItsStepAndItsMiddle) {

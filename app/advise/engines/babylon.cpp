@@ -59,11 +59,15 @@ EngineFilter filter(const AdvicePlace& place) {
 // The exponential maps, with the filter of Noonmark that is their blur. `bias` is added to each stored depth before the exponential
 // (ShadersInclude/shadowMapVertexMetric), which is the same as a receiver's depth less the bias. There is no light-bleed
 // reduction (shadowsFragmentFunctions). The blurred map has the map's texels divided by blurScale (shadowGenerator.ts), 2 by default.
-// The box has blurBoxOffset texels on either side (depthBoxBlur). The Gaussian of blurKernel n = 5, 9, 13 ... has a
+// The blur's first pass fetches the map linearly at the centres of the blurred map's texels: with blurScale = 2 the mean of 2 x 2,
+// which is lookup.level = 1; a fetch with blurScale = 4 still has only four texels, which is no mip level. The box has blurBoxOffset texels on either side (depthBoxBlur). The Gaussian of blurKernel n = 5, 9, 13 ... has a
 // standard deviation of a third of its half width, (n - 1) / 6 texels (thinBlurPostProcess.ts).
 double kernel_sigma(int size) { return (size - 1) / 6.0; }
 
 int nearest_kernel(int size) { return std::max(5, 4 * static_cast<int>(std::lround((size - 1) / 4.0)) + 1); }
+
+int level_of(const AdvicePlace& place) { return std::min(place.settings.lookup.whole("level"), 1); }
+bool blurs(const AdvicePlace& place) { return place.settings.filter.kind != "none" || level_of(place) > 0; }
 
 EngineFilter blur(const AdvicePlace& place) {
   const FilterSettings& asked = place.settings.filter;
@@ -71,10 +75,11 @@ EngineFilter blur(const AdvicePlace& place) {
   made.reach_texels = place.reach_texels;  // no law asks for more bias: nothing is compared
   made.as = asked;
   made.same = true;
-  if (asked.kind == "none") return made;
-  made.lines = {"shadowGenerator.blurScale = 1;"};
-  if (asked.kind == "box") {
-    made.lines.push_back(fmt::format("shadowGenerator.blurBoxOffset = {};", (asked.whole("size") - 1) / 2));
+  if (!blurs(place)) return made;
+  made.lines = {fmt::format("shadowGenerator.blurScale = {};", 1 << level_of(place))};
+  if (asked.kind != "gaussian") {
+    const int size = asked.kind == "none" ? 1 : asked.whole("size");
+    made.lines.push_back(fmt::format("shadowGenerator.blurBoxOffset = {};", (size - 1) / 2));
     return made;
   }
   const int kernel = nearest_kernel(asked.whole("size"));
@@ -91,11 +96,11 @@ std::optional<EngineMoments> moments(const AdvicePlace& place) {
   if (asked.kind != "babylon_esm" && asked.kind != "babylon_close_esm") return std::nullopt;
   EngineMoments made{blur(place), asked};
   made.as["reduction"] = made.as["reduction_span"] = 0;
-  made.filter.lines.insert(
-      made.filter.lines.begin(),
-      {fmt::format("shadowGenerator.use{}{}ExponentialShadowMap = true;",
-                   place.settings.filter.kind == "none" ? "" : "Blur", asked.kind == "babylon_esm" ? "" : "Close"),
-       fmt::format("shadowGenerator.depthScale = {};", number(asked["exponent"]))});
+  made.as["level"] = level_of(place);
+  made.filter.lines.insert(made.filter.lines.begin(),
+                           {fmt::format("shadowGenerator.use{}{}ExponentialShadowMap = true;",
+                                        blurs(place) ? "Blur" : "", asked.kind == "babylon_esm" ? "" : "Close"),
+                            fmt::format("shadowGenerator.depthScale = {};", number(asked["exponent"]))});
   if (asked.kind == "babylon_esm")
     made.cannot.push_back(
         "What is drawn into the map is lit by no more than 1 - e^(-depthScale bias): leave meshes out of the map that "
