@@ -117,7 +117,7 @@ class Browser : public testing::Test {
 
   std::filesystem::path folder_;
   nlohmann::json saw_;
-  int timeout_s_ = 400;  // a start takes seconds, and 70 s on a machine that many others use
+  int timeout_s_ = 400;     // a start takes seconds, and 70 s on a machine that many others use
   std::string more_flags_;  // of the browser, each after a space
 };
 
