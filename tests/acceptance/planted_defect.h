@@ -59,7 +59,7 @@ inline double rasteriser_scale(std::string_view metric) {
 }
 
 inline void expect_moves(const Planted& p) {
-  const Figures sound = measure(p.settings), broken = measure(p.settings, p.defect);
+  const Figures &sound = sound_figures(p.settings), broken = measure(p.settings, p.defect);
   EXPECT_GT(sound.at("counted"), 5000);
   EXPECT_EQ(sound.at("contract"), 0);
   EXPECT_LE(sound.at("rounding_excess"), 1);

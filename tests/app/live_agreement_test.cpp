@@ -78,8 +78,8 @@ State random_state(Random& random) {
 }
 
 // Two states that show what random ones may miss: no bias at all, and a bias and a filter that are far too large.
-std::vector<State> states_to_compare(size_t random_states) {
-  Random random(7);
+std::vector<State> states_to_compare(size_t random_states, uint32_t seed) {
+  Random random(seed);
   State none = random_state(random);
   for (const char* setting : {"map.extent_m", "light.azimuth_deg", "light.elevation_deg"}) none[setting] = "auto";
   for (const char* bias : {"bias.constant", "bias.slope", "bias.normal_offset"}) none[bias] = "0";
@@ -96,7 +96,7 @@ std::vector<State> states_to_compare(size_t random_states) {
 
 size_t random_states_per_scene() {
   const char* const given = std::getenv("NOONMARK_LIVE_SETTINGS");
-  return given ? std::stoul(given) : 3;
+  return given ? std::stoul(given) : 1;
 }
 
 class LivePage : public Browser, public testing::WithParamInterface<const char*> {
@@ -108,8 +108,12 @@ class LivePage : public Browser, public testing::WithParamInterface<const char*>
 };
 
 TEST_P(LivePage, AgreesWithTheProgram) {
-  const std::vector<State> states = states_to_compare(random_states_per_scene());
-  const Settings settings = small_picture(GetParam());
+  // Of each scene other random settings: so few of one seed would be the same in all scenes.
+  const std::string scene = GetParam();
+  uint32_t seed = 7;
+  for (const char letter : scene) seed = seed * 31 + static_cast<uint32_t>(letter);
+  const std::vector<State> states = states_to_compare(random_states_per_scene(), seed);
+  const Settings settings = small_picture(scene);
   Workbench bench(gl::DebugMode::fatal);
   std::string page = live_page(bench.scene(settings.scene), settings, "0.1.0");
   page.insert(page.rfind("</body>"), "<script>var liveStates = " + json(states).dump() + ";</script>");

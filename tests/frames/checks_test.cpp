@@ -74,8 +74,9 @@ TEST(Checks, FlipsAreNamed) {
 TEST(Checks, ARowOffIsNamed) { expect_named(with(a_row_down(good().frame.visibility)), "coverage", "rows or columns"); }
 
 TEST(Checks, HalfAPixelIsNamedAsOneOfTwo) {
-  expect_named(with_picture_through(shifted_by(-0.5, -0.5)), "coverage", "(+0.5, +0.5)");
-  expect_named(with_picture_through(shifted_by(-0.5, -0.5)), "coverage", "one of these two");
+  const GivenFrame shifted = with_picture_through(shifted_by(-0.5, -0.5));
+  expect_named(shifted, "coverage", "(+0.5, +0.5)");
+  expect_named(shifted, "coverage", "one of these two");
 }
 
 TEST(Checks, AnotherCameraIsNamed) {

@@ -1,5 +1,5 @@
 # Plants breaches of the include law in a copy of the sources, all at once, each in a file of its own. The law must name
-# each of them, and nothing of what it allows.
+# each of them, and nothing of what it allows. That the sources hold as they are is include_law.holds.
 #   cmake -DROOT=<source folder> -DWORK=<scratch folder> -P tests/project/include_law_test.cmake
 cmake_minimum_required(VERSION 3.25)
 set(failures)
@@ -41,11 +41,6 @@ function(allowed file)
   plant(${file} ${ARGN})
   set(innocent ${innocent} ${file} PARENT_SCOPE)
 endfunction()
-
-ask_the_law()
-if(NOT status EQUAL 0)
-  list(APPEND failures "the sources as they are should hold, but: ${output}")
-endif()
 
 breach("scenes knows gl" "scenes/planted_1.cpp includes \"gl/renderer.h\": scenes/ may not include gl/"
        scenes/planted_1.cpp "#include \"gl/renderer.h\"")

@@ -31,8 +31,7 @@ class Browser : public testing::Test {
   // Opens the page and runs a probe in it (a file beside this one), which leaves what it saw. Without a browser the test
   // is skipped, with this reason. window: "WIDTH,HEIGHT" in CSS pixels; Chromium's windows have at least 500, so a
   // narrower page stands in a frame of that width. Tests of one process that open the same page
-  // share one start of the browser, because a start takes two seconds of processor time; see TOGETHER in
-  // tests/CMakeLists.txt.
+  // share one start of the browser, because a start takes two seconds of processor time.
   void open(std::string page, const char* probe, const std::string& window = "1200,900") {
     const std::string browser = name_of_browser();
     if (browser.empty()) GTEST_SKIP() << why_skipped;
@@ -118,7 +117,7 @@ class Browser : public testing::Test {
 
   std::filesystem::path folder_;
   nlohmann::json saw_;
-  int timeout_s_ = 100;
+  int timeout_s_ = 400;     // a start takes seconds, and 70 s on a machine that many others use
   std::string more_flags_;  // of the browser, each after a space
 };
 

@@ -1,6 +1,7 @@
 // Thousands of files with random damage: each gives a whole, finite scene or one Error(file), and nothing else. The
 // seed is fixed, so that a failure can be repeated.
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iterator>
 #include <random>
@@ -114,6 +115,13 @@ json damaged(json d, std::mt19937& random) {
   return d;
 }
 
+// Every test run takes these mutants, which are the same each time; NOONMARK_MUTANTS=N takes N times as many. scripts/fuzz
+// continues with others (tests/fuzz/gltf_target.cpp).
+int times(int mutants) {
+  const char* const factor = std::getenv("NOONMARK_MUTANTS");
+  return factor ? std::stoi(factor) * mutants : mutants;
+}
+
 class GltfMutation : public ::testing::Test {
  protected:
   void report(const char* kind, const Tally& tally) {
@@ -135,7 +143,7 @@ TEST_F(GltfMutation, BytesOfABinaryFile) {
   d["buffers"][0] = {{"byteLength", 60}};
   const std::string whole = glb(d.dump(), square_bytes());
   Tally tally;
-  for (int i = 0; i < 4000 && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < times(1000) && !HasFatalFailure(); ++i) {
     try_file(folder_.write("scene.glb", mutated(whole, random_)), tally, "mutant " + std::to_string(i));
   }
   report("bytes of a .glb", tally);
@@ -146,7 +154,7 @@ TEST_F(GltfMutation, BytesOfTheData) {
   d["buffers"][0] = {{"byteLength", 60}};
   const std::string text = d.dump();
   Tally tally;
-  for (int i = 0; i < 2000 && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < times(500) && !HasFatalFailure(); ++i) {
     std::string bin = mutated(square_bytes(), random_);
     bin.resize(60);
     try_file(folder_.write("scene.glb", glb(text, bin)), tally, "mutant " + std::to_string(i));
@@ -157,7 +165,7 @@ TEST_F(GltfMutation, BytesOfTheData) {
 TEST_F(GltfMutation, BytesOfText) {
   const std::string whole = rich().dump();
   Tally tally;
-  for (int i = 0; i < 4000 && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < times(1000) && !HasFatalFailure(); ++i) {
     try_file(folder_.write("scene.gltf", mutated(whole, random_)), tally, "mutant " + std::to_string(i));
   }
   report("bytes of a .gltf", tally);
@@ -166,7 +174,7 @@ TEST_F(GltfMutation, BytesOfText) {
 TEST_F(GltfMutation, ValuesOfTheDocument) {
   const json whole = rich();
   Tally tally;
-  for (int i = 0; i < 6000 && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < times(2000) && !HasFatalFailure(); ++i) {
     const std::string text = damaged(whole, random_).dump();
     try_file(folder_.write("scene.gltf", text), tally, "mutant " + std::to_string(i) + " " + text);
   }
@@ -176,7 +184,7 @@ TEST_F(GltfMutation, ValuesOfTheDocument) {
 TEST_F(GltfMutation, ValuesOfADocumentThatMoves) {
   const json whole = moving();
   Tally tally;
-  for (int i = 0; i < 4000 && !HasFatalFailure(); ++i) {
+  for (int i = 0; i < times(1500) && !HasFatalFailure(); ++i) {
     const std::string text = damaged(whole, random_).dump();
     try_file(folder_.write("scene.gltf", text), tally, "mutant " + std::to_string(i) + " " + text, {1.0, 0});
   }
