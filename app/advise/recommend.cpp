@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/light_frame.h"
 #include "technique/lookups.h"

@@ -8,8 +8,10 @@
 
 #include "app/advise/engine_forms.h"
 #include "app/advise/recommend_judge.h"
+#include "compare/judge/moment_cures.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/reduction_window.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/filters.h"
 #include "technique/lookups.h"
@@ -25,14 +27,6 @@ bool darkens_planes(std::string_view lookup) { return lookup == "evsm4" || looku
 
 std::vector<FilterSettings> blurs() {
   return {{"none", {}}, {"box", {{"size", 3}}}, {"box", {{"size", 5}}}, {"box", {{"size", 7}}}};
-}
-
-double deviation(std::span<const double> weights) {
-  const double middle = (static_cast<double>(weights.size()) - 1) / 2;
-  double variance = 0.25;  // of a linear fetch half way between two texels, the most
-  for (size_t i = 0; i < weights.size(); ++i)
-    variance += weights[i] * (static_cast<double>(i) - middle) * (static_cast<double>(i) - middle);
-  return std::sqrt(variance);
 }
 
 BiasLevel filtered_level(const std::string& lookup, bool with_bias) {
@@ -61,9 +55,9 @@ std::vector<std::string> searched_lookups() {
   return names;
 }
 
-double blur_deviation_texels(const FilterSettings& blur) { return deviation(find_filter(blur.kind).blur(blur)); }
-
-double short_deviation(std::span<const double> weights) { return std::ceil(deviation(weights) * 100) / 100; }
+double short_deviation(std::span<const double> weights) {
+  return std::ceil(blur_deviation_texels(weights) * 100) / 100;
+}
 
 std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups, const CurveOptions& searched) {
   std::vector<BiasLevel> levels;

@@ -25,9 +25,7 @@ std::vector<std::string> searched_lookups();
 std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups,
                                        const CurveOptions& searched = searched_bounds({}));
 
-// The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope.
-double blur_deviation_texels(const FilterSettings& blur);
-// The same of the weights of a blur, with two digits after the point, and no less than it is.
+// blur_deviation_texels() (compare/judge/moment_cures.h) with two digits after the point, and no less than it is.
 double short_deviation(std::span<const double> weights);
 
 // Of these shares the largest over points and placements.
