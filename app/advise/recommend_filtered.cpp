@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "app/advise/engine_forms.h"
 #include "app/advise/recommend_judge.h"
@@ -104,6 +105,30 @@ std::string searched_filtered_text() {
       100 * searched_peter_panning, 100 * searched_acne);
 }
 
+double typed_reduction(double value, double low, double high) {
+  constexpr double much = 0.0025, share = 0.025;  // less changes no third digit of an error that people read
+  for (int decimals = 1; decimals <= 17; ++decimals) {
+    const double step = std::pow(10.0, -decimals);
+    for (const double near : {std::round(value / step), std::ceil(low / step), std::floor(high / step)}) {
+      const double typed = std::strtod(fmt::format("{:.{}f}", near * step, decimals).c_str(), nullptr);
+      if (typed >= low && typed <= high && std::abs(typed - value) <= std::max(much, share * value)) return typed;
+    }
+  }
+  return value;
+}
+
+std::string window_text(const ReductionChoice& choice) {
+  for (int decimals = 3; decimals <= 17; ++decimals) {
+    const double step = std::pow(10.0, -decimals);
+    const std::string low = fmt::format("{:.{}f}", std::ceil(choice.low / step) * step, decimals),
+                      high = fmt::format("{:.{}f}", std::floor(choice.high / step) * step, decimals);
+    const double from = std::strtod(low.c_str(), nullptr), to = std::strtod(high.c_str(), nullptr);
+    if (choice.low <= from && from <= choice.value && choice.value <= to && to <= choice.high)
+      return fmt::format("{:g} to {:g}", from, to);
+  }
+  return fmt::format("{} to {}", choice.low, choice.high);
+}
+
 std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from) {
   std::vector<Settings> placed;
   for (int v = 0; v < n; ++v)
@@ -180,7 +205,7 @@ void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointReco
     return;
   }
   choice.value = std::clamp(choice.value, choice.low, choice.high);
-  choice.value = short_decimal(choice.value, choice.low, choice.high);
+  choice.value = typed_reduction(choice.value, choice.low, choice.high);
   tried.settings.lookup["reduction"] = choice.value;
   tried.reduction = choice;
   tried.worst.reset();

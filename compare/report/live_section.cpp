@@ -111,6 +111,13 @@ Markup stack_caption(const json& head, const Markup& of_point, const std::string
       at_recommended ? ", and at the recommended one," : "", head.value("width", 0), head.value("height", 0));
 }
 
+// Of a lookup whose reduction is no free setting: why the slider varies the bias.
+const char* slider_of_bias(const PointRecord& point, const json& head) {
+  return has_fixed_reduction(point) && head.value("parameter", std::string()).starts_with("bias.")
+             ? " lookup.reduction_span gives the reduction of this lookup a fixed form, so the slider varies its bias."
+             : "";
+}
+
 // Where the picture is of another point than the answer: which one that is, and why it is not shown. Otherwise empty.
 Markup other_than_the_answer(const PointRecord& point, const Results& results, const ShownPoints& shown) {
   const PointRecord* const answer = answer_point(results, shown.groups, shown.recommended);
@@ -141,7 +148,7 @@ Markup figure_of(const PointRecord& point, const std::string& bytes, const Resul
     std::erase(names, head.value("parameter", std::string()));
     const std::string phrase = settings_phrase(point, names);
     return live_stage(head, fmt::format("{}, one step for each picture", head.value("parameter", std::string())),
-                      stack_caption(head, of_point, phrase, at_other) + other) +
+                      stack_caption(head, of_point, phrase, at_other) + slider_of_bias(point, head) + other) +
            data_block("live-data", head) + "\n";
   }
   // The picture is at every bias, so the one that was set is not its name.

@@ -74,6 +74,15 @@ TEST(Verbs, TheDefaultsOfTheHelpAreThoseOfTheMembers) {
             "checks/helmet.toml");
 }
 
+TEST(Verbs, ListsMayHaveBlanksBesideTheirCommas) {
+  EXPECT_EQ(words_of({"vsm, msm", " esm ,evsm4 ", "compare"}),
+            (std::vector<std::string>{"vsm", "msm", "esm", "evsm4", "compare"}));
+  const CLI::Validator list = list_of({"vsm", "msm"});
+  EXPECT_EQ(list("vsm, msm"), "");
+  EXPECT_NE(list("vsm, ,msm"), "") << "a comma without a name";
+  EXPECT_NE(list("vsm msm"), "") << "a blank is no comma";
+}
+
 TEST(Verbs, TheVocabularyHasEveryOptionThatTakesAValue) {
   const Vocabulary vocabulary = CommandLine().vocabulary();
   EXPECT_EQ(vocabulary.verbs.size(), verb_table().size());
