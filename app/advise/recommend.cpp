@@ -139,9 +139,9 @@ class Search {
   }
 
   bool is_simpler(const Candidate& one, const Candidate& than) const {
-    const auto moves = [&](const Candidate& one) { return request_.places[one.tried.place].moves_with; };
-    const auto maps = [](const Candidate& one) { return one.tried.settings.cascades.count; };
-    const auto fragile = [](const Candidate& one) { return one.tried.bias && is_fragile(*one.tried.bias); };
+    const auto moves = [&](const Candidate& of) { return request_.places[of.tried.place].moves_with; };
+    const auto maps = [](const Candidate& of) { return of.tried.settings.cascades.count; };
+    const auto fragile = [](const Candidate& of) { return of.tried.bias && is_fragile(*of.tried.bias); };
     if (!one.holds() || one.level > than.level || moves(one) > moves(than) || maps(one) > maps(than) ||
         fragile(one) > fragile(than))
       return false;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/verbs/command_line.h"
+#include "app/verbs/option_values.h"
 #include "compare/ladder/bias_curves.h"
 #include "measure/phase_diagram.h"
 
@@ -77,7 +78,7 @@ TEST(Verbs, TheDefaultsOfTheHelpAreThoseOfTheMembers) {
 TEST(Verbs, ListsMayHaveBlanksBesideTheirCommas) {
   EXPECT_EQ(words_of({"vsm, msm", " esm ,evsm4 ", "compare"}),
             (std::vector<std::string>{"vsm", "msm", "esm", "evsm4", "compare"}));
-  const CLI::Validator list = list_of({"vsm", "msm"});
+  const CLI::Validator list = noonmark::list_of(std::vector<std::string>{"vsm", "msm"});
   EXPECT_EQ(list("vsm, msm"), "");
   EXPECT_NE(list("vsm, ,msm"), "") << "a comma without a name";
   EXPECT_NE(list("vsm msm"), "") << "a blank is no comma";

@@ -281,8 +281,8 @@ class OverPage : public Browser {
 
 TEST_F(OverPage, DrawsBothErrorsAndTheCausesAtNamedValues) {
   const json& first = saw_["first"];
-  EXPECT_EQ(first["title"], (json{"Error", "lookup.moment_bias"})) << first["title"];
-  EXPECT_EQ(first["values"], (json{"0", "1e-6", "0.001", "0.01"})) << "0 has a place";
+  EXPECT_EQ(first["title"], (json{"share of counted receivers", "lookup.moment_bias"})) << first["title"];
+  EXPECT_EQ(first["values"], (json{"0", "1×10⁻⁶", "0.001", "0.01"})) << "0 has a place";
   EXPECT_EQ(first["series"], (json{"error", "exact_map", "leak", "over_darkening", "peter_panning"}))
       << "the reduction darkens nothing";
   EXPECT_EQ(first["marks"].size(), 2u) << first["marks"];
