@@ -149,7 +149,7 @@ Markup part_answers(const Results& results, const ShownPoints& shown) {
                       th(with_small(error_label(results.info.accuracy), unit(results.info.accuracy)));
   return element("h3", "What to set in each part") + "\n" +
          folded("", count <= open_rows, prose("{} rows", count),
-                div(css("scroll"), table("numbers", head, body)) + "\n");
+                div(css("scroll"), table("numbers parts", head, body)) + "\n");
 }
 
 }  // namespace noonmark::report
