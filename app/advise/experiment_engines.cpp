@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "compare/judge/recommendation.h"
 #include "compare/results/number_text.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/light_frame.h"
 #include "technique/lookups.h"

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/light_frame.h"
 #include "technique/lookups.h"
@@ -76,6 +77,7 @@ class Search {
       advice.least_resolution = least_resolution();
     if (!advice.answer()) advice.nearest = look_at_nearest(advice.tried);
     advice.shadowed = screening_.shadowed();
+    advice.least_costs = screening_.least_costs();
     return advice;
   }
 
@@ -131,20 +133,22 @@ class Search {
   // Something that holds and is simpler: a kind of bias with less parts, a map that holds for every view, fewer cascades, or a bias
   // that may vary more; and that costs and errs hardly more. Null if there is nothing.
   const Candidate* simpler(const Candidate& than) {
-    const auto moves = [&](const Candidate& one) { return request_.places[one.tried.place].moves_with; };
-    const auto maps = [](const Candidate& one) { return one.tried.settings.cascades.count; };
-    const auto fragile = [](const Candidate& one) { return one.tried.bias && is_fragile(*one.tried.bias); };
-    for (const Candidate& one : candidates()) {
-      if (!one.holds() || one.level > than.level || moves(one) > moves(than) || maps(one) > maps(than) ||
-          fragile(one) > fragile(than))
-        continue;
-      const bool wider = fragile(one) < fragile(than);
-      if (one.level == than.level && moves(one) == moves(than) && maps(one) == maps(than) && !wider) continue;
-      const double factor = wider ? factor_for_width : factor_that_pays;
-      if (one.tried.cost <= factor * than.tried.cost && one.tried.screened_error <= factor * than.tried.screened_error)
-        return &one;
-    }
-    return nullptr;
+    const auto found = std::find_if(candidates().begin(), candidates().end(),
+                                    [&](const Candidate& one) { return is_simpler(one, than); });
+    return found == candidates().end() ? nullptr : &*found;
+  }
+
+  bool is_simpler(const Candidate& one, const Candidate& than) const {
+    const auto moves = [&](const Candidate& of) { return request_.places[of.tried.place].moves_with; };
+    const auto maps = [](const Candidate& of) { return of.tried.settings.cascades.count; };
+    const auto fragile = [](const Candidate& of) { return of.tried.bias && is_fragile(*of.tried.bias); };
+    if (!one.holds() || one.level > than.level || moves(one) > moves(than) || maps(one) > maps(than) ||
+        fragile(one) > fragile(than))
+      return false;
+    const bool wider = fragile(one) < fragile(than);
+    if (one.level == than.level && moves(one) == moves(than) && maps(one) == maps(than) && !wider) return false;
+    const double factor = wider ? factor_for_width : factor_that_pays;
+    return one.tried.cost <= factor * than.tried.cost && one.tried.screened_error <= factor * than.tried.screened_error;
   }
 
   // A resolution between the least that holds and its half, which does not. False if there is nothing to try.
@@ -311,21 +315,33 @@ class Search {
     }
   }
 
-  void take_the_others(Advice& advice) {
-    const auto is_answer = [&](const Tried& tried) {
-      return std::any_of(advice.answers.begin(), advice.answers.end(), [&](const Answer& answer) {
-        return settings_map(answer.tried.settings) == settings_map(tried.settings);
-      });
+  static bool is_answer(const Tried& tried, const Advice& advice) {
+    return std::any_of(advice.answers.begin(), advice.answers.end(), [&](const Answer& answer) {
+      return settings_map(answer.tried.settings) == settings_map(tried.settings);
+    });
+  }
+
+  // By what a candidate that holds lost: an answer that is simpler; something else that is, and by what that one lost; or the
+  // numbers of the answer. It ends, because what is simpler has less of something and more of nothing.
+  std::string why_lost(const Candidate& lost, const Advice& advice) {
+    const auto said = [&](const Candidate& better) {
+      return fmt::format("{} costs and errs hardly more, and is simpler or less fragile",
+                         name_of(better.tried, request_));
     };
+    for (const Candidate& one : candidates())
+      if (is_simpler(one, lost) && is_answer(one.tried, advice)) return said(one);
+    if (const Candidate* const better = simpler(lost))
+      return fmt::format("{}; that is no answer, because {}", said(*better), why_lost(*better, advice));
+    return why_worse(lost.tried, advice.answer()->tried);
+  }
+
+  void take_the_others(Advice& advice) {
     for (const Candidate& one : candidates()) {
-      if (is_answer(one.tried) || !one.possible) continue;
+      if (is_answer(one.tried, advice) || !one.possible) continue;
       Tried tried = one.tried;
       if (one.holds()) {
         tried.held = true;
-        const Candidate* better = simpler(one);
-        tried.why_not = better ? fmt::format("{} costs and errs hardly more, and is simpler or less fragile",
-                                             name_of(better->tried, request_))
-                               : why_worse(tried, advice.answer()->tried);
+        tried.why_not = why_lost(one, advice);
       }
       advice.tried.push_back(std::move(tried));
     }

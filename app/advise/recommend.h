@@ -23,6 +23,7 @@
 // the searched ones are a little worse.
 #pragma once
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -122,6 +123,8 @@ struct Advice {
   // is the one with most acne and Peter Panning, if these are what failed.
   std::optional<Tried> nearest;
   double budget = 0;  // of `best`
+  // The cost of the cheapest settings of each lookup that was asked for, measured or not. Empty if nothing was measured.
+  std::map<std::string, double> least_costs;
   // Share of the counted receivers that are dark in the hard truth, the largest over the conditions that were measured: the
   // error without a shadow map.
   double shadowed = 0;

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "app/advise/engine_forms.h"
 #include "app/advise/recommend_judge.h"
+#include "compare/judge/moment_cures.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/reduction_window.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/filters.h"
 #include "technique/lookups.h"
@@ -25,14 +28,6 @@ bool darkens_planes(std::string_view lookup) { return lookup == "evsm4" || looku
 
 std::vector<FilterSettings> blurs() {
   return {{"none", {}}, {"box", {{"size", 3}}}, {"box", {{"size", 5}}}, {"box", {{"size", 7}}}};
-}
-
-double deviation(std::span<const double> weights) {
-  const double middle = (static_cast<double>(weights.size()) - 1) / 2;
-  double variance = 0.25;  // of a linear fetch half way between two texels, the most
-  for (size_t i = 0; i < weights.size(); ++i)
-    variance += weights[i] * (static_cast<double>(i) - middle) * (static_cast<double>(i) - middle);
-  return std::sqrt(variance);
 }
 
 BiasLevel filtered_level(const std::string& lookup, bool with_bias) {
@@ -61,9 +56,9 @@ std::vector<std::string> searched_lookups() {
   return names;
 }
 
-double blur_deviation_texels(const FilterSettings& blur) { return deviation(find_filter(blur.kind).blur(blur)); }
-
-double short_deviation(std::span<const double> weights) { return std::ceil(deviation(weights) * 100) / 100; }
+double short_deviation(std::span<const double> weights) {
+  return std::ceil(blur_deviation_texels(weights) * 100) / 100;
+}
 
 std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups, const CurveOptions& searched) {
   std::vector<BiasLevel> levels;
@@ -108,6 +103,30 @@ std::string searched_filtered_text() {
       "{:.0f}% of the bound on leak and Peter Panning (--peter-panning) and {:.0f}% of that on over-darkening and "
       "reduction (--acne)",
       100 * searched_peter_panning, 100 * searched_acne);
+}
+
+double typed_reduction(double value, double low, double high) {
+  constexpr double much = 0.0025, share = 0.025;  // less changes no third digit of an error that people read
+  for (int decimals = 1; decimals <= 17; ++decimals) {
+    const double step = std::pow(10.0, -decimals);
+    for (const double near : {std::round(value / step), std::ceil(low / step), std::floor(high / step)}) {
+      const double typed = std::strtod(fmt::format("{:.{}f}", near * step, decimals).c_str(), nullptr);
+      if (typed >= low && typed <= high && std::abs(typed - value) <= std::max(much, share * value)) return typed;
+    }
+  }
+  return value;
+}
+
+std::string window_text(const ReductionChoice& choice) {
+  for (int decimals = 3; decimals <= 17; ++decimals) {
+    const double step = std::pow(10.0, -decimals);
+    const std::string low = fmt::format("{:.{}f}", std::ceil(choice.low / step) * step, decimals),
+                      high = fmt::format("{:.{}f}", std::floor(choice.high / step) * step, decimals);
+    const double from = std::strtod(low.c_str(), nullptr), to = std::strtod(high.c_str(), nullptr);
+    if (choice.low <= from && from <= choice.value && choice.value <= to && to <= choice.high)
+      return fmt::format("{:g} to {:g}", from, to);
+  }
+  return fmt::format("{} to {}", choice.low, choice.high);
 }
 
 std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from) {
@@ -186,7 +205,7 @@ void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointReco
     return;
   }
   choice.value = std::clamp(choice.value, choice.low, choice.high);
-  choice.value = short_decimal(choice.value, choice.low, choice.high);
+  choice.value = typed_reduction(choice.value, choice.low, choice.high);
   tried.settings.lookup["reduction"] = choice.value;
   tried.reduction = choice;
   tried.worst.reset();

@@ -25,9 +25,7 @@ std::vector<std::string> searched_lookups();
 std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups,
                                        const CurveOptions& searched = searched_bounds({}));
 
-// The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope.
-double blur_deviation_texels(const FilterSettings& blur);
-// The same of the weights of a blur, with two digits after the point, and no less than it is.
+// blur_deviation_texels() (compare/judge/moment_cures.h) with two digits after the point, and no less than it is.
 double short_deviation(std::span<const double> weights);
 
 // Of these shares the largest over points and placements.
@@ -39,6 +37,12 @@ std::string why_not_filtered(const FilteredShares& shares, const CurveOptions& b
 
 // The shares of these bounds that a search uses up, as searched_text().
 std::string searched_filtered_text();
+
+// A reduction as a user types it: the number of fewest decimals that lies in [low, high] and differs from `value` by at most
+// 0.0025 or 2.5%. `value` lies in [low, high]; it is returned itself if nothing shorter does.
+double typed_reduction(double value, double low, double high);
+// "0 to 0.115": the ends of the window, rounded into it to three decimals, or to more where it is narrower.
+std::string window_text(const ReductionChoice& choice);
 
 // The settings at n x n places of the grid of texels, the first of them `from` of a step off, each a point that OpenGL renders.
 std::vector<Settings> placed_on_grid(const Settings& settings, int n, double from);

@@ -6,6 +6,7 @@
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/light_frame.h"
 #include "technique/setting_rules.h"
@@ -38,12 +39,6 @@ double bias_in_place_of_none(const PointRecord& point, double most) {
 }
 
 }  // namespace
-
-Settings settings_of(const PointRecord& point) {
-  Settings settings;
-  for (const Setting& row : settings_table()) row.set(settings, setting_of(point, std::string(row.name)));
-  return settings;
-}
 
 std::string placed_accuracy(Workbench& bench, const Settings& settings, const std::string& accuracy) {
   if (accuracy != "error_soft") return accuracy;

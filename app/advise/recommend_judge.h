@@ -7,9 +7,6 @@
 
 namespace noonmark {
 
-// The settings with which a point was measured.
-Settings settings_of(const PointRecord& point);
-
 // The metric that is measured at every placement in place of this one: error_soft of a light without a size is the error. Itself,
 // if there is none.
 std::string placed_accuracy(Workbench& bench, const Settings& settings, const std::string& accuracy);

@@ -19,6 +19,8 @@ std::vector<std::string> asked_lookups(const AdviceRequest& request) {
   return names;
 }
 
+std::string million_of(double work) { return fmt::format("{:.3g} million", work / 1e6); }
+
 std::string kinds_of(const Answer& answer) {
   std::vector<std::string> names;
   for (const AnswerKind kind : answer.kinds) names.push_back(answer_name(kind));
@@ -47,13 +49,16 @@ const Tried* best_of(const Advice& advice, const std::string& lookup) {
   return best;
 }
 
-std::string why_not_measured(const Advice& advice) {
+std::string why_not_measured(const Advice& advice, const std::string& lookup) {
   if (std::any_of(advice.answers.begin(), advice.answers.end(),
                   [](const Answer& one) { return one.tried.screened_error == 0; }))
     return "something simpler that asks for no more makes no error";
-  return advice.request.budget
-             ? "each of its maps costs more than the budget"
-             : fmt::format("each of its maps costs more than {} times the cheapest answer", budget_of_least);
+  const auto least = advice.least_costs.find(lookup);
+  const std::string cost =
+      least == advice.least_costs.end() ? "" : fmt::format("its cheapest map costs {}, ", million_of(least->second));
+  return advice.request.budget ? fmt::format("{}more than the budget of {}", cost, million_of(*advice.request.budget))
+                               : fmt::format("{}more than {}, {} times the cheapest answer", cost,
+                                             million_of(advice.budget), budget_of_least);
 }
 
 }  // namespace
@@ -96,7 +101,7 @@ std::vector<LookupFate> lookup_fates(const Advice& advice) {
       fate.outcome = fate.best->held ? LookupFate::Outcome::lost : LookupFate::Outcome::broke;
       fate.why = fate.best->why_not;
     } else {
-      fate.why = why_not_measured(advice);
+      fate.why = why_not_measured(advice, lookup);
     }
     fates.push_back(std::move(fate));
   }

@@ -99,6 +99,19 @@ double Screening::cost_at(const Candidate& like, int resolution) const {
   return cost_of({like.level, like.tried.place, like.tried.settings.filter, resolution});
 }
 
+std::map<std::string, double> Screening::least_costs() const {
+  std::map<std::string, double> least;
+  if (!seen_) return least;
+  for (size_t level = 0; level < request_.levels.size(); ++level)
+    for (size_t place = 0; place < request_.places.size(); ++place)
+      for (const FilterSettings& filter : filters_of(request_, level)) {
+        const double cost = cost_of({level, place, filter, request_.resolutions.front()});
+        const auto [known, is_new] = least.emplace(request_.levels[level].lookup, cost);
+        if (!is_new) known->second = std::min(known->second, cost);
+      }
+  return least;
+}
+
 // What costs more can be none of the three answers.
 double Screening::most_cost() const {
   if (request_.budget) return *request_.budget;

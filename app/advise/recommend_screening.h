@@ -6,6 +6,7 @@
 //   for (Candidate& one : screening.candidates()) ...
 #pragma once
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class Screening {
 
   // texel_work of the settings of `like` at another resolution.
   double cost_at(const Candidate& like, int resolution) const;
+
+  // Advice::least_costs.
+  std::map<std::string, double> least_costs() const;
 
   std::vector<Candidate>& candidates() { return candidates_; }
   const std::vector<Candidate>& candidates() const { return candidates_; }

@@ -9,6 +9,7 @@
 
 #include "app/advise/engine_forms.h"
 #include "app/advise/recommend_filtered.h"
+#include "app/advise/recommend_filtered_text.h"
 #include "app/advise/recommend_lookups.h"
 #include "base/text.h"
 #include "compare/report/findings.h"
@@ -26,20 +27,6 @@ std::string filter_text(const FilterSettings& filter) {
   if (filter.kind == "none") return "no filter";
   if (filter.kind == "castano") return fmt::format("the filter castano {0} x {0}", filter.whole("size"));
   return fmt::format("the filter {}", filter.kind);
-}
-
-// "VSM with a box of 5 texels"
-std::string lookup_text(const Settings& settings) {
-  if (!reduction_is_free(settings.lookup.kind)) return engine_form_name(settings);
-  std::string name = settings.lookup.kind;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; });
-  if (name == "MSM_HAUSDORFF") name = "MSM (lookup.kind = msm_hausdorff)";
-  std::string text = settings.filter.kind == "none" ? name + " without a blur"
-                                                    : fmt::format("{} with a {} of {} texels", name,
-                                                                  settings.filter.kind, settings.filter.whole("size"));
-  if (settings.lookup.kind.starts_with("evsm")) text += fmt::format(", lookup.floor = {:g}", settings.lookup["floor"]);
-  return text;
 }
 
 // "19.5 mm", "1.2 m"
@@ -110,13 +97,6 @@ std::string bounds_text(const CurveOptions& bounds) {
                      percent(bounds.peter_panning_bound));
 }
 
-// The same of filtered maps, which have no acne.
-std::string filtered_bounds_text(const CurveOptions& bounds) {
-  return fmt::format(
-      "leak and Peter Panning each within {}, over-darkening and what the reduction darkens each within {}",
-      percent(bounds.peter_panning_bound), percent(bounds.acne_bound));
-}
-
 bool asks_for_filtered(const AdviceRequest& request) {
   return std::any_of(request.levels.begin(), request.levels.end(), [](const BiasLevel& one) { return one.filtered(); });
 }
@@ -129,27 +109,10 @@ bool asks_for_compared(const AdviceRequest& request) {
 std::string glossed_bounds_text(const Advice& advice) {
   const CurveOptions& bounds = advice.request.curve;
   if (std::all_of(advice.answers.begin(), advice.answers.end(), [](const Answer& one) { return one.tried.filtered(); }))
-    return fmt::format(
-        "leak (light where shadows overlap) and Peter Panning (a shadow leaves its object) each within {}, "
-        "over-darkening (shade on what is lit) and what lookup.reduction darkens each within {}",
-        percent(bounds.peter_panning_bound), percent(bounds.acne_bound));
+    return glossed_filtered_bounds_text(bounds);
   return fmt::format(
       "acne (a surface shadows itself) within {} and Peter Panning (a shadow leaves its object) within {}",
       percent(bounds.acne_bound), percent(bounds.peter_panning_bound));
-}
-
-// What the two bounds are about in a filtered map.
-std::string filtered_beside_compared(const CurveOptions& bounds) {
-  return fmt::format(
-      "A filtered map has no acne. It keeps its leak (light where shadows overlap) and its Peter Panning each within "
-      "{}, and its "
-      "over-darkening and what its reduction darkens each within {}.",
-      percent(bounds.peter_panning_bound), percent(bounds.acne_bound));
-}
-
-std::string shares_text(const FilteredShares& shares) {
-  return fmt::format("{} leak, {} Peter Panning, {} over-darkening, {} darkened by the reduction", percent(shares.leak),
-                     percent(shares.peter_panning), percent(shares.over_darkening), percent(shares.reduction));
 }
 
 std::string eye_bounds_text(const AdviceRequest& request) {
@@ -167,11 +130,6 @@ const Tried* next_cheaper(const Advice& advice) {
         (!found || tried.cost > found->cost || (tried.cost == found->cost && is_nearer(tried, *found, advice.request))))
       found = &tried;
   return found;
-}
-
-// A search allows less than the bounds, so a share above what it allows can be within the bound itself.
-std::string allowed_text(const Tried& tried) {
-  return tried.filtered() && !tried.usable() ? fmt::format(" A search allows {}.", searched_filtered_text()) : "";
 }
 
 // Whether the scene needs a shadow map at all.
@@ -252,15 +210,8 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
         percent(enough(request.curve.acne_bound, nearest.nearest->acne, searched_acne)),
         percent(enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning, searched_peter_panning))));
   }
-  if (nearest.filtered() && !nearest.usable() && nearest.worst) {
-    const FilteredShares left = filtered_shares(*nearest.worst);
-    const auto enough = [](double bound, double found, double share) { return std::max(bound, found / share); };
-    lines.push_back(fmt::format(
-        "Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
-        percent(enough(request.curve.acne_bound, std::max(left.over_darkening, left.reduction), searched_acne)),
-        percent(enough(request.curve.peter_panning_bound, std::max(left.leak, left.peter_panning),
-                       searched_peter_panning))));
-  }
+  if (nearest.filtered() && !nearest.usable() && nearest.worst)
+    lines.push_back(enough_bounds_text(*nearest.worst, request.curve));
   if (advice.least_resolution)
     lines.push_back(constant_text(*advice.least_resolution));
   else if (!nearest.usable())
@@ -354,7 +305,7 @@ std::vector<std::string> answers_table(const Advice& advice) {
          tried.eye ? fmt::format("{:.2f} and {:.3g}", tried.eye->edge_mean_pixels, tried.eye->edge_p95_pixels) : "-",
          tried.eye ? percent(tried.eye->wrong_patch) : "-",
          tried.bias        ? may_vary(*tried.bias)
-         : tried.reduction ? fmt::format("reduction {:.3g} to {:.3g}", tried.reduction->low, tried.reduction->high)
+         : tried.reduction ? "reduction " + window_text(*tried.reduction)
          : tried.as_is     ? "fixed"
                            : "-",
          settings_text(tried, advice.request)});
@@ -402,21 +353,6 @@ std::vector<std::string> about_lines(const AdviceRequest& request) {
     lines.push_back(
         fmt::format("The answer is for what was given: {}. For the scene alone it can be another one.", request.given));
   return lines;
-}
-
-// The errors of a filtered map: the search judges exact maps at its placements, and OpenGL its own map at others.
-std::string promise_of_both(const Answer& answer) {
-  const std::optional<PointRecord>& shown = answer.verified.worst;
-  if (!answer.tried.filtered() || !shown || !answer.tried.worst) return "";
-  const double searched = answer.tried.error, rendered = answer.verified.worst_error;
-  const bool placed = searched == worst_placed(*answer.tried.worst, "error");
-  return fmt::format(
-      "The error to expect is the larger of two, {}: {} {}, and {} of OpenGL's own map at the other placements. At the "
-      "worst of these OpenGL's map differs from the exact one by {} (depth format and rasteriser) and {} (rounding of "
-      "the moments).",
-      percent(std::max(searched, rendered)), percent(searched),
-      placed ? "at the worst of the searched placements of the exact map" : "with the grid where the settings put it",
-      percent(rendered), percent(metric_of(*shown, "precision")), percent(metric_of(*shown, "moment_precision")));
 }
 
 // What each answer buys beside the one before it, and what more texels would buy.
@@ -495,22 +431,8 @@ std::vector<std::string> advice_text(const Advice& advice) {
         fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider "
                     "was found that costs little more.",
                     100 * fragile_below));
-  if (tried.as_is)
-    lines.push_back(fmt::format(
-        "It keeps {} under {} and at all {} placements of the map's grid that were searched, on the exact map. That is "
-        "{}, because conditions that were not searched may be a little worse. {}",
-        filtered_bounds_text(searched_bounds(advice.request.curve)), counted(answer.conditions, "condition"),
-        answer.placements, searched_filtered_text(), engine_form_text(tried.settings.lookup.kind)));
-  if (tried.reduction)
-    lines.push_back(fmt::format(
-        "lookup.reduction keeps the leak within {} and what it darkens within {} from {:.3g} to {:.3g} under {} and at "
-        "all {} "
-        "placements of the map's grid that were searched, on the exact map. That is {}, because conditions that were "
-        "not searched "
-        "may be a little worse.",
-        percent(searched_bounds(advice.request.curve).peter_panning_bound),
-        percent(searched_bounds(advice.request.curve).acne_bound), tried.reduction->low, tried.reduction->high,
-        counted(answer.conditions, "condition"), answer.placements, searched_filtered_text()));
+  if (std::string kept = kept_filtered_text(answer, advice.request.curve); !kept.empty())
+    lines.push_back(std::move(kept));
   lines.push_back(
       fmt::format("Verified under the worst condition at {} other placements{}, {} pixels wide: the worst of them has "
                   "{} and {} error.",

@@ -397,6 +397,16 @@ class Reader : private SettingsReader {
     if (!curve_over_) return;
     if (!experiment_.curve_enabled) fail(*curve_over_, "curve.over is given, and curve.enabled is false");
     const std::string& over = experiment_.curve.over.setting;
+    const auto sweeps = [&](const Experiment& one) {
+      return std::any_of(one.swept.begin(), one.swept.end(), [&](const Swept& swept) { return swept.name == over; });
+    };
+    if (sweeps(experiment_) ||
+        std::any_of(experiment_.parts.begin(), experiment_.parts.end(),
+                    [&](const Experiment& part) { return part.curve.over.setting == over && sweeps(part); }))
+      fail(*curve_over_,
+           fmt::format("curve.over = '{0}' gives the errors at many values of {0} at each point, and {0} is "
+                       "swept too, so all its points would have the same curve; leave one of them out",
+                       over));
     const std::vector<Settings> all = points(experiment_);
     if (std::none_of(all.begin(), all.end(), [&](const Settings& one) { return has_curve_over(one, over); }))
       fail(*curve_over_, fmt::format("curve.over = '{}', but no point has a lookup.kind that reads it from a map of "

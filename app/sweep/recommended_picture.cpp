@@ -14,6 +14,7 @@
 #include "compare/judge/tradeoff.h"
 #include "compare/report/opening.h"
 #include "compare/report/text.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/settings.h"
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "app/definition/share_text.h"
 #include "base/suggestion.h"
@@ -66,7 +67,10 @@ std::vector<std::string> words_of(const std::vector<std::string>& lists) {
   for (const std::string& list : lists)
     for (size_t begin = 0; begin <= list.size();) {
       const size_t end = std::min(list.find(',', begin), list.size());
-      words.push_back(list.substr(begin, end - begin));
+      std::string word = list.substr(begin, end - begin);
+      word.erase(0, std::min(word.find_first_not_of(' '), word.size()));
+      word.erase(word.find_last_not_of(' ') + 1);
+      words.push_back(std::move(word));
       begin = end + 1;
     }
   return words;

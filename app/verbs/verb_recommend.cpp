@@ -354,6 +354,10 @@ std::vector<std::string> shown_engines(const RecommendOptions& options, const st
   return words;
 }
 
+[[noreturn]] void throw_engine_of_cascades() {
+  throw Error(ErrorKind::usage, "--engine tries the lines of one map; leave it out, or search no cascades");
+}
+
 int recommend(const RecommendOptions& options) {
   const std::string& what = options.what;
   ExperimentArguments arguments = options.arguments;
@@ -368,6 +372,12 @@ int recommend(const RecommendOptions& options) {
         "--texels divides texels and searches nothing else; leave out the bounds, --budget, --answer, --around, "
         "--cascades, --lookups, --lines and --engine");
   if (options.texels) return recommend_texels(whole, *options.texels, arguments, out);
+  // Before anything is measured.
+  if (!options.lookups.empty() && (options.around || options.cascades))
+    throw Error(ErrorKind::usage,
+                "--lookups searches one map, and --around varies lookups that compare; leave out --lookups, or "
+                "--around and --cascades");
+  if (!options.engines.empty() && options.cascades) throw_engine_of_cascades();
   const Experiment& experiment = only_part(whole);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
@@ -375,13 +385,8 @@ int recommend(const RecommendOptions& options) {
   const auto say = [&](const std::string& step) { progress.say(printable(step)); };
   AdviceRequest request = request_of(experiment, options, bench, say);
   if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
-  if (!options.lookups.empty() && (options.around || options.cascades))
-    throw Error(ErrorKind::usage,
-                "--lookups searches one map, and --around varies lookups that compare; leave out --lookups, or "
-                "--around and --cascades");
   const std::string no_lines = why_no_engine_lines(request.conditions);
-  if (!options.engines.empty() && (options.cascades || request.conditions.front().cascades.count > 1))
-    throw Error(ErrorKind::usage, "--engine tries the lines of one map; leave it out, or search no cascades");
+  if (!options.engines.empty() && request.conditions.front().cascades.count > 1) throw_engine_of_cascades();
   if (!no_lines.empty() && (options.lines || !options.engines.empty()))
     throw Error(ErrorKind::usage, fmt::format("{}; leave it out, or leave out --lines and --engine", no_lines));
   std::optional<TrialPlan> plan;
@@ -536,6 +541,7 @@ RunVerb add_recommend(CLI::App& verb) {
   return [options](const std::string& command) {
     options->arguments.command = command;
     options->lookups = words_of(options->lookups);
+    options->engines = words_of(options->engines);
     const ThreadLimit limit(options->arguments.threads);
     return recommend(*options);
   };

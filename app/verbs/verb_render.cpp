@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 
-#include "app/advise/recommend_filtered.h"
 #include "app/pictures/pictures.h"
 #include "app/pictures/point_files.h"
 #include "app/sweep/results_folder.h"
@@ -19,6 +18,7 @@
 #include "base/threads.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/interval.h"
+#include "compare/judge/moment_cures.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
@@ -33,7 +33,6 @@
 #include "technique/casters.h"
 #include "technique/light_frame.h"
 #include "technique/light_kind.h"
-#include "technique/lookups.h"
 #include "technique/placements.h"
 #include "technique/setting_rules.h"
 
@@ -127,47 +126,10 @@ void print_curve_of_cascades(const Measurement& m, const BiasCurve& c) {
              100 * c.best_error);
 }
 
-// Of a lookup whose bound darkens a lit slope, because the blur holds several of its depths: the bias that lifts it by their
-// deviation (law 17). Empty if the settings have a bias.
-std::string bias_of_slopes(const Settings& settings) {
-  for (const BiasPart& part : bias_parts())
-    if (settings.bias[part.name] != 0) return "";
-  if (find_lookup(settings.lookup.kind).spread) return "bias.tan, by what a slope rises over the blur (law 17)";
-  return fmt::format(
-      "--set bias.unit=texel --set bias.tan={:.2g}, the deviation of a slope's depths in this blur (law 17)",
-      blur_deviation_texels(settings.filter));
-}
-
-// What may help where no reduction is usable, by what breaks the bounds without one.
-std::string cures_of_reduction(const PointRecord& record, const Settings& settings) {
-  const bool darkens = record.lookup_curve.front().over_darkening > record.lookup_bounds->acne_bound;
-  std::vector<std::string> cures;
-  if (const std::string bias = bias_of_slopes(settings); darkens && !bias.empty()) cures.push_back(bias);
-  if (darkens && settings.lookup.kind.starts_with("msm")) cures.emplace_back("a larger lookup.moment_bias");
-  cures.emplace_back("a smaller blur or a finer map");
-  if (!darkens) cures.emplace_back("lookup.kind = evsm4 or msm, which leak less");
-  return fmt::format("{}", fmt::join(cures, "; or "));
-}
-
-// The parameters that may make moments less singular.
-std::string cures_of_precision(const Settings& settings) {
-  std::vector<std::string_view> cures;
-  for (const auto& read : find_lookup(settings.lookup.kind).reads)
-    if (const std::string_view name = read.parameter->setting;
-        name == "lookup.v_min" || name == "lookup.floor" || name == "lookup.moment_bias")
-      cures.push_back(name);
-  const std::string values =
-      cures.empty() ? "" : fmt::format(" (curve.over = \"{}\" of an experiment gives its values)", cures.front());
-  if (settings.map.moments != MomentFormat::f32) cures.push_back("map.moments = 32f");
-  return cures.empty() ? "bring near and far closer together"
-                       : fmt::format("what may: {}{}", fmt::join(cures, ", "), values);
-}
-
 // Of a lookup in a map of moments: what another lookup.reduction would do.
 void print_reductions(const Measurement& m) {
   const auto& metrics = m.record.metrics;
   if (!metrics.contains("best_reduction")) return;
-  const Settings& settings = m.technique.settings;
   fmt::print("  lookup.reduction of least error: {:.4g} ({:.5f}% on the exact map, without rounding)\n",
              metrics.at("best_reduction"), 100 * metrics.at("best_reduction_error"));
   constexpr const char* bounds =
@@ -186,25 +148,22 @@ void print_reductions(const Measurement& m) {
       fmt::print("  at every placement of the grid: no reduction\n");
   }
   if (const std::string why = why_no_usable_reduction(m.record); !why.empty())
-    fmt::print("    because {}\n    what may help: {}\n", why, cures_of_reduction(m.record, settings));
-  if (metrics.at("moment_precision") > metrics.at("error") / 2)
-    fmt::print("  most of the error is moment_precision, which no reduction cures; {}\n", cures_of_precision(settings));
+    fmt::print("    because {}\n    what may help: {}\n", why, cures_of_reduction(m.record));
 }
 
 // What another value of curve.over would do: the values of least error, and the usable ones.
 void print_curve_over(const Measurement& m) {
   const std::vector<LookupCurvePoint>& curve = m.record.over_curve;
   if (curve.empty()) return;
-  const auto best = std::min_element(curve.begin(), curve.end(),
-                                     [](const auto& a, const auto& b) { return a.shown_error < b.shown_error; });
-  const std::string& setting = best->parameter;
+  const LookupCurvePoint& best = least_shown(curve);
+  const std::string& setting = best.parameter;
   const std::string unit = setting == "bias.constant" ? " " + find_setting("bias.unit").get(m.technique.settings) : "";
   fmt::print("\n  {:<20}{:>12}{:>12}{:>12}{:>16}{:>15}\n", setting + unit, "error", "exact map", "leak",
              "over_darkening", "peter_panning");
   for (const LookupCurvePoint& at : curve)
     fmt::print("  {:<20.4g}{:>11.5f}%{:>11.5f}%{:>11.5f}%{:>15.5f}%{:>14.5f}%{}\n", at.value, 100 * at.shown_error,
                100 * at.error, 100 * at.leak, 100 * at.over_darkening, 100 * at.peter_panning,
-               &at == &*best ? "  least error" : "");
+               &at == &best ? "  least error" : "");
 }
 
 // clock: what the times come from.
@@ -247,6 +206,7 @@ void print_ladder(const Measurement& m, const char* clock) {
     if (of_one_receiver(metric) && m.record.metrics.contains(std::string(metric.name)))
       fmt::print("  {:<32}{:>11.5f}% of the light of one receiver\n", metric.name, 100 * value(metric.name.data()));
   print_reductions(m);
+  if (const std::string cures = cures_of_precision(m.record); !cures.empty()) fmt::print("  {}\n", cures);
   print_curve_over(m);
   for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
     if (!m.record.metrics.contains(name)) continue;

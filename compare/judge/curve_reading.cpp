@@ -140,7 +140,18 @@ std::vector<double> curve_depths(const PointRecord& point) {
 }
 
 double best_depth(const PointRecord& point) {
-  return point.curve ? point.curve->best_bias_depth : metric_of(point, "best_reduction");
+  return point.curve ? point.curve->best_bias_depth : least_shown(point.lookup_curve).value;
+}
+
+double best_error(const PointRecord& point) {
+  return point.curve ? point.curve->best_error : least_shown(point.lookup_curve).shown_error;
+}
+
+const LookupCurvePoint& least_shown(const std::vector<LookupCurvePoint>& curve) {
+  const auto key = [](const LookupCurvePoint& at) {
+    return std::isnan(at.shown_error) ? std::numeric_limits<double>::infinity() : at.shown_error;
+  };
+  return *std::min_element(curve.begin(), curve.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
 }
 
 std::optional<double> curve_value(const PointRecord& point, const std::string& metric, double bias_depth) {
@@ -200,6 +211,11 @@ std::optional<Interval> usable_window(const PointRecord& point) {
       break;
   }
   return std::nullopt;
+}
+
+bool has_fixed_reduction(const PointRecord& point) {
+  const std::string kind = setting_of(point, "lookup.kind");
+  return !kind.empty() && kind != "compare" && number_of(setting_of(point, "lookup.reduction_span")).value_or(0) > 0;
 }
 
 std::string why_no_usable_reduction(const PointRecord& point) {

@@ -36,9 +36,16 @@ std::string free_setting_words(std::span<const PointRecord> points);
 inline std::string free_setting_words(const PointRecord& point) { return free_setting_words({&point, 1}); }
 // The bounds of the usable window. The point must have a curve.
 const CauseBounds& curve_bounds(const PointRecord& point);
-// The entries of the curve, ascending, and its best one.
+// The entries of the curve, ascending.
 std::vector<double> curve_depths(const PointRecord& point);
+// Where the point errs least, and the error there (against R1). Of a bias exactly, on the exact map. Of a reduction of the
+// entries of its curve, with the error that OpenGL shows: what the exact map has is the metrics best_reduction and
+// best_reduction_error. The point must have a curve.
 double best_depth(const PointRecord& point);
+double best_error(const PointRecord& point);
+// The entry of a curve over a setting of the lookup at which OpenGL shows the least error; of equal ones the first. The curve
+// must not be empty.
+const LookupCurvePoint& least_shown(const std::vector<LookupCurvePoint>& curve);
 
 // The value of a curve's series at a bias in window depth. The series is named by its metric ("error", "acne",
 // "aliasing" = dark + light ...). It is linear between the curve's entries and constant beyond the last. Empty if the
@@ -65,6 +72,10 @@ std::optional<Interval> usable_window(const BiasCurve& curve);
 std::optional<Interval> usable_window(const PointRecord& point);
 // Whether the point has a curve, and no value of its free setting is usable.
 inline bool lacks_window(const PointRecord& point) { return has_curve(point) && !usable_window(point); }
+
+// Of a lookup in a map of moments whose reduction has a fixed form, as three.js's with lookup.reduction_span: it has no curve
+// that says what another value would give.
+bool has_fixed_reduction(const PointRecord& point);
 
 // Of a point whose reduction is free and that lacks a window: what breaks it, as the end of a sentence: "over-darkening is
 // 0.15% without any reduction". Otherwise empty.

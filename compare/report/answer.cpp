@@ -13,6 +13,7 @@
 #include "compare/judge/deliveries.h"
 #include "compare/judge/last_run.h"
 #include "compare/judge/machines.h"
+#include "compare/judge/moment_cures.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
@@ -22,6 +23,7 @@
 #include "compare/report/broken.h"
 #include "compare/report/findings.h"
 #include "compare/report/laws.h"
+#include "compare/report/part_answers.h"
 #include "compare/report/recommendation_box.h"
 #include "compare/report/rules.h"
 #include "compare/report/sections.h"
@@ -121,12 +123,30 @@ Markup why_no_reductions(const Results& results) {
     const std::string why = why_no_usable_reduction(point);
     if (why.empty() || ++all > most_told) continue;
     const std::string phrase = settings_phrase(point, results.info.swept);
-    list += element(
-        "li", prose("{}: {}", point_link(point.id, phrase.empty() ? fmt::format("point {}", point.id) : phrase), why));
+    list += element("li", prose("{}: {}. What may help: {}.",
+                                point_link(point.id, phrase.empty() ? fmt::format("point {}", point.id) : phrase), why,
+                                cures_of_reduction(point)));
     ++told;
   }
   if (all > told) list += element("li", prose("and {} more: see the table of windows", all - told));
   return list.empty() ? "" : element("ul", css("rules"), list);
+}
+
+// Of filtered maps: where the rounding of the moments makes most of the error. Points of which the same is said share a line.
+Markup precision_items(const Results& results) {
+  std::map<std::string, std::vector<Markup>> points;
+  for (const PointRecord& point : results.points)
+    if (const std::string cures = cures_of_precision(point); !cures.empty())
+      points[cures].push_back(point_link(point.id, point.id));
+  Markup out;
+  for (auto& [cures, links] : points) {
+    constexpr size_t most_named = 8;
+    const size_t more = links.size() - std::min(links.size(), most_named);
+    links.resize(links.size() - more);
+    out += item("bad", prose("At {} {}{} {}.", links.size() + more == 1 ? "point" : "points", joined(links, ", "),
+                             more ? fmt::format(" and {} more", more) : "", cures));
+  }
+  return out;
 }
 
 template <FreeSetting setting>
@@ -171,7 +191,7 @@ Markup window_items(const Results& results) {
                          ? ""
                          : item("note", prose("Points without a curve: {}.", why_no_curve(*without)));
   if (std::none_of(results.points.begin(), results.points.end(), has_curve))
-    return item("note", "No bias curve was measured, so no usable window can be given.") + why;
+    return item("note", "No curve over a bias or a reduction was measured, so no usable window can be given.") + why;
   return window_items_of<FreeSetting::bias>(results) + window_items_of<FreeSetting::reduction>(results) + why;
 }
 
@@ -361,9 +381,10 @@ Markup answer_section(const Results& results, const ShownPoints& shown) {
   if (results.points.empty()) return "";
   const char* const title = has_answer(results, shown) ? "The answer" : "What was found";
   const auto findings = [](const Markup& items) { return element("ul", css("findings"), "\n", items); };
-  Markup items = health_items(results);
+  Markup items = precision_items(results) + health_items(results);
   if (!results.points.front().part.empty()) {
-    const Markup found = laws_table(results) + bounds_section(results) + (items.empty() ? "" : findings(items));
+    const Markup found = laws_table(results) + part_answers(results, shown) + bounds_section(results) +
+                         (items.empty() ? "" : findings(items));
     return found.empty() ? "" : section("answer", title, found);
   }
   std::vector<const PointRecord*> all;

@@ -111,6 +111,24 @@ Markup stack_caption(const json& head, const Markup& of_point, const std::string
       at_recommended ? ", and at the recommended one," : "", head.value("width", 0), head.value("height", 0));
 }
 
+// Of a lookup whose reduction is no free setting: why the slider varies the bias.
+const char* slider_of_bias(const PointRecord& point, const json& head) {
+  return has_fixed_reduction(point) && head.value("parameter", std::string()).starts_with("bias.")
+             ? " lookup.reduction_span gives the reduction of this lookup a fixed form, so the slider varies its bias."
+             : "";
+}
+
+// Where the picture is of another point than the answer: which one that is, and why it is not shown. Otherwise empty.
+Markup other_than_the_answer(const PointRecord& point, const Results& results, const ShownPoints& shown) {
+  const PointRecord* const answer = answer_point(results, shown.groups, shown.recommended);
+  if (!answer || answer->id == point.id) return "";
+  const Markup link = point_link(answer->id, prose("point {}", answer->id));
+  if (live_image(*answer))
+    return prose(" The answer is {}; this one is shown because the page's head speaks of it.", link);
+  return prose(" The answer is {}, which has no pictures; {} makes those of answers.", link,
+               code("pictures = \"answers\""));
+}
+
 // Throws std::exception if the bytes are not those of a live picture.
 Markup figure_of(const PointRecord& point, const std::string& bytes, const Results& results, const ShownPoints& shown) {
   json head = json::parse(bytes.substr(0, bytes.find('\n')));
@@ -122,6 +140,7 @@ Markup figure_of(const PointRecord& point, const std::string& bytes, const Resul
   const bool at_other = std::any_of(pictures.begin(), pictures.end(), [](const PictureRecord& picture) {
     return picture.name == at_recommended_bias("map");
   });
+  const Markup other = other_than_the_answer(point, results, shown);
   const Markup of_point = point_link(point.id, prose("Point {}", point.id));
   if (stack) {
     // The picture is at several values of it, so the one that was set is not its name.
@@ -129,7 +148,7 @@ Markup figure_of(const PointRecord& point, const std::string& bytes, const Resul
     std::erase(names, head.value("parameter", std::string()));
     const std::string phrase = settings_phrase(point, names);
     return live_stage(head, fmt::format("{}, one step for each picture", head.value("parameter", std::string())),
-                      stack_caption(head, of_point, phrase, at_other)) +
+                      stack_caption(head, of_point, phrase, at_other) + slider_of_bias(point, head) + other) +
            data_block("live-data", head) + "\n";
   }
   // The picture is at every bias, so the one that was set is not its name.
@@ -140,7 +159,7 @@ Markup figure_of(const PointRecord& point, const std::string& bytes, const Resul
       "at others {} × {} pixels, measured for themselves. The marks are those of the own picture.",
       of_point, phrase.empty() ? "" : ": " + phrase, at_other ? ", and at the recommended one," : "",
       head.value("width", 0), head.value("height", 0));
-  return live_stage(head, "Bias, on a logarithmic scale", caption) + data_block("live-data", head) + "\n";
+  return live_stage(head, "Bias, on a logarithmic scale", caption + other) + data_block("live-data", head) + "\n";
 }
 
 }  // namespace

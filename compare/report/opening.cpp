@@ -10,7 +10,9 @@
 #include "compare/judge/recommendation.h"
 #include "compare/judge/soundness.h"
 #include "compare/report/lights_section.h"
+#include "compare/report/part_answers.h"
 #include "compare/report/point_data.h"
+#include "compare/report/speed.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark::report {
@@ -18,7 +20,8 @@ namespace {
 
 constexpr std::string_view bias_separator = " at ";  // no picture's own name has it
 
-const PointRecord* point_to_open(const Results& results, const Recommendation& recommended) {
+const PointRecord* point_to_open(const Results& results, const std::vector<ComparedGroup>& groups,
+                                 const Recommendation& recommended) {
   for (const BoundResult& bound : results.bounds)
     // A bound of the whole frame names its first light, which may have no part in it.
     if (const PointRecord* point =
@@ -26,13 +29,11 @@ const PointRecord* point_to_open(const Results& results, const Recommendation& r
         point && live_image(*point))
       return point;
   if (const PointRecord* light = largest_light(results); light && live_image(*light)) return light;
-  const PointRecord* first = nullptr;
-  for (const PointRecord& point : results.points) {
-    if (!live_image(point)) continue;
-    if (!recommended.choice.points.empty() && recommended.choice.first().id == point.id) return &point;
-    if (!first) first = &point;
-  }
-  return first;
+  if (const PointRecord* answer = answer_point(results, groups, recommended); answer && live_image(*answer))
+    return answer;
+  const auto first = std::find_if(results.points.begin(), results.points.end(),
+                                  [](const PointRecord& point) { return live_image(point) != nullptr; });
+  return first == results.points.end() ? nullptr : &*first;
 }
 
 }  // namespace
@@ -50,8 +51,18 @@ const ImageRecord* live_image(const PointRecord& point) {
   return nullptr;
 }
 
+const PointRecord* answer_point(const Results& results, const std::vector<ComparedGroup>& groups,
+                                const Recommendation& recommended) {
+  if (!has_parts(results))
+    return recommended.choice.points.empty() ? nullptr : find_point(results.points, recommended.choice.first().id);
+  const ComparedChoice* const choice = answer_of_parts(results, groups);
+  if (!choice) return nullptr;
+  const PointRecord* const worst = value_of(*choice, error_shown_first(results)).at;
+  return worst ? worst : &choice->choice.first();
+}
+
 Opening opening(const Results& results, const std::vector<ComparedGroup>& groups, const Recommendation& recommended) {
-  Opening first{point_to_open(results, recommended), {}};
+  Opening first{point_to_open(results, groups, recommended), {}};
   if (!first.point || opens_as_set(results)) return first;
   const std::map<int64_t, double> biases = recommended_biases(groups);
   const auto bias = biases.find(first.point->id);

@@ -23,11 +23,16 @@ bool opens_as_set(const Results& results);
 // The file of a point's live picture; null if it has none.
 const ImageRecord* live_image(const PointRecord& point);
 
+// The point that the answer in the page's head names: that of the recommendation, or in a report of parts that of its cheapest
+// good choice (answer_of_parts). Null without an answer.
+const PointRecord* answer_point(const Results& results, const std::vector<ComparedGroup>& groups,
+                                const Recommendation& recommended);
+
 struct Opening {
   // The point that the head of the page speaks of. It must have a live picture. The first of these that has one:
   // 1. the point of the first broken bound (not of a bound on a whole frame of lights);
   // 2. in a frame of lights, largest_light() (compare/report/lights_section.h);
-  // 3. the recommended point;
+  // 3. the point of the answer (answer_point);
   // 4. any point. Null if no point has a live picture.
   const PointRecord* point = nullptr;
   std::optional<double> bias;  // at which it opens, in bias.unit; empty: as set

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "compare/judge/curve_reading.h"
 #include "compare/report/data.h"
 #include "compare/report/sections.h"
 #include "compare/report/tables.h"
@@ -32,13 +33,11 @@ constexpr DrawnOver series_of_over[] = {
 Markup least_row(const PointRecord& point, const std::vector<std::string>& swept) {
   std::string phrase = settings_phrase(point, swept);
   if (!point.part.empty()) phrase = point.part + (phrase.empty() ? "" : ": ") + phrase;
-  const auto least = std::min_element(
-      point.over_curve.begin(), point.over_curve.end(),
-      [](const LookupCurvePoint& a, const LookupCurvePoint& b) { return a.shown_error < b.shown_error; });
+  const LookupCurvePoint& least = least_shown(point.over_curve);
   return tr(td(css("text"), point_link(point.id, phrase.empty() ? fmt::format("Point {}", point.id) : phrase)) +
-            td(css("text"), code(least->parameter)) + td(setting_of(point, least->parameter)) +
-            td(cell(metric_of(point, "error"), "fraction")) + td(number(least->value)) +
-            td(cell(least->shown_error, "fraction")) + td(cell(least->error, "fraction")));
+            td(css("text"), code(least.parameter)) + td(setting_of(point, least.parameter)) +
+            td(cell(metric_of(point, "error"), "fraction")) + td(number(least.value)) +
+            td(cell(least.shown_error, "fraction")) + td(cell(least.error, "fraction")));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "compare/report/blocks.h"
 #include "compare/report/broken.h"
 #include "compare/report/findings.h"
+#include "compare/report/part_answers.h"
 #include "compare/report/sections.h"
 #include "compare/report/speed.h"
 #include "compare/report/speed_section.h"
@@ -126,21 +127,20 @@ Markup cause_sentence(std::span<const PointRecord* const> points, std::optional<
 
 namespace {
 
-// Of points of several parts: the cheapest choice of the largest group that can be compared. Empty if no choice of it has a
-// usable bias window, because a bound of a part alone can also demand an error.
+// Of points of several parts: the cheapest choice of the largest group that can be compared.
 Markup cheapest_of_parts(const Results& results, const ShownPoints& shown) {
-  if (shown.groups.empty() || is_incomplete(results)) return "";
+  const ComparedChoice* const best = answer_of_parts(results, shown.groups);
+  if (!best) return "";
   const ComparedGroup& group = shown.groups[group_shown_first(shown.groups)];
-  if (group.choices.size() < 2 || !group.recommended) return "";
-  const ComparedChoice& best = group.choices[*group.recommended];
-  if (best.window != ComparedChoice::Window::usable) return "";
   std::unordered_set<int64_t> on_page;
   for (const PointRecord& point : shown.results.points) on_page.insert(point.id);
-  const std::string name = ChoiceNames(results).of(best.choice, AtBias::best),
+  const std::string name = ChoiceNames(results).of(best->choice, AtBias::best),
                     of = GroupNames(results, shown.groups).of(group);
-  const PointRecord* const point = point_on_page(best, shown.error_first, on_page);
-  return prose(" Of the {} choices{} the cheapest that is good enough is {}.", group.choices.size(),
-               of.empty() ? "" : " for " + of, point ? point_link(point->id, name) : name);
+  const PointRecord* const point = point_on_page(*best, shown.error_first, on_page);
+  const std::optional<BiasChoice>& bias = best->good->bias;
+  return prose(" Of the {} choices{} the cheapest that is good enough is {}{}.", group.choices.size(),
+               of.empty() ? "" : " for " + of, point ? recommended_link(*point, name) : name,
+               bias ? fmt::format(" with {} {}", bias->parameter, bias_in_unit(bias->value, bias->unit)) : "");
 }
 
 // Points of different parts are not meant to be compared, so none of them is an answer.
@@ -158,11 +158,15 @@ Markup held_of_parts(const Results& results, const ShownPoints& shown) {
 
 // What to set, or what is known instead.
 Markup what_to_set(const Results& results, const ShownPoints& shown) {
-  if (!results.points.front().part.empty()) return held_of_parts(results, shown);
+  if (has_parts(results)) return held_of_parts(results, shown);
   const Recommendation& found = shown.recommended;
   switch (found.outcome) {
     case Recommendation::Outcome::no_criterion:
-      return "No bound and no curve over a bias or a reduction says what is good enough, so no setting is recommended.";
+      return std::any_of(results.points.begin(), results.points.end(), has_fixed_reduction)
+                 ? "No bound says what is good enough, and with lookup.reduction_span there is no usable window that "
+                   "could, so no setting is recommended."
+                 : "No bound and no curve over a bias or a reduction says what is good enough, so no setting is "
+                   "recommended.";
     case Recommendation::Outcome::incomplete:
       return "Not all conditions are measured yet, so no setting is recommended.";
     case Recommendation::Outcome::none_holds:
@@ -233,8 +237,11 @@ Markup box_without_answer(const Results& results, const Recommendation& found) {
   switch (found.outcome) {
     case Recommendation::Outcome::no_criterion:
       return say("none",
-                 "There is no criterion for good enough: set a bound, or have a curve over the bias or the light-bleed "
-                 "reduction measured.");
+                 std::any_of(results.points.begin(), results.points.end(), has_fixed_reduction)
+                     ? "There is no criterion for good enough. lookup.reduction_span gives the reduction a fixed form, "
+                       "so there is no usable window: set bounds, on leak, over_darkening, peter_panning and error."
+                     : "There is no criterion for good enough: set a bound, or have a curve over the bias or the "
+                       "light-bleed reduction measured.");
     case Recommendation::Outcome::incomplete:
       return say("none",
                  "Not all conditions are measured yet, so no setting is known to hold under all of them. The same "

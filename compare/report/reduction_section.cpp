@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/moment_cures.h"
 #include "compare/report/data.h"
 #include "compare/report/sections.h"
 #include "compare/report/tables.h"
@@ -47,7 +48,8 @@ Markup window_row(const PointRecord& point, const std::vector<std::string>& swep
     cells += td(Attribute("colspan", 2), "none");
   else if (placed)
     cells += td(number(metric("reduction_min_worst"))) + td(number(metric("reduction_max_worst")));
-  cells += td(number(metric("best_reduction"))) + td(cell(metric("best_reduction_error"), "fraction"));
+  const LookupCurvePoint& least = least_shown(point.lookup_curve);
+  cells += td(number(least.value)) + td(cell(least.shown_error, "fraction"));
   return tr(css(usable ? "" : "broken"), cells);
 }
 
@@ -65,13 +67,15 @@ nlohmann::json reductions_of(const PointRecord& point, size_t points) {
   nlohmann::json json;
   for (size_t i = 0; i < curve.size(); i += step)
     for (const Series& series : drawn_series) json[series.name].push_back(drawn_value(curve[i].*series.value));
+  const LookupCurvePoint& least = least_shown(curve);
+  json["least"] = {{"value", least.value}, {"error", drawn_value(least.shown_error)}};
   if (const auto set = number_of(setting_of(point, "lookup.reduction"))) json["as_set"] = *set;
   if (point.lookup_bounds)
     json["acne_bound"] = point.lookup_bounds->acne_bound,
     json["peter_panning_bound"] = point.lookup_bounds->peter_panning_bound;
   if (std::string why = why_no_usable_reduction(point); !why.empty()) {
     why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0])));
-    json["why"] = why;
+    json["why"] = fmt::format("{}. What may help: {}", why, cures_of_reduction(point));
   }
   return json;
 }
@@ -80,9 +84,9 @@ Markup reduction_section(const Results& results, const ShownPoints& shown) {
   if (points_with_reductions(results.points) == 0) return "";
   Markup out = paragraph(prose(
       "{} r removes leaks of up to r and darkens the rest: (L − r) / (1 − r). It is arithmetic on the result, so the "
-      "causes are exact for every r, on the exact map and without rounding; the error is what OpenGL shows. In the "
-      "usable "
-      "window the leak is within the bound on Peter Panning ({}), and over-darkening and what the reduction darkens "
+      "causes are exact for every r, on the exact map and without rounding; the error, and where it is least, is what "
+      "OpenGL shows. In the usable window the leak is within the bound on Peter Panning ({}), and over-darkening and "
+      "what the reduction darkens "
       "are "
       "each within that on acne ({}).",
       code("lookup.reduction"), code("curve.peter_panning_bound"), code("curve.acne_bound")));
@@ -97,7 +101,7 @@ Markup reduction_section(const Results& results, const ShownPoints& shown) {
     if (!point.lookup_curve.empty()) rows += window_row(point, results.info.swept, placed);
   Markup head = th(css("text"), "Point") + th("As set") + th("Usable from") + th("to");
   if (placed) head += th("At every placement from") + th("to");
-  head += th("Least error at") + th(with_small("Error there, on the exact map", "%"));
+  head += th("Least error at") + th(with_small("Error there", "%"));
   const size_t count = points_with_reductions(points);
   out += folded("", count <= open_rows, "Every window of the reduction",
                 div(css("scroll"), table("numbers", head, rows)) + "\n");

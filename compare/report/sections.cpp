@@ -13,6 +13,7 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
+#include "compare/report/part_answers.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
 #include "compare/results/number_text.h"
@@ -23,9 +24,10 @@ namespace {
 
 using Classes = std::map<std::string, std::string>;
 
-// Head cells and row cells for the swept settings, which distinguish the points.
+// Head cells and row cells for the part and the swept settings, which distinguish the points.
 Markup swept_head(const Results& results, const Classes& classes) {
   Markup cells = th("Point");
+  if (has_parts(results)) cells += th(css("text"), "Part");
   for (const std::string& name : results.info.swept)
     cells +=
         th(css(classes.at(name)), Attribute("title", name), with_small(setting_label(name), swept_unit(name, results)));
@@ -34,6 +36,7 @@ Markup swept_head(const Results& results, const Classes& classes) {
 
 Markup swept_cells(const Results& results, const PointRecord& point, const Classes& classes) {
   Markup cells = row_head(point_link(point.id, point.id));
+  if (has_parts(results)) cells += td(css("text"), point.part);
   for (const std::string& name : results.info.swept)
     cells += td(css(classes.at(name)), setting_text(setting_of(point, name)));
   return cells;
@@ -82,7 +85,7 @@ Markup windows_head(const Results& results, const Classes& classes, bool alike) 
                  wide(4, "Least error at") + th(css("first"), "Within 10\u202f%", line_break(), "of the least");
   if (!alike) names += heads({"Parameter", "Made"});
   Markup units = td();
-  for (size_t i = 0; i < results.info.swept.size(); ++i) units += td();
+  for (size_t i = 0; i < results.info.swept.size() + (has_parts(results) ? 1 : 0); ++i) units += td();
   for (int i = 0; i < 3; ++i) units += th(css("first"), "depth") + heads({"m", "texels"});
   units += th("error %") + th(css("first"), "depth");
   if (!alike) units += td() + td();
@@ -165,8 +168,8 @@ struct Trend {
 
   void add(const PointRecord& point) {
     ++of;
-    const double best = point.curve ? point.curve->best_error : metric_of(point, "best_reduction_error");
-    if (has_curve(point) && std::isfinite(best)) best_sum += best, ++curves;
+    if (const double best = has_curve(point) ? best_error(point) : std::nan(""); std::isfinite(best))
+      best_sum += best, ++curves;
     const double error = metric_of(point, "error");
     if (!std::isfinite(error)) return;
     ++finite, sum += error, worst = std::max(worst, error);

@@ -156,9 +156,9 @@ std::vector<std::string> window_cells(const PointRecord& point, bool biases, boo
       : has_curve(point) ? "none"
                          : "–"};
   if (reduction) {
-    cells.push_back(what + short_or_missing(quantity(point, "best_reduction")));
+    cells.push_back(what + short_or_missing(best_depth(point)));
     if (biases) cells.insert(cells.end(), 2, "–");
-    cells.push_back(short_or_missing(quantity(point, "best_reduction_error"), "fraction"));
+    cells.push_back(short_or_missing(best_error(point), "fraction"));
     return cells;
   }
   cells.push_back(short_or_missing(quantity(point, "best_bias_depth")));

@@ -170,7 +170,7 @@ Markup engines_section(const Results& results) {
 
 namespace {
 
-// What the table of points has columns for. parts: with parts the page has no chart of bias curves.
+// What the table of points has columns for.
 struct Columns {
   bool parts = false;
   std::map<std::string, std::string> classes;  // of the swept settings

@@ -47,7 +47,9 @@ std::string_view unit_behind(std::string_view number, std::string_view unit) {
 
 std::string value_phrase(const std::string& value, const std::string& unit) {
   std::string out = value.empty() ? "unknown" : setting_text(value);
-  if (!unit.empty() && number_of(value)) out += fmt::format("{}{}", thin_space, unit_behind(out, unit));
+  // A fraction stands as a user types it, which is a number alone.
+  if (!unit.empty() && unit != "fraction" && number_of(value))
+    out += fmt::format("{}{}", thin_space, unit_behind(out, unit));
   return out;
 }
 
@@ -152,6 +154,7 @@ std::string setting_unit(const std::string& name) {
 
 std::string swept_unit(const std::string& name, const Results& results) {
   const std::string unit = setting_unit(name);
+  if (unit == "fraction") return "";  // its values stand as a user types them
   if (unit != "bias.unit") return unit;
   std::string same;
   for (const PointRecord& point : results.points) {

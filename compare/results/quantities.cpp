@@ -179,11 +179,14 @@ std::string why_no_curve(const PointRecord& point) {
     const std::string kind = printable(lookup->second);
     if (!point.lookup_curve.empty())
       return fmt::format("lookup.kind = {} compares no depths: its curve is over lookup.reduction", kind);
-    const std::string span = setting_of(point, "lookup.reduction_span");
+    if (const std::string span = setting_of(point, "lookup.reduction_span"); !span.empty() && span != "0")
+      return fmt::format(
+          "lookup.kind = {} compares no depths, and lookup.reduction_span gives its reduction a fixed form, so there "
+          "is "
+          "no usable window; bounds on leak, over_darkening, peter_panning and error say what is good enough",
+          kind);
     return fmt::format(
-        "lookup.kind = {} compares no depths, so no curve over the bias is exact in one pass{}; sweep {}", kind,
-        span.empty() || span == "0" ? "" : ", and lookup.reduction_span gives the reduction another form",
-        span.empty() || span == "0" ? "the bias" : "lookup.reduction");
+        "lookup.kind = {} compares no depths, so no curve over the bias is exact in one pass; sweep the bias", kind);
   }
   std::string why;
   for (const BiasPart& part : bias_parts()) {

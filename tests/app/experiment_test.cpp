@@ -411,6 +411,11 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"[lookup]\nkind = \"msm\"\n[curve]\nover = \"lookup.v_min\"", "4:8", "no point has a lookup.kind that reads it"},
       {"[lookup]\nkind = \"vsm\"\n[curve]\nenabled = false\nover = \"lookup.v_min\"", "5:8", "curve.enabled is false"},
       {"[curve]\nover_values = [0, 1]", "2:15", "curve.over, which is not given"},
+      {"[lookup]\nkind = \"vsm\"\n[sweep]\nlookup.v_min = [0, 1e-6]\n[curve]\nover = \"lookup.v_min\"", "6:8",
+       "lookup.v_min is swept too"},
+      {"[lookup]\nkind = \"vsm\"\n[curve]\nover = \"lookup.v_min\"\n[[part]]\nname = \"a\"\n[part.sweep]\n"
+       "lookup.v_min = [0, 1e-6]",
+       "4:8", "lookup.v_min is swept too"},
       {"[lookup]\nkind = \"vsm\"\n[curve]\nover = \"lookup.v_min\"\nover_values = [1e-7, 1e-7]", "5:15", "ascend"},
       {"[lookup]\nkind = \"vsm\"\n[curve]\nover = \"lookup.v_min\"\nover_values = [1e-7, 2]", "5:15", "lookup.v_min"},
       {"[[bound]]\nmax = 1", "1:1", "needs a metric"},

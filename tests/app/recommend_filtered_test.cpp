@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include "compare/judge/moment_cures.h"
 #include "compare/ladder/reduction_window.h"
 #include "compare/results/quantities.h"
 #include "technique/lookups.h"
@@ -170,6 +171,25 @@ TEST(RecommendFiltered, AnotherBlurOfThreeIsMeasuredAnew) {
   EXPECT_EQ(measured(used, settings, 3, 7), alone) << "after another radius";
   EXPECT_NE(measured(used, settings, 3, 3), alone);
   EXPECT_EQ(measured(used, settings, 3, 7), alone) << "after another number of samples";
+}
+
+// As a user types it, and never out of the window.
+TEST(RecommendFiltered, ReductionsAreTypedWithinTheirWindow) {
+  EXPECT_EQ(typed_reduction(2.4e-7, 2.4e-7, 0.13), 0.001);
+  EXPECT_EQ(typed_reduction(0.1157612, 0.01, 0.1157612), 0.115);
+  EXPECT_EQ(typed_reduction(1e-9, 0, 0.1), 0);
+  EXPECT_EQ(typed_reduction(0.42001, 0.1, 0.9), 0.42);
+  EXPECT_EQ(typed_reduction(0.12349, 0.12341, 0.12353), 0.1235) << "a window narrower than the usual digits";
+  for (const double low : {0.0, 3e-8, 0.0123, 0.7071})
+    for (const double width : {1e-12, 1e-6, 1e-3, 0.2})
+      for (const double part : {0.0, 0.3, 1.0}) {
+        const double high = low + width, value = low + part * (high - low), typed = typed_reduction(value, low, high);
+        EXPECT_GE(typed, low);
+        EXPECT_LE(typed, high);
+      }
+  EXPECT_EQ(window_text({0.115, 2.4e-7, 0.1157612}), "0.001 to 0.115");
+  EXPECT_EQ(window_text({0, 0, 0.0953}), "0 to 0.095");
+  EXPECT_EQ(window_text({0.1235, 0.12341, 0.12353}), "0.1235 to 0.1235");
 }
 
 TEST(RecommendFiltered, SaysWhichBoundsBreak) {

@@ -17,6 +17,7 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
 #include "compare/report/opening.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "tests/app/read_image.h"
 #include "tests/compare/report/browser.h"

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/verbs/command_line.h"
+#include "app/verbs/option_values.h"
 #include "compare/ladder/bias_curves.h"
 #include "measure/phase_diagram.h"
 
@@ -72,6 +73,15 @@ TEST(Verbs, TheDefaultsOfTheHelpAreThoseOfTheMembers) {
   EXPECT_EQ(recommend.default_of("--out"),
             "out/recommend-plate for plate, out/checks/recommend-helmet for "
             "checks/helmet.toml");
+}
+
+TEST(Verbs, ListsMayHaveBlanksBesideTheirCommas) {
+  EXPECT_EQ(words_of({"vsm, msm", " esm ,evsm4 ", "compare"}),
+            (std::vector<std::string>{"vsm", "msm", "esm", "evsm4", "compare"}));
+  const CLI::Validator list = noonmark::list_of(std::vector<std::string>{"vsm", "msm"});
+  EXPECT_EQ(list("vsm, msm"), "");
+  EXPECT_NE(list("vsm, ,msm"), "") << "a comma without a name";
+  EXPECT_NE(list("vsm msm"), "") << "a blank is no comma";
 }
 
 TEST(Verbs, TheVocabularyHasEveryOptionThatTakesAValue) {

@@ -424,9 +424,12 @@ function legend() {
 }
 function controls() {
   self.controls.textContent = '';
+  var parts = curved[0].part !== undefined;
+  // Parts differ in more than the swept settings, so there a point is chosen by its name.
+  if (parts && curved.length > 1) self.controls.append(kit.pointPicker(curved, state.id));
   data.swept
       .filter(function(s) {
-        return s.values.length > 1;
+        return !parts && s.values.length > 1;
       })
       .forEach(function(s) {
         self.controls.append(kit.picker(

@@ -18,6 +18,9 @@ function nameOf(s) {
 function colourOf(s) {
   return s === 'exact_map' ? 'var(--ink)' : of.colourOf(s);
 }
+function thickOf(s) {
+  return s === 'error' ? 2.4 : 1.5;
+}
 function titleOf(curve) {
   return curve.parameter + (curve.unit ? ' in ' + curve.unit : '');
 }
@@ -52,7 +55,7 @@ var stops, self = kit.chart('over', function(width) {
           v: Math.max(curve[s][i], range.bottom),
           colour: colourOf(s),
           dash: dashes[s] || [1, 0],
-          thick: s === 'error' ? 2.4 : 1.5
+          thick: thickOf(s)
         });
     });
   });
@@ -107,18 +110,11 @@ kit.keyboard(self, function() {
 });
 function controls() {
   self.controls.textContent = '';
-  if (curved.length > 1)
-    self.controls.append(kit.picker(
-        'Point', curved.map(function(p) {
-          return [p.id, [p.part, p.phrase].filter(Boolean).join(': ') || 'Point ' + p.id];
-        }),
-        id, function(v) {
-          page.select(+v);
-        }));
+  if (curved.length > 1) self.controls.append(kit.pointPicker(curved, id));
 }
 series.forEach(function(s) {
-  self.legend.append(s === 'exact_map' ? of.key('error', words[s], dashes[s]) :
-                                         of.key(s, words[s], s === 'error' ? [1, 0] : dashes[s]));
+  var dash = s === 'error' ? [1, 0] : dashes[s];
+  self.legend.append(of.key(s, words[s], dash, {thick: thickOf(s), colour: colourOf(s)}));
 });
 page.onSelect.push(function(chosen) {
   if (!kit.byId[chosen].over) return;

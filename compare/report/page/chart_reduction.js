@@ -12,10 +12,6 @@ var id = recommended && recommended.reductions ? recommended.id : curved[0].id;
 var dashes = {error: of.errorDash, over_darkening: [8, 2, 1.5, 2]};
 var causes = ['leak', 'reduction', 'over_darkening', 'peter_panning'];
 
-function phraseOf(point) {
-  return [point.part, point.phrase].filter(Boolean).join(': ') || 'Point ' + point.id;
-}
-
 var stops, self = kit.chart('reduction', function(width) {
   var point = kit.byId[id], curve = point.reductions, values = curve.value;
   var left = 64, right = 16, w = width - left - right, h = width < 520 ? 260 : 340;
@@ -57,7 +53,7 @@ var stops, self = kit.chart('reduction', function(width) {
   if (usable) marks.push(of.window(at(usable.from), at(usable.to), h));
   marks = marks.concat(of.bounds(bounds, w, 4));
   marks.push(of.lines({scale: 'x', field: 'r'}));
-  [[point.metrics.best_reduction, 'least error', 0], [curve.as_set, 'as set', 1]].forEach(function(m) {
+  [[curve.least.value, 'least error', 0], [curve.as_set, 'as set', 1]].forEach(function(m) {
     if (kit.finite(m[0])) marks = marks.concat(of.mark(at(m[0]), m[1], m[2], m[0] > 0.7 ? -1 : 1, h));
   });
   marks.push(of.cursor(h));
@@ -121,19 +117,12 @@ function describe() {
         kit.make('b', {style: 'color:var(--bad)'}, 'No usable window. '),
         (point.reductions.why || 'No reduction keeps the bounds') + '. ');
   facts.append(
-      'Least error at ' + kit.digits(point.metrics.best_reduction) + ', with ' +
-      kit.shown(point.metrics.best_reduction_error, 'fraction') + ' on the exact map.');
+      'Least error at ' + kit.digits(point.reductions.least.value) + ', with ' +
+      kit.shown(point.reductions.least.error, 'fraction') + '.');
 }
 function controls() {
   self.controls.textContent = '';
-  if (curved.length > 1)
-    self.controls.append(kit.picker(
-        'Point', curved.map(function(p) {
-          return [p.id, phraseOf(p)];
-        }),
-        id, function(v) {
-          page.select(+v);
-        }));
+  if (curved.length > 1) self.controls.append(kit.pointPicker(curved, id));
 }
 ['error'].concat(causes).forEach(function(s) {
   self.legend.append(of.key(s, s === 'error' ? 'Error, mean |R5 − R1|' : '', dashes[s]));

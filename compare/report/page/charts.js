@@ -71,7 +71,7 @@ function shown(v, unit) {
 }
 function value(point, measure) {
   if (measure === 'best_error')
-    return point.curve ? point.curve.best_error : point.reductions ? point.metrics.best_reduction_error : NaN;
+    return point.curve ? point.curve.best_error : point.reductions ? point.reductions.least.error : NaN;
   var at = page.bias === 'recommended' && point.at && point.at.metrics;
   if (at && measure in at) return at[measure];
   return measure in point.metrics ? point.metrics[measure] : NaN;
@@ -280,6 +280,16 @@ function picker(label, options, chosen, changed) {
         return option;
       }));
   return make('label', {}, [label, select]);
+}
+// Chooses one of the points by its part and by what distinguishes it.
+function pointPicker(points, chosen) {
+  return picker(
+      'Point', points.map(function(p) {
+        return [p.id, [p.part, p.phrase].filter(Boolean).join(': ') || 'Point ' + p.id];
+      }),
+      chosen, function(v) {
+        page.select(+v);
+      });
 }
 function segments(options, chosen, changed) {
   var box = make('span', {class: 'segments'});
@@ -619,12 +629,13 @@ function curveHover(view, plot, of) {
     return stops;
   };
 }
-// An entry of the legend: a swatch, or a line where the series is dashed.
-function curveKey(series, words, dash) {
-  var entry = make('span');
+// An entry of the legend: a swatch, or a line where the series is dashed. look: what differs from the line of most charts, its
+// thickness and its colour.
+function curveKey(series, words, dash, look) {
+  var entry = make('span'), line = Object.assign({thick: series === 'error' ? 1.5 : 2.4}, look);
   if (dash)
     entry.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="' +
-        curveColour(series) + '" stroke-width="' + (series === 'error' ? 1.5 : 2.4) + '" stroke-dasharray="' +
+        (line.colour || curveColour(series)) + '" stroke-width="' + line.thick + '" stroke-dasharray="' +
         dash.join(' ') + '"/></svg>';
   else
     entry.append(make('i', {class: 'sw c-' + series}));
@@ -673,6 +684,7 @@ page.kit = {
   tipWords: tipWords,
   chart: chart,
   picker: picker,
+  pointPicker: pointPicker,
   segments: segments,
   tellApart: tellApart,
   logFloor: logFloor,

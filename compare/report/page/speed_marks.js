@@ -233,6 +233,7 @@ function marksOf(w, floor, right) {
           fill: {signal: 'datum.counts ? datum.fill : \'transparent\''},
           stroke: {signal: 'datum.counts ? \'var(--ink)\' : \'var(--bad)\''},
           strokeWidth: {signal: 'datum.counts ? 1.1 : datum.strong ? 2 : 1.2'},
+          strokeDash: {signal: 'datum.held ? [1, 0] : [2, 2]'},
           opacity: {signal: 'datum.strong ? 1 : 0.6'}
         }),
         update: {size: {field: 'size'}},

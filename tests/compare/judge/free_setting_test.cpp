@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/moment_cures.h"
 #include "compare/judge/recommendation.h"
 #include "compare/judge/techniques.h"
 #include "compare/judge/tradeoff.h"
@@ -88,6 +89,41 @@ TEST(FreeSetting, SaysWhatBreaksAllReductions) {
   for (LookupCurvePoint& at : point.lookup_curve) at.over_darkening = 0, at.leak = 0.02;
   EXPECT_EQ(why_no_usable_reduction(point), "the leak is 2% even with the largest reduction, more than 1%");
   EXPECT_EQ(why_no_usable_reduction(filtered_point(0, 1, 0.1, 0.2)), "");
+}
+
+// What darkens without a reduction needs a bias or a larger moment bias; what leaks another lookup.
+TEST(FreeSetting, SaysWhatMayHelp) {
+  PointRecord point = filtered_point(0, 1, {}, {});
+  point.settings["filter.kind"] = "box", point.settings["filter.size"] = "7", point.settings["lookup.v_min"] = "0";
+  EXPECT_EQ(cures_of_reduction(point), "a smaller blur or a finer map; or lookup.kind = evsm4 or msm, which leak less");
+  for (LookupCurvePoint& at : point.lookup_curve) at.over_darkening = 0.04;
+  point.settings["lookup.kind"] = "msm";
+  const std::string bias =
+      "--set bias.unit=texel --set bias.tan=2.1, the deviation of a slope's depths in this blur (law 17); or ";
+  EXPECT_EQ(
+      cures_of_reduction(point),
+      bias +
+          "a larger lookup.moment_bias (curve.over = \"lookup.moment_bias\" of an experiment gives its values); or "
+          "a smaller blur or a finer map");
+  for (const double value : {0.0, 0.001, 0.01}) {
+    point.over_curve.push_back({.parameter = "lookup.moment_bias", .value = value});
+    point.over_curve.back().shown_error = value == 0.001 ? 0.1 : 0.2;
+  }
+  EXPECT_EQ(cures_of_reduction(point),
+            bias +
+                "a larger lookup.moment_bias (0.001 errs least of the values of its curve); or a smaller blur or a "
+                "finer map");
+  point.settings["bias.tan"] = "1";
+  EXPECT_EQ(cures_of_reduction(point).find("bias.tan"), std::string::npos) << "it has a bias";
+  EXPECT_EQ(cures_of_reduction(filtered_point(0, 1, 0.1, 0.2)), "") << "a reduction is usable";
+  EXPECT_EQ(cures_of_precision(point), "");
+  point.metrics["moment_precision"] = 0.16;
+  EXPECT_EQ(cures_of_precision(point),
+            "most of the error is moment_precision, which no reduction cures; what may help: a larger "
+            "lookup.moment_bias (0.001 errs least of the values of its curve)");
+  point.settings["map.moments"] = "16f", point.settings["lookup.kind"] = "esm";
+  EXPECT_EQ(cures_of_precision(point),
+            "most of the error is moment_precision, which no reduction cures; what may help: map.moments = 32f");
 }
 
 // The least error lies beyond the window, so the answer stands as near to it as the margin lets it.

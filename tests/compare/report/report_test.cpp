@@ -89,16 +89,16 @@ TEST(Report, TellsEveryLaw) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
-// Only the chart of cost against error compares them, because it says which can be compared.
+// The chart of cost against error alone compares them, because it says which can be compared. What is of one point each is there.
 TEST(Report, DoesNotComparePointsOfDifferentParts) {
   Results results = sample_results();
   for (PointRecord& point : results.points) point.part = point.id < 3 ? "one" : "two";
   results.laws = {sample_law()};
   const std::string page = render_report(results, sample_picture);
-  for (const char* text : {"What to set", "id=\"bias\"", "href=\"#bias\"", "bias curve.</p>"})
+  for (const char* text : {"What to set", "id=\"sweep\"", "id=\"budget\"", "bias curve.</p>"})
     EXPECT_EQ(page.find(text), std::string::npos) << text;
   for (const char* text : {"id=\"answer\"", "id=\"points\"", "href=\"#points\"", "<th class=\"text\">Part</th>",
-                           ">two</td>", "2 parts", "id=\"cost\""})
+                           ">two</td>", "2 parts", "id=\"cost\"", "href=\"#bias\""})
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
@@ -225,7 +225,7 @@ TEST(Report, SaysWhyPointsHaveNoCurve) {
   }
   const std::string none = render_report(results, sample_picture);
   EXPECT_NE(none.find(why), std::string::npos);
-  EXPECT_NE(none.find("No bias curve was measured"), std::string::npos);
+  EXPECT_NE(none.find("No curve over a bias or a reduction was measured"), std::string::npos);
 }
 
 TEST(Report, EmbeddedDataIsTheResults) {

@@ -4,6 +4,9 @@
 #include <set>
 #include <string>
 
+#include "compare/judge/recommendation.h"
+#include "compare/judge/tradeoff.h"
+#include "compare/report/opening.h"
 #include "compare/report/report.h"
 #include "tests/compare/report/sample.h"
 #include "tests/support/sample_results.h"
@@ -22,7 +25,7 @@ TEST(Report, NamesTheAnswerOnlyWhereThereIsOne) {
   EXPECT_NE(page.find("<h2>What was found</h2>"), std::string::npos);
   EXPECT_NE(page.find("<a href=\"#answer\">Findings</a>"), std::string::npos);
   results.bounds.clear();
-  for (PointRecord& point : results.points) point.metrics["ambiguous"] = 0;
+  for (PointRecord& point : results.points) point.metrics["ambiguous"] = 0, point.curve.reset();
   page = render_report(results, sample_picture);
   EXPECT_EQ(page.find("<section id=\"answer\""), std::string::npos) << "nothing was found";
   results = sample_results();
@@ -54,8 +57,10 @@ TEST(Report, ListsTheWindowsOfTheReduction) {
   Results results = sample_results();
   EXPECT_EQ(render_report(results, sample_picture).find("<section id=\"reduction\""), std::string::npos);
   for (size_t k : {2u, 4u}) {
-    results.points[k].lookup_curve = {{"lookup.reduction", 0, 0.01, 0.002, 0, 0, 0}};
-    results.points[k].metrics.insert({{"best_reduction", 0.25}, {"best_reduction_error", 0.004}});
+    for (const double r : {0.0, 0.25, 0.5})  // what OpenGL shows errs least at 0.25, and the exact map at 0.5
+      results.points[k].lookup_curve.push_back(
+          {"lookup.reduction", r, 0.01 - 0.01 * r, 0.002, 0, 0, 0, 0, 0, 0, r == 0.25 ? 0.004 : 0.008});
+    results.points[k].metrics.insert({{"best_reduction", 0.5}, {"best_reduction_error", 0.005}});
   }
   results.points[2].metrics.insert({{"reduction_min", 0.125}, {"reduction_max", 0.375}});
   const auto section = [&] {
@@ -65,7 +70,7 @@ TEST(Report, ListsTheWindowsOfTheReduction) {
     return page.substr(from, page.find("</section>", from) - from);
   };
   const std::string without = section();
-  EXPECT_NE(without.find("<td>0.125</td><td>0.375</td><td>0.25</td>"), std::string::npos) << without;
+  EXPECT_NE(without.find("<td>0.125</td><td>0.375</td><td>0.25</td><td>0.4</td>"), std::string::npos) << without;
   EXPECT_NE(without.find("<td colspan=\"2\">none</td>"), std::string::npos) << without;
   EXPECT_EQ(without.find("placement"), std::string::npos) << without;
   results.points[2].metrics.insert(
@@ -73,6 +78,58 @@ TEST(Report, ListsTheWindowsOfTheReduction) {
   const std::string placed = section();
   EXPECT_NE(placed.find("<td>0.188</td><td>0.312</td>"), std::string::npos) << placed;
   EXPECT_NE(placed.find("<td colspan=\"2\">–</td>"), std::string::npos) << placed;
+}
+
+// A part that has a good choice says what to set; one whose windows are empty why, and what may help; one without a curve and
+// without a bound that nothing was asked of it.
+TEST(Report, SaysWhatToSetInEachPart) {
+  Results results = filtered_sample_results();
+  const char* const parts[] = {"leaks", "holds", "as it is"};
+  for (size_t k = 0; k < 3; ++k) results.points[k].part = parts[k];
+  results.points[2].lookup_curve.clear(), results.points[2].lookup_bounds.reset();
+  results.points[2].settings["lookup.reduction_span"] = "0.65";
+  for (const char* name : {"reduction_min", "reduction_max"}) results.points[2].metrics.erase(name);
+  const std::string page = render_report(results, sample_picture);
+  const size_t from = page.find("What to set in each part");
+  ASSERT_NE(from, std::string::npos);
+  const std::string table = page.substr(from, page.find("</table>", from) - from);
+  const auto says = [&](const char* text) { EXPECT_NE(table.find(text), std::string::npos) << text << "\n" << table; };
+  says("3 rows");
+  says("lookup.reduction 0.19</td><td>0.15</td><td>0.2</td>");
+  says("Without a reduction the leak is 1%");
+  says("What may help: a smaller blur or a finer map; or lookup.kind = evsm4 or msm, which leak less.");
+  says(
+      "It is held to no bound, and stands as set. It has no curve: lookup.kind = vsm compares no depths, and "
+      "lookup.reduction_span gives");
+  EXPECT_NE(page.find("<section id=\"reduction\""), std::string::npos) << "and the curves are there";
+  EXPECT_NE(page.find("held to no bound</small>"), std::string::npos) << "also where it stands on the front";
+  results.laws.push_back(sample_law());
+  EXPECT_EQ(render_report(results, sample_picture).find("What to set in each part"), std::string::npos)
+      << "the parts of laws are no choices";
+}
+
+// The first picture is of the point that the answer names; of another one it says so.
+TEST(Report, TheLivePictureIsTheAnswers) {
+  Results results = filtered_sample_results();
+  const auto picture = [](PointRecord& point) { point.images.push_back({"images/x-live.bin", ""}); };
+  const auto opened = [&] { return report::opening(results, compared_groups(results), recommend(results)).point->id; };
+  picture(results.points[0]);
+  ASSERT_EQ(recommend(results).choice.first().id, 1);
+  EXPECT_EQ(opened(), 0) << "the answer has no picture";
+  const auto read = [](const std::string&) {
+    return std::string(R"({"kind":"stack","width":1,"height":1,"answers":0,"parameter":"lookup.reduction",)"
+                       R"("values":[{"value":0}]})") +
+           "\n";
+  };
+  EXPECT_NE(render_report(results, read).find(" The answer is <a href=\"#p1\">point 1</a>, which has no pictures"),
+            std::string::npos);
+  picture(results.points[1]);
+  EXPECT_EQ(opened(), 1);
+  EXPECT_EQ(render_report(results, read).find(" The answer is <a"), std::string::npos);
+  for (size_t k = 0; k < 3; ++k) results.points[k].part = k < 2 ? "one" : "two";
+  EXPECT_EQ(opened(), 1) << "the head of a report of parts names it too";
+  results.points[1].images.clear();
+  EXPECT_EQ(opened(), 0);
 }
 
 // What all points share stands in no label of the budget, so that what differs is in it.
