@@ -185,6 +185,15 @@ std::string undivided_map(const Settings& s) {
     return "lookup.level needs a map whose height is known; set map.aspect to a number, or lookup.level = 0";
   std::vector<double> sizes = s.cascades.count > 1 ? s.cascades.resolutions : std::vector<double>();
   if (sizes.empty()) sizes = {static_cast<double>(s.map.resolution), static_cast<double>(s.map.rows())};
+  if (const int rows = s.map.rows(); sizes.size() == 2 && s.map.resolution % block == 0 && rows % block != 0) {
+    const double width = s.map.resolution;
+    return fmt::format(
+        "lookup.level = {} halves the map's height of {} texels (map.aspect = {:g}) {} times, and that is no multiple "
+        "of "
+        "{}; take map.aspect = {:.6g} or {:.6g}",
+        s.lookup.whole("level"), rows, *s.map.aspect, s.lookup.whole("level"), block,
+        width / ((rows / block + 1) * block), width / (std::max(1, rows / block) * block));
+  }
   for (const double size : sizes)
     if (const int texels = static_cast<int>(size); texels % block != 0)
       return fmt::format(

@@ -262,9 +262,10 @@ void add_lookups(AdviceRequest& request, const Experiment& experiment, const std
     if (gives(experiment, group))
       throw Error(
           ErrorKind::usage,
-          fmt::format("--lookups chooses the lookup, its blur and its bias itself, and the experiment gives a setting "
-                      "{}; leave one of them out",
-                      group));
+          fmt::format(
+              "--lookups chooses the lookup, its blur and its bias itself, and a setting {} is given; leave one of "
+              "them out",
+              std::string_view(group).ends_with('.') ? std::string(group) + "*" : group));
   if (request.conditions.front().cascades.count > 1)
     throw Error(ErrorKind::usage, "--lookups is of one map; set cascades.count = 1, or leave it out");
   if (std::find(lookups.begin(), lookups.end(), "compare") == lookups.end()) request.levels.clear();

@@ -148,7 +148,8 @@ void print_reductions(const Measurement& m) {
       fmt::print("  at every placement of the grid: no reduction\n");
   }
   if (const std::string why = why_no_usable_reduction(m.record); !why.empty())
-    fmt::print("    because {}\n    what may help: {}\n", why, cures_of_reduction(m.record));
+    fmt::print("    {} {}\n    what may help: {}\n", rounds_too_much(m.record) ? "but none is usable:" : "because", why,
+               cures_of_reduction(m.record));
 }
 
 // What another value of curve.over would do: the values of least error, and the usable ones.
@@ -206,7 +207,8 @@ void print_ladder(const Measurement& m, const char* clock) {
     if (of_one_receiver(metric) && m.record.metrics.contains(std::string(metric.name)))
       fmt::print("  {:<32}{:>11.5f}% of the light of one receiver\n", metric.name, 100 * value(metric.name.data()));
   print_reductions(m);
-  if (const std::string cures = cures_of_precision(m.record); !cures.empty()) fmt::print("  {}\n", cures);
+  if (const std::string cures = cures_of_precision(m.record); !cures.empty() && !rounds_too_much(m.record))
+    fmt::print("  {}\n", cures);
   print_curve_over(m);
   for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
     if (!m.record.metrics.contains(name)) continue;

@@ -84,7 +84,9 @@ std::optional<double> value_of_curve(const PointRecord& point, const std::string
 }
 
 // The ends of a window of the reduction: of every placement of the grid if the point has several.
+// A reduction lifts or darkens what the rounding of the moments made, and cures nothing of it.
 std::optional<Interval> window_of_reduction(const PointRecord& point) {
+  if (rounds_too_much(point)) return std::nullopt;
   const char* const ending = has_placements(point) ? "_worst" : "";
   const std::optional<double> low = quantity(point, fmt::format("reduction_min{}", ending)),
                               high = quantity(point, fmt::format("reduction_max{}", ending));
@@ -218,9 +220,17 @@ bool has_fixed_reduction(const PointRecord& point) {
   return !kind.empty() && kind != "compare" && number_of(setting_of(point, "lookup.reduction_span")).value_or(0) > 0;
 }
 
+bool rounds_too_much(const PointRecord& point) {
+  return free_setting(point) == FreeSetting::reduction &&
+         metric_of(point, "moment_precision") > point.lookup_bounds->acne_bound;
+}
+
 std::string why_no_usable_reduction(const PointRecord& point) {
   if (free_setting(point) != FreeSetting::reduction || usable_window(point)) return "";
   const auto& [dark, light] = curve_bounds(point);
+  if (rounds_too_much(point))
+    return fmt::format("the rounding of the moments (moment_precision) is {}, more than {}",
+                       percent(metric_of(point, "moment_precision")), percent(dark));
   const std::vector<LookupCurvePoint>& curve = point.lookup_curve;
   if (const double bare = curve.front().over_darkening; bare > dark)
     return fmt::format("over-darkening is {} without any reduction, more than {}", percent(bare), percent(dark));

@@ -25,8 +25,8 @@ std::string bias_of_slopes(const Settings& settings) {
     if (settings.bias[part.name] != 0) return "";
   if (find_lookup(settings.lookup.kind).spread) return "bias.tan, by what a slope rises over the blur (law 17)";
   return fmt::format(
-      "--set bias.unit=texel --set bias.tan={:.2g}, the deviation of a slope's depths in this blur (law 17)",
-      blur_deviation_texels(settings.filter));
+      "bias.unit = texel with bias.tan = {:.2g}, the deviation of a slope's depths in this blur (law 17)",
+      blur_deviation_texels(settings));
 }
 
 bool reads(const Settings& settings, std::string_view name) {
@@ -42,6 +42,15 @@ std::string values_text(const PointRecord& point, std::string_view setting) {
   return fmt::format(" ({:.4g} errs least of the values of its curve)", least_shown(curve).value);
 }
 
+std::string precision_cures(const PointRecord& point, const Settings& settings) {
+  std::vector<std::string> cures;
+  for (const char* name : {"lookup.v_min", "lookup.floor", "lookup.moment_bias"})
+    if (reads(settings, name)) cures.push_back(fmt::format("a larger {}{}", name, values_text(point, name)));
+  if (settings.map.moments != MomentFormat::f32) cures.emplace_back("map.moments = 32f");
+  if (cures.empty()) cures.emplace_back("near and far closer together");
+  return fmt::format("{}", fmt::join(cures, "; or "));
+}
+
 }  // namespace
 
 double blur_deviation_texels(std::span<const double> weights) {
@@ -52,13 +61,16 @@ double blur_deviation_texels(std::span<const double> weights) {
   return std::sqrt(variance);
 }
 
-double blur_deviation_texels(const FilterSettings& blur) {
-  return blur_deviation_texels(find_filter(blur.kind).blur(blur));
+double blur_deviation_texels(const Settings& settings) {
+  const double block = texel_block(settings);  // a texel of the level is a box of so many
+  return std::hypot(block * blur_deviation_texels(find_filter(settings.filter.kind).blur(settings.filter)),
+                    std::sqrt((block * block - 1) / 12));
 }
 
 std::string cures_of_reduction(const PointRecord& point) {
   if (why_no_usable_reduction(point).empty()) return "";
   const Settings settings = settings_of(point);
+  if (rounds_too_much(point)) return precision_cures(point, settings);
   const std::string& kind = settings.lookup.kind;
   const bool darkens = point.lookup_curve.front().over_darkening > point.lookup_bounds->acne_bound;
   std::vector<std::string> cures;
@@ -74,14 +86,10 @@ std::string cures_of_reduction(const PointRecord& point) {
 
 std::string cures_of_precision(const PointRecord& point) {
   if (!(metric_of(point, "moment_precision") > metric_of(point, "error") / 2)) return "";
-  const Settings settings = settings_of(point);
-  std::vector<std::string> cures;
-  for (const char* name : {"lookup.v_min", "lookup.floor", "lookup.moment_bias"})
-    if (reads(settings, name)) cures.push_back(fmt::format("a larger {}{}", name, values_text(point, name)));
-  if (settings.map.moments != MomentFormat::f32) cures.emplace_back("map.moments = 32f");
-  if (cures.empty()) cures.emplace_back("near and far closer together");
-  return fmt::format("most of the error is moment_precision, which no reduction cures; what may help: {}",
-                     fmt::join(cures, "; or "));
+  return fmt::format(
+      "most of the error is the rounding of the moments (moment_precision), which no reduction cures; what may help: "
+      "{}",
+      precision_cures(point, settings_of(point)));
 }
 
 }  // namespace noonmark

@@ -18,8 +18,9 @@ std::string cures_of_reduction(const PointRecord& point);
 std::string cures_of_precision(const PointRecord& point);
 
 // The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope
-// (law 17). Of the weights of a blur, or of the blur itself. In double.
+// (law 17). Of the weights of a blur; or of the blur of these settings, whose lookup reads moments, in texels of the map also
+// where a level of it is blurred (lookup.level). In double.
 double blur_deviation_texels(std::span<const double> weights);
-double blur_deviation_texels(const FilterSettings& blur);
+double blur_deviation_texels(const Settings& settings);
 
 }  // namespace noonmark

@@ -89,7 +89,11 @@ struct PartRows {
     const bool held_to_none = one.window == Window::no_curve && !one.good;
     return tr(css(held_to_none ? "" : "broken"), row_head(css("text"), head),
               td(css("text"), Attribute("colspan", 4),
-                 prose("{}{}: {}", choices > 1 ? "None is good enough. Of least error " : "", link(one), why_not(one))),
+                 prose("{}{}: {}",
+                       choices == 1   ? ""
+                       : held_to_none ? "Nothing says what is good enough. Of least error "
+                                      : "None is good enough. Of least error ",
+                       link(one), why_not(one))),
               td(cell(cost_of(one, results.info.cost).middle, find_metric(results.info.cost).unit)),
               td(error_text(one)));
   }

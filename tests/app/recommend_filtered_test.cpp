@@ -45,9 +45,22 @@ PointRecord shown(Workbench& bench, Settings settings, double reduction) {
 
 // A box of n texels has the variance (n^2 - 1) / 12, and the fetch adds at most 1/4.
 TEST(RecommendFiltered, TheDeviationIsThatOfTheBlur) {
-  EXPECT_EQ(blur_deviation_texels({"none", {}}), 0.5);
-  for (const int n : {3, 5, 7})
-    EXPECT_NEAR(blur_deviation_texels({"box", {{"size", n}}}), std::sqrt((n * n - 1) / 12.0 + 0.25), 1e-12);
+  Settings settings;
+  settings.lookup.kind = "vsm";
+  settings.filter.kind = "none";
+  EXPECT_EQ(blur_deviation_texels(settings), 0.5);
+  settings.filter.kind = "box";
+  for (const int n : {3, 5, 7}) {
+    settings.filter["size"] = n;
+    const double blurred = (n * n - 1) / 12.0 + 0.25;
+    for (const int level : {0, 1, 3}) {  // whose texels are boxes themselves
+      settings.lookup["level"] = level;
+      const double block = 1 << level;
+      EXPECT_NEAR(blur_deviation_texels(settings), std::sqrt(block * block * blurred + (block * block - 1) / 12.0),
+                  1e-12);
+    }
+    EXPECT_NEAR(blur_deviation_texels(find_filter("box").blur(settings.filter)), std::sqrt(blurred), 1e-12);
+  }
 }
 
 TEST(RecommendFiltered, TriesEachLookupWithWhatItOffers) {
@@ -69,8 +82,8 @@ TEST(RecommendFiltered, TriesEachLookupWithWhatItOffers) {
       EXPECT_EQ(settings.lookup["reduction"], level.lookup == "three_vsm" ? 0.3 : 0) << level.name;
       if (settings.bias["tan"] == 0) continue;
       EXPECT_EQ(settings.bias.unit, BiasUnit::texel);
-      EXPECT_GE(settings.bias["tan"], blur_deviation_texels(blur));
-      EXPECT_LE(settings.bias["tan"], blur_deviation_texels(blur) + 0.01);
+      EXPECT_GE(settings.bias["tan"], blur_deviation_texels(settings));
+      EXPECT_LE(settings.bias["tan"], blur_deviation_texels(settings) + 0.01);
     }
 }
 

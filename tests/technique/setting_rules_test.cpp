@@ -82,6 +82,37 @@ TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
   }
 }
 
+// A level of a map of moments has whole texels, and says which sizes have.
+TEST(Validate, OfALevelNeedsAMapOfWholeBlocks) {
+  const auto said = [](std::initializer_list<std::pair<const char*, const char*>> more) -> std::string {
+    Settings settings;
+    settings.lookup.kind = "vsm", settings.lookup["level"] = 2;
+    for (const auto& [name, value] : more) find_setting(name).set(settings, value);
+    try {
+      validate(settings);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said({{"map.resolution", "252"}}), "");
+  EXPECT_NE(said({{"map.resolution", "250"}}).find("take 248 or 252 texels"), std::string::npos);
+  EXPECT_EQ(said({{"map.resolution", "250"}, {"lookup.level", "0"}}), "");
+  EXPECT_EQ(said({{"map.resolution", "250"}, {"lookup.kind", "compare"}}), "");
+  EXPECT_NE(said({{"map.aspect", "auto"}}).find("map.aspect"), std::string::npos);
+  const std::string height = said({{"map.resolution", "512"}, {"map.aspect", "1.37"}});
+  EXPECT_NE(height.find("height of 374 texels"), std::string::npos) << height;
+  const size_t at = height.find("map.aspect = ", height.find("take"));
+  ASSERT_NE(at, std::string::npos) << height;
+  EXPECT_EQ(said({{"map.resolution", "512"},
+                  {"map.aspect", height.substr(at + 13, height.find(' ', at + 13) - at - 13).c_str()}}),
+            "")
+      << height;
+  EXPECT_NE(said({{"cascades.count", "2"}, {"map.fit", "sphere"}, {"cascades.resolutions", "256,130"}})
+                .find("take 128 or 132"),
+            std::string::npos);
+}
+
 TEST(Validate, OfABiasNeedsItsFloorBelowItsCap) {
   EXPECT_THROW(validate(with({{"bias.tan_floor", "0.02"}, {"bias.tan_cap", "0.01"}})), Error);
   EXPECT_NO_THROW(validate(with({{"bias.tan_floor", "0.01"}, {"bias.tan_cap", "0.01"}})));

@@ -89,8 +89,8 @@ std::vector<std::string> unexpressed_moments(const AdvicePlace& place) {
   for (const auto& read : find_lookup(asked.kind).reads) {
     const std::string name(read.parameter->name());
     if (asked[name] != as[name])
-      said.push_back(fmt::format("{} = {}: the engine always computes with {}.", read.parameter->setting,
-                                 number(asked[name]), number(as[name])));
+      said.push_back(fmt::format("{} = {}: the engine computes with {}.", read.parameter->setting, number(asked[name]),
+                                 number(as[name])));
   }
   if (!place.filter.same)
     said.push_back(

@@ -91,6 +91,20 @@ TEST(FreeSetting, SaysWhatBreaksAllReductions) {
   EXPECT_EQ(why_no_usable_reduction(filtered_point(0, 1, 0.1, 0.2)), "");
 }
 
+// The window is that of the exact map. What is shown is not good enough where the moments round by more than the bound.
+TEST(FreeSetting, IsNotUsableWhereTheMomentsRoundTooMuch) {
+  PointRecord point = filtered_point(0, 1, 0.1, 0.2);
+  point.metrics["moment_precision"] = 0.03;
+  EXPECT_TRUE(usable_window(point));
+  EXPECT_FALSE(rounds_too_much(point));
+  point.metrics["moment_precision"] = 0.031;
+  EXPECT_TRUE(rounds_too_much(point));
+  EXPECT_TRUE(lacks_window(point));
+  EXPECT_EQ(why_no_usable_reduction(point), "the rounding of the moments (moment_precision) is 3.1%, more than 3%");
+  EXPECT_NE(cures_of_reduction(point).find("lookup.v_min"), std::string::npos);
+  EXPECT_EQ(cures_of_reduction(point).find("smaller blur"), std::string::npos);
+}
+
 // What darkens without a reduction needs a bias or a larger moment bias; what leaks another lookup.
 TEST(FreeSetting, SaysWhatMayHelp) {
   PointRecord point = filtered_point(0, 1, {}, {});
@@ -99,7 +113,7 @@ TEST(FreeSetting, SaysWhatMayHelp) {
   for (LookupCurvePoint& at : point.lookup_curve) at.over_darkening = 0.04;
   point.settings["lookup.kind"] = "msm";
   const std::string bias =
-      "--set bias.unit=texel --set bias.tan=2.1, the deviation of a slope's depths in this blur (law 17); or ";
+      "bias.unit = texel with bias.tan = 2.1, the deviation of a slope's depths in this blur (law 17); or ";
   EXPECT_EQ(
       cures_of_reduction(point),
       bias +
@@ -119,11 +133,13 @@ TEST(FreeSetting, SaysWhatMayHelp) {
   EXPECT_EQ(cures_of_precision(point), "");
   point.metrics["moment_precision"] = 0.16;
   EXPECT_EQ(cures_of_precision(point),
-            "most of the error is moment_precision, which no reduction cures; what may help: a larger "
+            "most of the error is the rounding of the moments (moment_precision), which no reduction cures; what may "
+            "help: a larger "
             "lookup.moment_bias (0.001 errs least of the values of its curve)");
   point.settings["map.moments"] = "16f", point.settings["lookup.kind"] = "esm";
   EXPECT_EQ(cures_of_precision(point),
-            "most of the error is moment_precision, which no reduction cures; what may help: map.moments = 32f");
+            "most of the error is the rounding of the moments (moment_precision), which no reduction cures; what may "
+            "help: map.moments = 32f");
 }
 
 // The least error lies beyond the window, so the answer stands as near to it as the margin lets it.

@@ -111,7 +111,7 @@ TEST(Techniques, EachNumberOfALookupIsTunedOrBlurs) {
   Results results = grid({64}, {"none"});
   results.points[0].settings["lookup.kind"] = "vsm";
   std::vector<std::string> sorted = tuned_settings(compared_groups(results).at(0).choices.at(0).choice);
-  sorted.insert(sorted.end(), {"lookup.kind", "lookup.moments", "lookup.radius", "lookup.samples"});
+  sorted.insert(sorted.end(), {"lookup.kind", "lookup.moments", "lookup.level", "lookup.radius", "lookup.samples"});
   for (const Setting& row : settings_table()) {
     if (!row.name.starts_with("lookup.")) continue;
     EXPECT_EQ(std::count(sorted.begin(), sorted.end(), row.name), 1) << row.name;
