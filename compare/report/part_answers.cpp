@@ -38,7 +38,7 @@ struct PartRows {
   }
 
   std::string error_text(const ComparedChoice& one) const {
-    return cell(value_of(one, results.info.accuracy).worst, find_metric(results.info.accuracy).unit);
+    return cell(value_of(one, shown.error_first).worst, find_metric(shown.error_first).unit);
   }
 
   Markup good_row(const Markup& head, const ComparedChoice& one) const {
@@ -106,7 +106,7 @@ struct PartRows {
       for (const ComparedChoice* one : choices)
         if (&one->choice.first() == &best->choice.first()) return good_row(head, *one);
     const auto error_of = [&](const ComparedChoice* one) {
-      const double error = value_of(*one, results.info.accuracy).worst;
+      const double error = value_of(*one, shown.error_first).worst;
       return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
     };
     return bad_row(
@@ -150,7 +150,7 @@ Markup part_answers(const Results& results, const ShownPoints& shown) {
   const Markup head = th(css("text"), "Part") + th(css("text"), "Cheapest that is good enough") +
                       th(css("text"), "At") + heads({"Usable from", "to"}) +
                       th(with_small(metric_label(results.info.cost), unit(results.info.cost))) +
-                      th(with_small(error_label(results.info.accuracy), unit(results.info.accuracy)));
+                      th(with_small(error_label(shown.error_first), unit(shown.error_first)));
   return element("h3", "What to set in each part") + "\n" +
          folded("", count <= open_rows, prose("{} rows", count),
                 div(css("scroll"), table("numbers parts", head, body)) + "\n");
