@@ -253,7 +253,12 @@ TEST(MomentLevel, BlursMoreAndCostsLess) {
 TEST(MomentLevel, IsMeasuredAnewAfterAnotherOne) {
   Workbench used(gl::DebugMode::fatal);
   for (const char* level : {"0", "2", "1"}) {
-    const Settings s = with_moments({{"lookup.level", level}, {"map.snap", "true"}});
+    // So that another level is also another map.
+    const Settings s = with_moments({{"lookup.level", level},
+                                     {"map.snap", "true"},
+                                     {"map.fit", "sphere"},
+                                     {"map.reach_m", "25"},
+                                     {"map.extent_m", "auto"}});
     Workbench fresh(gl::DebugMode::fatal);
     const std::map<std::string, double> again = of_moments(used, s).record.metrics;
     for (const auto& [name, value] : of_moments(fresh, s).record.metrics)
