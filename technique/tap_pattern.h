@@ -36,11 +36,11 @@ struct TapPattern {
   // (lookup.level). Each texel of the block is a tap; its exact place keeps its distance to P, so it is up to half a block
   // from the texel's centre. 1: the fetch reads the map's own texels.
   int block = 1;
-  // What the fetch reads is a sum that a blur stored, so that near the edge of the map its texels are those around the
-  // wrapped place, not the wrapped texels of the taps.
+  // True if a blur was stored before the fetch. At the edge of the map the blur of an edge texel is read then: its taps lie
+  // around that texel, and not around P.
   bool blurred = false;
-  // The weights of bilinear taps come from one of these two. `kernel` holds the weights of fetches_along() fetches
-  // along one axis (sum 1); each fetch blends 2 x 2 texels (of the mip level) by the position of P between their centres.
+  // The weights of bilinear taps come from `kernel` or from `axis_weight`. `kernel` has one weight for each of the
+  // fetches_along() fetches along an axis (sum 1); each fetch blends 2 x 2 texels (of the mip level) by the position of P between their centres.
   // If `kernel` is empty, axis_weight gives the weight of each texel along one axis (sum 1), and s is the fraction.
   std::vector<double> kernel;
   std::vector<double> kernel_v = {};  // along v if they differ, as many; empty: those of `kernel`

@@ -41,7 +41,7 @@ std::string searched_filtered_text();
 // A reduction as a user types it: the number of fewest decimals that lies in [low, high] and differs from `value` by at most
 // 0.0025 or 2.5%. `value` lies in [low, high]; it is returned itself if nothing shorter does.
 double typed_reduction(double value, double low, double high);
-// "0 to 0.115": the ends of the window, rounded into it to three decimals, or to more where it is narrower.
+// "0 to 0.115": the ends of the window with three decimals, or more in a narrow window. Both are rounded so that they lie inside it.
 std::string window_text(const ReductionChoice& choice);
 
 // The settings at n x n places of the grid of texels, the first of them `from` of a step off, each a point that OpenGL renders.

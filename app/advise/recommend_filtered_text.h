@@ -18,8 +18,8 @@ std::string filtered_beside_compared(const CurveOptions& bounds);
 // "0.01% leak, 0% Peter Panning, ..."
 std::string shares_text(const FilteredShares& shares);
 
-// A search allows less than the bounds, so a share above what it allows can be within the bound itself: what it allows, as a
-// sentence with a blank before it. Empty where that does not matter.
+// A search allows less than the bounds. So it can refuse settings that keep them. The sentence says what it allows; it begins with
+// a blank. Empty if the settings were not refused for that.
 std::string allowed_text(const Tried& tried);
 
 // The bounds that the settings of this point would keep, as a sentence.

@@ -39,7 +39,7 @@ CLI::Validator above_zero();
 // One of these words; a wrong one suggests the nearest. joined(): the words as the option's kind, "one|other".
 CLI::Validator one_of(std::vector<std::string> words);
 std::string joined(const std::vector<std::string>& words);
-// A list of these words with commas between them, and blanks around the commas or not; and the words of several lists.
+// list_of: checks a list of these words, such as "vsm,msm" or "vsm, msm". words_of: the words of such lists, in their order.
 CLI::Validator list_of(std::vector<std::string> words);
 std::vector<std::string> words_of(const std::vector<std::string>& lists);
 

@@ -28,7 +28,7 @@ std::optional<ThreeAnswers> three_answers(std::span<const CostAndError> settings
   if (!least) return std::nullopt;
   ThreeAnswers answers;
   answers.least = *least;
-  // Never below the least cost, also where a cost is negative: then a multiple of it is smaller.
+  // At least the least cost. A multiple of a negative cost would be less.
   const double cost = settings[*least].cost;
   answers.budget = budget.value_or(std::max(cost, budget_of_least * cost));
   const auto within = [&](const CostAndError& one) { return one.cost <= answers.budget; };

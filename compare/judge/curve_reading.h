@@ -77,8 +77,8 @@ inline bool lacks_window(const PointRecord& point) { return has_curve(point) && 
 // that says what another value would give.
 bool has_fixed_reduction(const PointRecord& point);
 
-// Of a point whose reduction is free: whether the rounding of the stored moments alone errs by more than the bound on acne. No
-// reduction is usable then, whatever the metrics reduction_min and reduction_max say of the exact map.
+// Whether the rounding of the stored moments alone errs by more than the bound on acne (points whose reduction is free). Then no
+// reduction is usable. The metrics reduction_min and reduction_max do not know that, because they are of the exact map.
 bool rounds_too_much(const PointRecord& point);
 
 // Of a point whose reduction is free and that lacks a window: what breaks it, as the end of a sentence: "over-darkening is

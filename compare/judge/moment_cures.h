@@ -14,7 +14,8 @@ namespace noonmark {
 // lookup.moment_bias; or a smaller blur or a finer map". Otherwise empty.
 std::string cures_of_reduction(const PointRecord& point);
 
-// Of a point more than half of whose error is the rounding of its moments: so, and what may help, as a clause. Otherwise empty.
+// If more than half of the point's error is the rounding of its moments: a clause that says so and names what may help. Otherwise
+// empty.
 std::string cures_of_precision(const PointRecord& point);
 
 // The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope

@@ -30,8 +30,8 @@ namespace noonmark {
 // The pictures of a stack, at most; a pixel names its picture in a byte.
 inline constexpr size_t most_stacked = 13;
 
-// The part of the bias that a stack varies. Null: it varies lookup.reduction (has_reduction_curve). Otherwise the part of the bias
-// curve; without a curve, the first part that is not 0.
+// The part of the bias that a stack varies. Null if it varies lookup.reduction instead (has_reduction_curve). It is the part that
+// the bias curve varies. If there is no such curve, it is the first part that is not 0.
 const BiasPart* stacked_part(const Settings& settings);
 
 // The values of a stack, ascending: 0, the value as set, the marks, and, as far as most_stacked has room, values a factor

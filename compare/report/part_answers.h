@@ -13,9 +13,10 @@ bool has_parts(const Results& results);
 // and of an unfinished sweep.
 const ComparedChoice* answer_of_parts(const Results& results, const std::vector<ComparedGroup>& groups);
 
-// A table with a row for each part, and for each group in it that can be compared: the cheapest choice that is good enough, its
-// free setting with the usable window, its cost and its error; or why none is, and what may help. Empty without parts, in a
-// report of laws, of frames or of an unfinished sweep, and if no point has a curve.
+// The table "What to set in each part". It has a row for each part, and for each group of choices in a part that can be compared.
+// A row names the cheapest choice that is good enough, with its free setting, usable window, cost and error. If no choice is good
+// enough, the row says why and what may help.
+// Empty if the report has no parts or no curve, or if it is one of laws, of frames or of an unfinished sweep.
 Markup part_answers(const Results& results, const ShownPoints& shown);
 
 }  // namespace noonmark::report

@@ -15,8 +15,8 @@ int rotations(const FilterSettings& settings, int taps);
 std::vector<double> equal_weights(int size);
 std::vector<double> gaussian_weights(int size, double sigma_texels);
 
-// Linear fetches with a spacing of one texel, of these weights along each axis; of a mip level whose texels are the means of
-// block x block texels of the map.
+// A square of linear fetches with these weights along each axis. They stand one texel apart. The texels are those of a mip
+// level: each is the mean of block x block texels of the map. With block 1 they are the map's own.
 TapPattern fetches_of(std::vector<double> kernel, int block = 1);
 
 // Taps that a sampler blends with weights along each axis, over size + 1 texels. `weight` is the function <name>_weight

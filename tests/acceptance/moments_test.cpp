@@ -228,8 +228,7 @@ TEST(MomentLadder, IsThatOfTheBlurredMapAlsoAcrossItsBorder) {
   }
 }
 
-// A level of one texel's width is nearly a box of the map; both read the same scene. And a level of a finer map is what a
-// blur of that map is at the texels of the level, so more levels blur more.
+// Each level halves the map that is blurred.
 TEST(MomentLevel, BlursMoreAndCostsLess) {
   Workbench bench(gl::DebugMode::fatal);
   std::map<int, double> filter;

@@ -60,8 +60,9 @@ EngineFilter filter(const AdvicePlace& place) {
 // (ShadersInclude/shadowMapVertexMetric), which is the same as a receiver's depth less the bias. There is no light-bleed
 // reduction (shadowsFragmentFunctions). The blurred map has the map's texels divided by blurScale (shadowGenerator.ts), 2 by default.
 // The blur's first pass fetches the map linearly at the centres of the blurred map's texels: with blurScale = 2 the mean of 2 x 2,
-// which is lookup.level = 1; a fetch with blurScale = 4 still has only four texels, which is no mip level. The box has blurBoxOffset texels on either side (depthBoxBlur). The Gaussian of blurKernel n = 5, 9, 13 ... has a
-// standard deviation of a third of its half width, (n - 1) / 6 texels (thinBlurPostProcess.ts).
+// which is lookup.level = 1. With blurScale = 4 a fetch still reads 2 x 2 texels, and that is no mip level.
+// The box has blurBoxOffset texels on either side (depthBoxBlur). The Gaussian of blurKernel n = 5, 9, 13 ... has a standard
+// deviation of a third of its half width, (n - 1) / 6 texels (thinBlurPostProcess.ts).
 double kernel_sigma(int size) { return (size - 1) / 6.0; }
 
 int nearest_kernel(int size) { return std::max(5, 4 * static_cast<int>(std::lround((size - 1) / 4.0)) + 1); }
