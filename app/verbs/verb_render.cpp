@@ -148,8 +148,11 @@ void print_reductions(const Measurement& m) {
       fmt::print("  at every placement of the grid: no reduction\n");
   }
   if (const std::string why = why_no_usable_reduction(m.record); !why.empty())
-    fmt::print("    {} {}\n    what may help: {}\n", rounds_too_much(m.record) ? "but none is usable:" : "because", why,
-               cures_of_reduction(m.record));
+    fmt::print("    {} {}\n    what may help: {}\n",
+               !rounds_too_much(m.record)          ? "because"
+               : metrics.contains("reduction_min") ? "but none is usable:"
+                                                   : "and",
+               why, cures_of_reduction(m.record));
 }
 
 // What another value of curve.over would do: the values of least error, and the usable ones.

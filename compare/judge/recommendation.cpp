@@ -68,12 +68,6 @@ bool meets_all(const Demands& demands, std::optional<double> bias) {
   });
 }
 
-bool has_criterion(const Choice& choice, const Results& results) {
-  const Demands demands = demands_on(choice, results.bounds, results.info);
-  return std::any_of(demands.begin(), demands.end(),
-                     [](const auto& of_point) { return has_curve(*of_point.first) || !of_point.second.empty(); });
-}
-
 // better(a, b): whether a is preferred to b. Among equals the first is kept.
 template <class Better>
 const Recommendation* best_by(const std::vector<Recommendation>& good, const Better& better) {
@@ -222,6 +216,12 @@ bool keeps_bounds_of_others(const Choice& choice, const Results& results) {
       return is_asked_of_others(bound, *point, results.bounds, results.info);
     });
   });
+}
+
+bool has_criterion(const Choice& choice, const Results& results) {
+  const Demands demands = demands_on(choice, results.bounds, results.info);
+  return std::any_of(demands.begin(), demands.end(),
+                     [](const auto& of_point) { return has_curve(*of_point.first) || !of_point.second.empty(); });
 }
 
 std::optional<Recommendation> good_choice(const Choice& choice, const Results& results) {

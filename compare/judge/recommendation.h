@@ -82,6 +82,8 @@ std::vector<double> curve_biases(const Choice& choice, double low, double high);
 // another. Bounds on values of the curve are checked at the bias that would be set (set_bias, otherwise choose_bias), other
 // bounds as rendered. A value that is not finite, also a cost or an error, is never good enough.
 std::optional<Recommendation> good_choice(const Choice& choice, const Results& results);
+// Whether a bound or a curve says if the choice is good enough.
+bool has_criterion(const Choice& choice, const Results& results);
 
 // Whether the choice was judged by a bound that the experiment asks of other choices alone (good_choice).
 bool keeps_bounds_of_others(const Choice& choice, const Results& results);

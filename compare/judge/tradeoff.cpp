@@ -53,6 +53,7 @@ std::optional<size_t> place_of(const Recommendation* found, const std::vector<Co
 ComparedChoice at_best_bias(const Choice& choice, const Results& results) {
   ComparedChoice one;
   one.choice = choice, one.usable = joined_window(choice), one.good = good_choice(choice, results);
+  one.judged = has_criterion(choice, results);
   if (!has_curves(choice)) return one;
   one.window = one.usable ? Window::usable : Window::empty;
   one.rendered_in_window = one.usable && was_rendered_in_window(choice);

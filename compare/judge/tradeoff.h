@@ -29,6 +29,7 @@ struct ComparedChoice {
   std::optional<Interval> usable;      // the joined window
   bool rendered_in_window = false;     // every point was rendered with a bias of its own window
   std::optional<Recommendation> good;  // the choice is good enough
+  bool judged = true;                  // has_criterion()
   // Where its numbers are read at its bias: as rendered if that is the bias that was set (BiasChoice::as_set).
   std::optional<double> read_at() const { return good && good->bias ? good->bias->read_at() : bias; }
 };

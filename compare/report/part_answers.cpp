@@ -65,12 +65,10 @@ struct PartRows {
   // Why the choice is not good enough, and what may help: sentences.
   std::string why_not(const ComparedChoice& one) const {
     const PointRecord& point = failing(one);
-    const bool bounded = std::any_of(results.bounds.begin(), results.bounds.end(),
-                                     [&](const BoundResult& bound) { return bound.part == point.part; });
     if (one.window == Window::usable) return "No value in its usable window meets every bound.";
     if (one.window == Window::no_curve) {
       const std::string why = why_no_curve(point);
-      return fmt::format("{}{}", bounded ? "It breaks a bound." : "It is held to no bound, and stands as set.",
+      return fmt::format("{}{}", one.judged ? "It breaks a bound." : "It is held to no bound, and stands as set.",
                          why.empty() ? "" : fmt::format(" It has no curve: {}.", why));
     }
     if (free_setting(point) == FreeSetting::bias) {
@@ -86,13 +84,12 @@ struct PartRows {
   }
 
   Markup bad_row(const Markup& head, const ComparedChoice& one, size_t choices) const {
-    const bool held_to_none = one.window == Window::no_curve && !one.good;
-    return tr(css(held_to_none ? "" : "broken"), row_head(css("text"), head),
+    return tr(css(one.judged ? "broken" : ""), row_head(css("text"), head),
               td(css("text"), Attribute("colspan", 4),
                  prose("{}{}: {}",
-                       choices == 1   ? ""
-                       : held_to_none ? "Nothing says what is good enough. Of least error "
-                                      : "None is good enough. Of least error ",
+                       choices == 1 ? ""
+                       : one.judged ? "None is good enough. Of least error "
+                                    : "Nothing says what is good enough. Of least error ",
                        link(one), why_not(one))),
               td(cell(cost_of(one, results.info.cost).middle, find_metric(results.info.cost).unit)),
               td(error_text(one)));

@@ -120,10 +120,15 @@ struct Axes {
 };
 
 json entry_data(const ComparedChoice& one, const Axes& axes, const ChoiceNames& names) {
-  json out{{"name", names.of(one.choice)},           {"name_at_bias", names.of(one.choice, AtBias::best)},
-           {"conditions", one.choice.points.size()}, {"window", text_of(one.window)},
-           {"good", one.good.has_value()},           {"bias", bias_data(one)},
-           {"cause", dominating_cause(one)},         {"set_cause", dominating_cause(one, AtBias::as_set)}};
+  json out{{"name", names.of(one.choice)},
+           {"name_at_bias", names.of(one.choice, AtBias::best)},
+           {"conditions", one.choice.points.size()},
+           {"window", text_of(one.window)},
+           {"good", one.good.has_value()},
+           {"judged", one.judged},
+           {"bias", bias_data(one)},
+           {"cause", dominating_cause(one)},
+           {"set_cause", dominating_cause(one, AtBias::as_set)}};
   for (const std::string& cost : axes.costs) {
     const Joined value = value_of(one, cost);
     json& numbers = out["costs"][cost] = {or_null(value.worst), or_null(value.mean)};

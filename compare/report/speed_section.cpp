@@ -26,8 +26,6 @@ using Window = ComparedChoice::Window;
 
 constexpr size_t most_tables = 8;  // one for each group; a sweep of many scenes has many
 
-// A choice that no window and no bound can deny, as it stands.
-bool is_held_to_nothing(const ComparedChoice& one) { return one.window == Window::no_curve && !one.good; }
 constexpr const char* held_to_nothing = "held to no bound";
 
 // What the section is about: one cost and one error, and how choices are named and linked.
@@ -51,7 +49,7 @@ struct Plane {
   // "filter box (10.7 MB, 0.2 %)"
   Markup with_numbers(const ComparedChoice& one, AtBias at) const {
     return prose("{} ({}, {}{})", bold(link(one, at)), cost_text(one), error_text(one, at),
-                 is_held_to_nothing(one) ? std::string(", ") + held_to_nothing : "");
+                 !one.judged ? std::string(", ") + held_to_nothing : "");
   }
 };
 
@@ -76,7 +74,9 @@ std::string windows_text(const ComparedGroup& group) {
   if (none)
     out += fmt::format("; {} ha{} no such curve and stand{} here as rendered", none, none == 1 ? "s" : "ve",
                        none == 1 ? "s" : "");
-  if (const auto free = std::count_if(group.choices.begin(), group.choices.end(), is_held_to_nothing); free > 0)
+  if (const auto free =
+          std::count_if(group.choices.begin(), group.choices.end(), [](const auto& one) { return !one.judged; });
+      free > 0)
     out += fmt::format(", {}{}", static_cast<size_t>(free) == none ? "" : fmt::format("{} of them ", free),
                        held_to_nothing);
   return out + ".";
@@ -177,7 +177,7 @@ std::string answer_names(size_t choice, const std::optional<ThreeAnswers>& found
 Markup front_row(const ComparedChoice& one, const Plane& plane, const std::string& answers, AtBias at) {
   const std::string cause = dominating_cause(one, at);
   const std::string_view unit = find_metric(plane.error).unit;
-  const std::string held = is_held_to_nothing(one) ? held_to_nothing : "",
+  const std::string held = !one.judged ? held_to_nothing : "",
                     more = answers + (answers.empty() || held.empty() ? "" : "; ") + held;
   return tr(css(answers.empty() ? "" : "recommended"), row_head(css("text"), with_small(plane.link(one, at), more)),
             td(cost_cell(one, plane.cost)), td(cell(value_of(one, plane.error, at).worst, unit)),

@@ -37,10 +37,6 @@ function causeOf(entry) {
 function wordOf(entry) {
   return (kit.byId[entry.id].at || {word: data.free}).word;
 }
-// Whether neither a window nor a bound can deny the choice, as it stands.
-function isFree(entry) {
-  return entry.window === 'no_curve' && !entry.good;
-}
 function windowText(entry) {
   return entry.window === 'empty' ? 'none: no ' + wordOf(entry) + ' is good enough' :
       entry.window === 'no_curve' ? 'no curve over a bias or a reduction' :
@@ -87,7 +83,7 @@ function rowsOf(entries) {
           v: of.v[0],
           ok: kit.finite(cost[0]) && kit.finite(of.v[0]),
           counts: of.counts,
-          held: !isFree(entry),
+          held: entry.judged,
           span: of.span && kit.finite(of.span[0]) && kit.finite(of.span[1]) ? of.span : null,
           // Blur by design is hollow, so that it does not depend on the grey alone.
           fill: causeOf(entry) === 'filter' ? 'var(--card)' :
@@ -149,7 +145,7 @@ function tip(event, row) {
     rows.push(['this error', e.window === 'no_curve' ? 'as rendered' : 'with the ' + wordOf(e) + ' as rendered']);
   var cause = causeOf(e);
   if (cause) rows.push(['largest cause', kit.causeLabel[cause] || cause, cause]);
-  rows.push(['good enough', e.good ? 'yes' : isFree(e) ? 'not known: held to no bound' : 'no']);
+  rows.push(['good enough', e.good ? 'yes' : e.judged ? 'no' : 'not known: held to no bound']);
   if (many) rows.push(['conditions', String(e.conditions)]);
   if (row.answer) rows.push(['answer', row.answer]);
   if (row.others.length)
@@ -447,7 +443,9 @@ function legend() {
   self.legend.append(kit.make('span', {class: 'title'}, 'Marks'));
   line('stroke="var(--accent)" stroke-width="1.6" stroke-dasharray="2 3"', 'Pareto front');
   symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable ' + data.free);
-  if (g.entries.some(isFree))
+  if (g.entries.some(function(entry) {
+        return !entry.judged;
+      }))
     symbol(
         '<circle cx="13" cy="6" r="5" fill="none" stroke="var(--ink)" stroke-width="1.6" stroke-dasharray="2 2"/>',
         'as set, held to no bound');

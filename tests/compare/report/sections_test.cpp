@@ -103,6 +103,19 @@ TEST(Report, SaysWhatToSetInEachPart) {
       "lookup.reduction_span gives");
   EXPECT_NE(page.find("<section id=\"reduction\""), std::string::npos) << "and the curves are there";
   EXPECT_NE(page.find("held to no bound</small>"), std::string::npos) << "also where it stands on the front";
+  // What breaks a bound is not held to none.
+  results.points[2].metrics["error"] = 0.5;
+  BoundResult bound;
+  bound.metric = "error", bound.part = parts[2], bound.max = 0.1;
+  bound.found = 0.5, bound.point = results.points[2].id, bound.points = 1;
+  results.bounds.push_back(bound);
+  const std::string bounded = render_report(results, sample_picture);
+  EXPECT_NE(bounded.find("It breaks a bound. It has no curve"), std::string::npos);
+  for (const char* unjudged : {"It is held to no bound", "held to no bound</small>", "\"judged\":false"}) {
+    EXPECT_NE(page.find(unjudged), std::string::npos) << unjudged;
+    EXPECT_EQ(bounded.find(unjudged), std::string::npos) << unjudged;
+  }
+  results.bounds.clear();
   results.laws.push_back(sample_law());
   EXPECT_EQ(render_report(results, sample_picture).find("What to set in each part"), std::string::npos)
       << "the parts of laws are no choices";
