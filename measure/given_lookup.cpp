@@ -90,11 +90,15 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   return made;
 }
 
-Image<float> GivenLookup::visibility(const ReceiverImage& receivers, glm::dvec3 eye_m, const Technique& technique) {
+Image<float> GivenLookup::visibility(const ReceiverImage& receivers, glm::dvec3 eye_m,
+                                     std::span<const Technique> techniques) {
   gl::Renderer& renderer = impl_->renderer;
   renderer.load_receivers(receivers, eye_m);
-  const MapStage map = impl_->stages.draw_map(renderer, impl_->scene, technique);
-  return renderer.lookup(*map.map, technique);
+  const MapStage map = impl_->stages.draw_maps(renderer, impl_->scene, techniques);
+  const MapResults results = impl_->stages.look_up(renderer, *map.map, techniques);
+  if (!techniques.front().cascade) return mixed_results(results, nullptr);
+  const ChosenCascades chosen = renderer.choose_cascades(techniques.front());
+  return mixed_results(results, &chosen);
 }
 
 }  // namespace noonmark

@@ -17,9 +17,9 @@ constexpr int promised_placements = 4;
 
 // The lines must hold in each view.
 std::vector<EngineAdvice> engines_of(Workbench& bench, const Tried& tried, const AdviceRequest& request) {
-  const double farthest_m = farthest_in_views_m(bench, request.conditions);
   const Scene& scene = bench.scene(tried.settings.scene);
-  return engine_advice(tried.settings, make_light_frame(scene, tried.settings), scene, farthest_m);
+  return engine_advice(tried.settings, make_light_frame(scene, tried.settings), scene,
+                       depths_in_views(bench, request.conditions));
 }
 
 std::vector<Settings> promised_under(const Tried& tried, const AdviceRequest& request) {
@@ -43,12 +43,16 @@ std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer
   return engines;
 }
 
-std::string why_not_in_engines(Workbench& bench, std::span<const std::string> engines, const Tried& tried,
+std::string why_not_in_engines(Workbench& bench, std::span<const WantedEngine> engines, const Tried& tried,
                                const AdviceRequest& request) {
   for (EngineAdvice& advice : engines_of(bench, tried, request)) {
-    if (std::find(engines.begin(), engines.end(), advice.engine) == engines.end()) continue;
+    const auto wanted = std::find_if(engines.begin(), engines.end(),
+                                     [&](const WantedEngine& one) { return one.engine == advice.engine; });
+    if (wanted == engines.end()) continue;
     if (advice.lines.empty()) return fmt::format("{} has no lines for it: {}", advice.engine, advice.cannot.front());
-    if (!advice.emulated) continue;
+    if (!advice.emulated && wanted->is_run) continue;
+    if (!advice.emulated)
+      return fmt::format("what {} does with its lines is not known: {}", advice.engine, advice.why_not_emulated);
     advice.promise = measured_promise(bench, under_engine(advice, promised_under(tried, request)), request.accuracy);
     if (const std::string broken = broken_promise_text(advice, request.curve, request.error); !broken.empty())
       return fmt::format("in {} {}", advice.engine, broken);

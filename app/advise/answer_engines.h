@@ -15,9 +15,16 @@ namespace noonmark {
 std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer, const AdviceRequest& request,
                                            const std::function<void(const std::string&)>& say);
 
-// Why these settings are no answer for one of the engines (EngineAdvice::engine): it has no lines for them, or what it does with
-// them breaks a bound under a searched condition. Empty if all do; an engine that is not emulated is not asked. Throws Error.
-std::string why_not_in_engines(Workbench& bench, std::span<const std::string> engines, const Tried& tried,
+// An engine in which settings must hold.
+struct WantedEngine {
+  std::string engine;  // EngineAdvice::engine
+  // Its own frames are judged after the search: lines that cannot be measured before do not rule settings out.
+  bool is_run = false;
+};
+
+// Why these settings are no answer for one of the engines: it has no lines for them, what it does with them breaks a bound under a
+// searched condition, or that is not known. Empty if they are one for all. Throws Error.
+std::string why_not_in_engines(Workbench& bench, std::span<const WantedEngine> engines, const Tried& tried,
                                const AdviceRequest& request);
 
 }  // namespace noonmark

@@ -22,10 +22,6 @@ constexpr double lambdas[] = {0.5, 0.75, 0.95};
 constexpr int compared_resolution = 1024;
 constexpr double compared_bias_texels = 2.3;
 
-double nearest_plane(const Scene& scene, const Settings& settings) {
-  return *effective_camera(scene, settings.view).near_m;
-}
-
 MapPlace place_of(const std::vector<double>& bounds_m, double reach_m) {
   MapPlace place;
   place.apply = [bounds_m, reach_m](Settings& there) {
@@ -61,13 +57,11 @@ CascadePlaces cascade_places(Workbench& bench, std::span<const Settings> conditi
   const Settings& first = conditions.front();
   if (make_light_frame(bench.scene(first.scene), first).kind != LightKind::directional)
     return {{}, "cascades are maps of a directional light"};
-  double near_m = std::numeric_limits<double>::infinity(), farthest_near_m = 0;
-  for (const Settings& condition : conditions) {
-    const double plane = nearest_plane(bench.scene(condition.scene), condition);
-    near_m = std::min(near_m, plane);
-    farthest_near_m = std::max(farthest_near_m, plane);
-  }
-  const double reach_m = first.map.reach_m.value_or(farthest_in_views_m(bench, conditions));
+  double farthest_near_m = 0;
+  for (const Settings& condition : conditions)
+    farthest_near_m = std::max(farthest_near_m, *effective_camera(bench.scene(condition.scene), condition.view).near_m);
+  const SeenDepths seen = depths_in_views(bench, conditions);
+  const double near_m = seen.nearest_m, reach_m = first.map.reach_m.value_or(seen.farthest_m);
   if (!(near_m > 0 && near_m < reach_m)) return {{}, "nothing of the scene lies between the camera and map.reach_m"};
   CascadePlaces found;
   for (const int count : counts) {

@@ -21,6 +21,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/gltf/write_glb.h"
 #include "scenes/library.h"
+#include "technique/cascades.h"
 #include "technique/light_frame.h"
 
 namespace noonmark {
@@ -144,7 +145,9 @@ class Trial {
   Settings in_file(const Settings& condition) {
     Settings there = condition;
     there.view.fit_depths = true;  // a file's near plane would cut off what the adapter's camera shows
-    there.view.near_m = there.view.far_m = std::nullopt;
+    there.view.far_m = std::nullopt;
+    // Cascades begin at the near plane that the lines set.
+    if (condition.cascades.count == 1) there.view.near_m = std::nullopt;
     if (is_plain_file(condition.scene)) return there;
     const Scene& scene = bench_.scene(condition.scene);
     const LightFrame frame = make_light_frame(scene, there);
@@ -197,7 +200,7 @@ class Trial {
     if (!promised) return;
     const Image<float> ours =
         GivenLookup(scene, tracer)
-            .visibility(verdict.receivers, effective_camera(scene, shown.view).eye_m, Technique(scene, *promised));
+            .visibility(verdict.receivers, effective_camera(scene, shown.view).eye_m, cascades_of(scene, *promised));
     for (size_t i = 0; i < ours.size(); ++i)
       if (verdict.counted[i]) frame.visibility[i] = ours[i];
     view.promise = shares(judge_frame(scene, tracer, frame, rules));

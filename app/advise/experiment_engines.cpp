@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "app/advise/engine_promise.h"
-#include "app/advise/engines/engine_settings.h"
 #include "app/advise/recommend_judge.h"
 #include "app/advise/recommend_text.h"
 #include "base/error.h"
@@ -17,23 +16,26 @@
 #include "compare/results/number_text.h"
 #include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
+#include "scenes/camera_fit.h"
 #include "technique/light_frame.h"
 #include "technique/lookups.h"
 
 namespace noonmark {
 
-double farthest_in_views_m(Workbench& bench, std::span<const Settings> conditions) {
+SeenDepths depths_in_views(Workbench& bench, std::span<const Settings> conditions) {
   std::set<std::string> known;  // conditions are many where lights or placements differ, and views are few
-  double farthest_m = 0;
+  SeenDepths seen;
   for (const Settings& condition : conditions) {
     std::string key;
     for (const Setting& row : settings_table())
       if (row.name.starts_with("scene.") || row.name.starts_with("view.") || row.name.starts_with("motion."))
         key += row.get(condition) + '\n';
-    if (known.insert(key).second)
-      farthest_m = std::max(farthest_m, farthest_in_view_m(condition, bench.scene(condition.scene)));
+    if (!known.insert(key).second) continue;
+    const Scene& scene = bench.scene(condition.scene);
+    seen.nearest_m = std::min(seen.nearest_m, *effective_camera(scene, condition.view).near_m);
+    seen.farthest_m = std::max(seen.farthest_m, farthest_in_view_m(condition, scene));
   }
-  return farthest_m;
+  return seen;
 }
 
 namespace {
@@ -41,7 +43,7 @@ namespace {
 std::vector<EngineAdvice> engines_of_choice(Workbench& bench, std::span<const Settings> conditions) {
   const Settings& first = conditions.front();
   const Scene& scene = bench.scene(first.scene);
-  return engine_advice(first, make_light_frame(scene, first), scene, farthest_in_views_m(bench, conditions));
+  return engine_advice(first, make_light_frame(scene, first), scene, depths_in_views(bench, conditions));
 }
 
 DescribedChoice described(const Choice& choice, const std::optional<BiasChoice>& bias, std::string why) {
@@ -84,9 +86,8 @@ std::string where_measured(const DescribedChoice& choice) {
                          : "");
 }
 
-// What the lines give where the engine's map of moments is measured.
-void promise_moments(Workbench& bench, EngineAdvice& engine, const DescribedChoice& choice,
-                     const std::string& accuracy) {
+// What the lines give. Engines store other moments than the point may have, and fit cascades in their own way.
+void promise_lines(Workbench& bench, EngineAdvice& engine, const DescribedChoice& choice, const std::string& accuracy) {
   if (!engine.emulated) return;
   try {
     const std::vector<Settings> there = under_engine(engine, choice.conditions);
@@ -97,10 +98,12 @@ void promise_moments(Workbench& bench, EngineAdvice& engine, const DescribedChoi
     engine.promised = fmt::format("error not known: {}", error.what());
     return;
   }
+  const Settings& first = choice.conditions.front();
   engine.promised = fmt::format(
-      "error {} with these lines ({}){}, in {}; the point itself, with map.moments = {}, has {}",
-      percent_of_error(engine.promise->error), accuracy, format_text(engine), where_measured(choice),
-      find_setting("map.moments").get(choice.conditions.front()), percent_of_error(measured_error(choice, accuracy)));
+      "error {} with these lines ({}){}, in {}; the point itself{} has {}", percent_of_error(engine.promise->error),
+      accuracy, format_text(engine), where_measured(choice),
+      reads_moments(first) ? fmt::format(", with map.moments = {},", find_setting("map.moments").get(first)) : "",
+      percent_of_error(measured_error(choice, accuracy)));
   if (!engine.promise->all_views) engine.promised += "; the lines were measured under the first condition alone";
 }
 
@@ -132,8 +135,8 @@ std::string experiment_engines(Workbench& bench, const Results& results) {
   const std::optional<DescribedChoice> choice = described_choice(results);
   if (!choice) return "";
   std::vector<EngineAdvice> engines = engines_of_choice(bench, choice->conditions);
-  if (reads_moments(choice->conditions.front()))
-    for (EngineAdvice& engine : engines) promise_moments(bench, engine, *choice, results.info.accuracy);
+  if (const Settings& first = choice->conditions.front(); reads_moments(first) || first.cascades.count > 1)
+    for (EngineAdvice& engine : engines) promise_lines(bench, engine, *choice, results.info.accuracy);
   const std::string text = advice_engines(engines);
   return choice->why.empty() ? text : fmt::format("Of {}: {}.\n{}", name_of(*choice, results), choice->why, text);
 }

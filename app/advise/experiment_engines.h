@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/advise/engines/engine_settings.h"
 #include "app/definition/experiment.h"
 #include "compare/judge/choices.h"
 #include "compare/results/records.h"
@@ -25,13 +26,13 @@ struct DescribedChoice {
 std::optional<DescribedChoice> described_choice(const Results& results);
 
 // The text that `recommend` writes as engines.txt, of the described choice. It begins with the point that it is of, if there are
-// several choices. The error that lines give is measured for a map of moments alone, because engines store other numbers than the
-// point may have. Throws Error.
+// several choices. The error that lines give is measured for maps of moments, because engines store other numbers than the point may
+// have, and for cascades, which engines fit in their own way. Throws Error.
 std::string experiment_engines(Workbench& bench, const Results& results);
 // The same of an experiment with one choice, before anything is measured: without the error. points: at least one.
 std::string experiment_engines(Workbench& bench, const Experiment& experiment, std::span<const Settings> points);
 
-// How far the farthest is that any of these conditions shows, along the view. Throws Error.
-double farthest_in_views_m(Workbench& bench, std::span<const Settings> conditions);
+// Of what these conditions show. Throws Error.
+SeenDepths depths_in_views(Workbench& bench, std::span<const Settings> conditions);
 
 }  // namespace noonmark

@@ -71,6 +71,7 @@ struct AdviceRequest {
   std::string given;                 // what the user gave that decides the answer, for a sentence; empty: nothing
   std::string source_of_bounds;      // for a sentence: "the defaults of recommend"; empty: it is not said
   int width_px = least_searched_px;  // of the pictures that are searched on
+  std::vector<std::string> held_in;  // engines in which the bounds hold too (why_not_elsewhere asks), for a sentence
   // Further reasons why settings with their bias are no answer, as a sentence; empty: none. Asked last, of few.
   std::function<std::string(const Tried&)> why_not_elsewhere;
 };

@@ -403,11 +403,15 @@ std::vector<std::string> advice_text(const Advice& advice) {
   if (advice.shadowed == 0) lines.push_back(needed_text(advice));
   lines.push_back(fmt::format("Set {}.", settings_text(tried, advice.request, answer.extent_m)));
   lines.push_back(fmt::format(
-      "That is the answer \"{}\". All answers keep {}{}{}{}:", kinds_text(answer), glossed_bounds_text(advice),
+      "That is the answer \"{}\". All answers keep {}{}{}{}{}:", kinds_text(answer), glossed_bounds_text(advice),
       eye_bounds_text(advice.request),
       advice.request.error ? fmt::format(", {} within {}", advice.request.accuracy, percent(*advice.request.error))
                            : "",
-      advice.request.source_of_bounds.empty() ? "" : fmt::format(" (bounds: {})", advice.request.source_of_bounds)));
+      advice.request.source_of_bounds.empty() ? "" : fmt::format(" (bounds: {})", advice.request.source_of_bounds),
+      advice.request.held_in.empty()
+          ? ""
+          : fmt::format("; those on acne, Peter Panning and the error with the lines of {} too",
+                        fmt::join(advice.request.held_in, " and "))));
   for (std::string& line : answers_table(advice)) lines.push_back(std::move(line));
   const auto is_filtered = [](const Answer& one) { return one.tried.filtered(); };
   if (std::any_of(advice.answers.begin(), advice.answers.end(), is_filtered) &&

@@ -13,7 +13,6 @@
 #include "app/advise/cascade_places.h"
 #include "app/advise/engine_promise.h"
 #include "app/advise/engine_trial.h"
-#include "app/advise/experiment_engines.h"
 #include "app/advise/recommend_about.h"
 #include "app/advise/recommend_around.h"
 #include "app/advise/recommend_filtered.h"
@@ -166,7 +165,8 @@ struct RecommendOptions {
   bool cascades = false;                      // also tries cascade_counts
   bool around = false;                        // also what each setting does around the answer
   std::vector<std::string> engines;           // to try the lines in
-  std::optional<std::string> lines;  // the engine whose lines are printed; empty: `engines`, otherwise three.js
+  std::vector<std::string> held_in;           // engine_words() in which the answer must hold
+  std::optional<std::string> lines;  // the engine whose lines are printed; empty: the above, otherwise three.js
   std::string adapters;              // their folder; empty: the program's own
   ExperimentArguments arguments;
 };
@@ -332,21 +332,13 @@ std::string why_no_engine_lines(std::span<const Settings> conditions) {
   return "";
 }
 
-// The lines of all engines; those of one map with what they promise.
-std::vector<EngineAdvice> engines_of(const Answer& answer, const AdviceRequest& request, Workbench& bench,
-                                     const std::function<void(const std::string&)>& say) {
-  const Settings& settings = answer.tried.settings;
-  if (settings.cascades.count == 1) return measured_engines(bench, answer.tried, request, say);
-  const double farthest_m = farthest_in_views_m(bench, request.conditions);
-  const Scene& scene = bench.scene(settings.scene);
-  return engine_advice(settings, make_light_frame(scene, settings), scene, farthest_m);
-}
-
 // The engines whose lines are printed. Without a wish it is the first of those that have the lookup of an engine, or of all.
 std::vector<std::string> shown_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan,
                                        const std::vector<EngineAdvice>& engines) {
   std::vector<std::string> words;
   if (plan) words = plan->names;
+  for (const std::string& word : options.held_in)
+    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
   if (options.lines) words.push_back(*options.lines);
   const auto with_lines =
       std::find_if(engines.begin(), engines.end(), [](const EngineAdvice& engine) { return !engine.lines.empty(); });
@@ -355,8 +347,15 @@ std::vector<std::string> shown_engines(const RecommendOptions& options, const st
   return words;
 }
 
-[[noreturn]] void throw_engine_of_cascades() {
-  throw Error(ErrorKind::usage, "--engine tries the lines of one map; leave it out, or search no cascades");
+// --for and --engine.
+std::vector<WantedEngine> wanted_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan) {
+  std::vector<WantedEngine> wanted;
+  for (const std::string& word : options.held_in) wanted.push_back({engine_of_word(word)});
+  if (!plan) return wanted;
+  for (const std::string& name : plan->names)
+    if (std::find(options.held_in.begin(), options.held_in.end(), name) == options.held_in.end())
+      wanted.push_back({std::string(engine_adapter(name).engine), true});
+  return wanted;
 }
 
 int recommend(const RecommendOptions& options) {
@@ -367,18 +366,17 @@ int recommend(const RecommendOptions& options) {
   const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
   if (options.texels && (options.acne || options.peter_panning || options.error || options.budget || options.edges ||
                          options.patch || options.answer || options.lines || options.around || options.cascades ||
-                         !options.lookups.empty() || !options.engines.empty()))
+                         !options.lookups.empty() || !options.engines.empty() || !options.held_in.empty()))
     throw Error(
         ErrorKind::usage,
         "--texels divides texels and searches nothing else; leave out the bounds, --budget, --answer, --around, "
-        "--cascades, --lookups, --lines and --engine");
+        "--cascades, --lookups, --lines, --for and --engine");
   if (options.texels) return recommend_texels(whole, *options.texels, arguments, out);
   // Before anything is measured.
   if (!options.lookups.empty() && (options.around || options.cascades))
     throw Error(ErrorKind::usage,
                 "--lookups searches one map, and --around varies lookups that compare; leave out --lookups, or "
                 "--around and --cascades");
-  if (!options.engines.empty() && options.cascades) throw_engine_of_cascades();
   const Experiment& experiment = only_part(whole);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
@@ -387,18 +385,17 @@ int recommend(const RecommendOptions& options) {
   AdviceRequest request = request_of(experiment, options, bench, say);
   if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
   const std::string no_lines = why_no_engine_lines(request.conditions);
-  if (!options.engines.empty() && request.conditions.front().cascades.count > 1) throw_engine_of_cascades();
-  if (!no_lines.empty() && (options.lines || !options.engines.empty()))
-    throw Error(ErrorKind::usage, fmt::format("{}; leave it out, or leave out --lines and --engine", no_lines));
+  if (!no_lines.empty() && (options.lines || !options.engines.empty() || !options.held_in.empty()))
+    throw Error(ErrorKind::usage, fmt::format("{}; leave it out, or leave out --lines, --for and --engine", no_lines));
   std::optional<TrialPlan> plan;
   if (!options.engines.empty()) {
     plan = plan_trial(bench, request.conditions, options.engines, options.adapters);
-    std::vector<std::string> names;
-    for (const std::string& name : plan->names) names.emplace_back(engine_adapter(name).engine);
-    request.why_not_elsewhere = [&bench, &request, names](const Tried& tried) {
-      return why_not_in_engines(bench, names, tried, request);
-    };
   }
+  const std::vector<WantedEngine> wanted = wanted_engines(options, plan);
+  for (const WantedEngine& one : wanted)
+    if (!one.is_run) request.held_in.push_back(one.engine);
+  if (!wanted.empty())
+    request.why_not_elsewhere = [&](const Tried& tried) { return why_not_in_engines(bench, wanted, tried, request); };
 
   make_output_folder(out);
   clear_abandoned_files(out);
@@ -408,7 +405,7 @@ int recommend(const RecommendOptions& options) {
     advice.around = settings_around(bench, under_conditions(advice.answer()->tried, request),
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
   std::vector<EngineAdvice> engines;
-  if (advice.answer() && no_lines.empty()) engines = engines_of(*advice.answer(), request, bench, say);
+  if (advice.answer() && no_lines.empty()) engines = measured_engines(bench, advice.answer()->tried, request, say);
   if (advice.answer() && plan) {
     for (Settings& view : plan->views) request.places[advice.answer()->tried.place].apply(view);
     try_engines(bench, *plan, engines, {request.curve, request.error, request.accuracy}, out, say);
@@ -530,7 +527,15 @@ RunVerb add_recommend(CLI::App& verb) {
   verb.add_option("--lines", options->lines, "The engine whose lines are printed; engines.txt has those of all")
       ->check(one_of(words))
       ->type_name(joined(words))
-      ->default_str(fmt::format("those of --engine, otherwise {}", words.front()));
+      ->default_str(fmt::format("those of --for and --engine, otherwise {}", words.front()));
+  verb.add_option(
+          "--for", options->held_in,
+          "Search settings whose lines keep the bounds in this engine too, as far as Noonmark can measure what it "
+          "does with them (repeatable; or a list with commas)")
+      ->take_all()
+      ->expected(1)
+      ->check(list_of(words))
+      ->type_name(joined(words));
   verb.add_option("--adapters", options->adapters,
                   "Folder of the pages that --engine runs (examples/engines); without it that of this program")
       ->check(not_empty())
@@ -543,6 +548,7 @@ RunVerb add_recommend(CLI::App& verb) {
     options->arguments.command = command;
     options->lookups = words_of(options->lookups);
     options->engines = words_of(options->engines);
+    options->held_in = words_of(options->held_in);
     const ThreadLimit limit(options->arguments.threads);
     return recommend(*options);
   };

@@ -60,13 +60,16 @@ const std::vector<std::vector<Assignment>> ladder_techniques = {
 TEST(LookupAtReceivers, IsThePointsOwnPicture) {
   std::vector<std::vector<Assignment>> techniques = ladder_techniques;
   techniques.push_back({{"bias.constant", "0"}, {"bias.caster_normal_offset", "1"}});
+  techniques.push_back(
+      {{"cascades.count", "3"}, {"map.fit", "sphere"}, {"cascades.blend", "0.3"}, {"bias.unit", "texel"}});
+  techniques.push_back({{"cascades.count", "2"}, {"map.fit", "view"}, {"cascades.resolutions", "200,300"}});
   for (const auto& technique : techniques) {
     Workbench bench(gl::DebugMode::fatal);
     const Settings settings = with(technique, small("cube-room", 160, 90));
     const Measurement m = bench.measure(settings, std::nullopt);
     const raytrace::Tracer tracer(m.scene);
     const Image<float> found =
-        GivenLookup(m.scene, tracer).visibility(m.receivers, m.camera.eye_m, Technique(m.scene, settings));
+        GivenLookup(m.scene, tracer).visibility(m.receivers, m.camera.eye_m, cascades_of(m.scene, settings));
     size_t facing = 0;
     for (size_t i = 0; i < found.size(); ++i) {
       if (!(m.ladder.flags[i] & flag_facing)) continue;

@@ -54,11 +54,11 @@ TEST(AnswerInEngines, IsAskedForTheBoundsOfTheSearch) {
   const AdviceRequest request = small_request();
   const Advice advice = search(bench, request, quiet);
   ASSERT_NE(advice.answer(), nullptr);
-  const auto why_not = [&](double bias, const char* engine) {
-    Tried tried = advice.answer()->tried;
+  Tried tried = advice.answer()->tried;
+  const auto why_not = [&](double bias, const char* engine, bool is_run = false) {
     tried.settings.bias["constant"] = bias;
-    const std::vector<std::string> names = {engine};
-    return why_not_in_engines(bench, names, tried, request);
+    const std::vector<WantedEngine> wanted = {{engine, is_run}};
+    return why_not_in_engines(bench, wanted, tried, request);
   };
   const BiasChoice& bias = *advice.answer()->tried.bias;
   EXPECT_EQ(why_not(bias.value, "three.js"), "");
@@ -66,6 +66,11 @@ TEST(AnswerInEngines, IsAskedForTheBoundsOfTheSearch) {
   EXPECT_NE(why_not(0.5 * bias.window.low, "three.js").find("acne "), std::string::npos);
   EXPECT_NE(why_not(3 * bias.window.high, "three.js").find("Peter Panning "), std::string::npos);
   EXPECT_EQ(why_not(0.5 * bias.window.low, "an engine that is not asked"), "");
+  // No filter of Noonmark is PlayCanvas's nearest to a tent: only its own frames can say more.
+  tried.settings.filter = {"tent", {{"size", 5}}};
+  EXPECT_TRUE(why_not(bias.value, "Godot").starts_with("what Godot does with its lines is not known: no filter"))
+      << why_not(bias.value, "Godot");
+  EXPECT_EQ(why_not(bias.value, "Godot", true), "");
 }
 
 }  // namespace

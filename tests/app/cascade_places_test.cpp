@@ -26,7 +26,7 @@ TEST(CascadePlaces, ReachAsFarAsTheViewsShow) {
   const Settings first = small_street();
   const CascadePlaces found = cascade_places(bench, {&first, 1}, cascade_counts, 320, unheard);
   ASSERT_EQ(found.places.size(), std::size(cascade_counts)) << found.why_not;
-  const double farthest_m = farthest_in_views_m(bench, {&first, 1});
+  const double farthest_m = depths_in_views(bench, {&first, 1}).farthest_m;
   for (size_t n = 0; n < found.places.size(); ++n) {
     Settings there = first;
     there.map.extent_m = 4;  // of one map

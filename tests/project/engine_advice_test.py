@@ -23,6 +23,8 @@ SAME = 0.0002
 SCENES = {"room": ("room.glb", ["view.eye_m=-6,7,-6", "view.target_m=-1,0,-1", "map.fit=tight", "map.resolution=1024", "filter.kind=none",
                                 "bias.unit=m", "bias.normal_offset_axes=0.5", "bias.constant=0.000001", "light.position_m=3,9,4", "light.target_m=0,0,0"]),
           "cube-room": ("cube-room", ["map.resolution=1024", "filter.kind=none"]),
+          "street": ("street", ["cascades.count=4", "cascades.splits=manual", "cascades.bounds_m=5.5,12.5,27.4", "map.reach_m=78.6", "map.fit=sphere",
+                                "map.snap=true", "map.resolution=1448", "filter.kind=none"]),
           "FlightHelmet": (str(models / "FlightHelmet/FlightHelmet.gltf"), ["map.resolution=2048", "filter.kind=none"]),
           "Lantern": (str(models / "Lantern/Lantern.gltf"), ["map.resolution=2048", "filter.kind=none"])}
 

@@ -166,6 +166,7 @@ void lay_cascades(Settings& s) {
   s.map.fit = MapFit::corner_sphere;
   s.cascades.radius_round_m = 0.0625;
   s.map.depth_clamp = true;
+  s.cascades.cover_band = false;
   std::vector<double> ends = s.cascades.bounds_m;
   ends.push_back(*s.map.reach_m);
   s.cascades.splits = "practical";
@@ -265,7 +266,13 @@ Engine babylon_js() {
                      cascade_lines,
                      cascade_limits,
                      "@babylonjs/core Lights/Shadows/cascadedShadowGenerator and Shaders/ShadersInclude/lightFragment",
-                     CascadeBlendOf::slice},
+                     CascadeBlendOf::slice,
+                     {},
+                     "depth",
+                     {},
+                     {},
+                     nullptr,
+                     true},
       {},
       nullptr,
       moments,

@@ -109,8 +109,8 @@ struct EngineKnob {
   std::string line;   // what to type, with {} for the number
   BiasForm form;
   BiasTarget target;
-  std::string unit;  // for people
-  std::function<double(double metres, const AdvicePlace&)> typed;
+  std::string unit;                                                // for people
+  std::function<double(double metres, const AdvicePlace&)> typed;  // in proportion to the metres
 };
 
 struct AdvisedCascades;
@@ -132,6 +132,10 @@ struct EngineCascades {
   std::string each_begins = {}, each = {};
   // The metres from near to far of every map, if the lines set them; null: those of `lay`.
   double (*depth_m)(const AdvisedCascades&) = nullptr;
+  // Its bias is a share of the depth range that each map has in each view, not metres.
+  bool bias_of_depth = false;
+  // Why no settings of Noonmark have the engine's maps, a clause; empty, or null: they have.
+  std::string (*unlike)(const AdvisedCascades&) = nullptr;
 };
 
 struct Engine {

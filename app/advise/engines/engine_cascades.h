@@ -16,6 +16,8 @@ struct AdvisedCascades {
   double near_m = 0;           // the camera's near plane, where the first begins
   std::vector<double> ends_m;  // where each ends along the view, as recommended; the last is the reach
   double blend = 0;            // cascades.blend, if the engine can have it; otherwise 0
+  double scene_depth_m = 0;    // of the whole scene, along the light
+  Settings laid = {};          // laid_by() of the engine
 
   size_t count() const { return places.size(); }
   double reach_m() const { return ends_m.back(); }

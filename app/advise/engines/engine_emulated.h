@@ -8,9 +8,15 @@ namespace noonmark {
 
 SeenFrustum seen_frustum(const Settings& settings, const Scene& scene);
 
-// Sets advice.emulated, or why_not_emulated. metres: of each knob, as AdvisedPart::amount. place.filter and place.map: of the
-// engine.
+// The metres that each knob gives in each map with the number that is typed: [knob][map], as AdvisedPart::amount.
+using ActingMetres = std::vector<std::vector<double>>;
+
+// Sets advice.emulated, or why_not_emulated. place.filter and place.map: of the engine.
 void emulate(const Engine& engine, const AdvicePlace& place, const std::vector<EngineKnob>& knobs,
-             const std::vector<double>& metres, EngineAdvice& advice);
+             const ActingMetres& metres, EngineAdvice& advice);
+
+// The same of cascades.
+void emulate_cascades(const Engine& engine, const AdvisedCascades& cascades, const std::vector<EngineKnob>& knobs,
+                      const ActingMetres& metres, EngineAdvice& advice);
 
 }  // namespace noonmark

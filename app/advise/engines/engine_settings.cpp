@@ -182,16 +182,15 @@ Typed typed_amounts(const Engine& engine, const AdvicePlace& place, const std::v
   return typed;
 }
 
-// The line with the numbers of each cascade; of one map there is one. A field that is there once takes the greatest.
+// Whether each of the maps has this line of its own.
+bool is_of_each(const Engine& engine, const std::string& line, size_t maps) {
+  return maps > 1 && !engine.cascades->each.empty() && line.starts_with(engine.cascades->each_begins);
+}
+
+// The line with the numbers of each cascade; of one map there is one. A field that is there once has the same number in all.
 std::string knob_line(const Engine& engine, const EngineKnob& knob, const std::vector<double>& typed) {
   const auto literal = engine.literal ? engine.literal : number;
-  const bool each =
-      typed.size() > 1 && !engine.cascades->each.empty() && knob.line.starts_with(engine.cascades->each_begins);
-  if (!each) {
-    const double most =
-        *std::max_element(typed.begin(), typed.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-    return fmt::format(fmt::runtime(knob.line), literal(most));
-  }
+  if (!is_of_each(engine, knob.line, typed.size())) return fmt::format(fmt::runtime(knob.line), literal(typed.front()));
   std::vector<std::string> texts;
   for (const double value : typed) texts.push_back(literal(value));
   const bool one = std::all_of(texts.begin(), texts.end(), [&](const std::string& text) { return text == texts[0]; });
@@ -204,6 +203,10 @@ std::string no_lines_for(LightKind kind) {
   return fmt::format(
       "There are no lines: Noonmark does not describe what this engine does with the bias of a {} light.",
       kind_of_light(kind).name());
+}
+
+double greatest_of(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
 
 // places: of the one map, or of each cascade. parts: of each place.
@@ -220,23 +223,33 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
   if (suffices && !knobs.empty()) {
     advice.lines = cascades ? engine.cascades->lines(*cascades) : engine.map_lines(place);
     for (const std::string& line : place.filter.lines) {
-      const bool each = cascades && !engine.cascades->each.empty() && line.starts_with(engine.cascades->each_begins);
+      const bool each = is_of_each(engine, line, places.size());
       advice.lines.push_back(fmt::format(
           "{}  {} {}{}filter.kind = {}", each ? fmt::format(fmt::runtime(engine.cascades->each), line) : line,
           engine.comment, place.moments ? fmt::format("lookup.kind = {}, ", place.settings.lookup.kind) : "",
           place.filter.same ? "" : "in place of ", place.settings.filter.kind));
     }
+    ActingMetres acting;
     for (size_t i = 0; i < knobs.size(); ++i) {
-      std::vector<double> numbers;
-      for (size_t k = 0; k < places.size(); ++k) numbers.push_back(knobs[i].typed(typed[k].metres[i], places[k]));
-      advice.lines.push_back(knob_line(engine, knobs[i], numbers) + typed.front().from[i]);
-      if (cascades && engine.cascades->each.empty()) once.push_back(one_for_all(knobs[i].field, numbers));
+      const EngineKnob& knob = knobs[i];
+      std::vector<double> numbers, metres;
+      for (size_t k = 0; k < places.size(); ++k) {
+        metres.push_back(typed[k].metres[i]);
+        numbers.push_back(knob.typed(metres[k], places[k]));
+      }
+      if (cascades && !is_of_each(engine, knob.line, places.size())) {
+        once.push_back(one_for_all(knob.field, numbers));
+        numbers.assign(places.size(), greatest_of(numbers));
+        for (size_t k = 0; k < places.size(); ++k) metres[k] = numbers[k] / knob.typed(1, places[k]);
+      }
+      advice.lines.push_back(knob_line(engine, knob, numbers) + typed.front().from[i]);
+      acting.push_back(std::move(metres));
     }
     advice.lines.insert(advice.lines.end(), engine.last.begin(), engine.last.end());
     if (cascades)
-      advice.why_not_emulated = "with cascades the lines are not measured";
+      emulate_cascades(engine, *cascades, knobs, acting, advice);
     else
-      emulate(engine, place, knobs, typed.front().metres, advice);
+      emulate(engine, place, knobs, acting, advice);
   } else {
     advice.cannot.push_back(knobs.empty() ? no_lines_for(place.kind())
                                           : unexpressed_bias(typed.front().replaced, place));
@@ -296,15 +309,27 @@ std::string no_cascades(const Engine& engine, const Settings& settings) {
                      fmt::join(counts, ", "), count);
 }
 
-EngineAdvice advice_of_cascades(const Engine& engine, const Settings& settings, const Scene& scene) {
+double depth_along(const Scene& scene, glm::dvec3 way) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const glm::vec3& position : scene.positions) {
+    const double depth = glm::dot(glm::dvec3(position), way);
+    least = std::min(least, depth);
+    most = std::max(most, depth);
+  }
+  return most - least;
+}
+
+EngineAdvice advice_of_cascades(const Engine& engine, const Settings& settings, const Scene& scene,
+                                const SeenDepths& in_views) {
   if (std::string none = no_cascades(engine, settings); !none.empty()) return without_lines(engine, std::move(none));
   const std::vector<Technique> recommended = cascades_of(scene, settings);
   AdvisedCascades cascades;
   for (const ViewSlice& slice : recommended.front().cascade->slices) cascades.ends_m.push_back(slice.end_m);
   cascades.blend = blend_in(*engine.cascades, settings.cascades);
-  cascades.near_m = recommended.front().cascade->slices.front().begin_m;
-  const Settings as_laid = laid_by(*engine.cascades, settings, cascades.near_m, cascades.ends_m);
-  const std::vector<Technique> laid = cascades_of(scene, as_laid);
+  // The lines set one near plane for all views. One beyond that of another view would cut open what stands close to its camera.
+  cascades.near_m = std::min(recommended.front().cascade->slices.front().begin_m, in_views.nearest_m);
+  cascades.laid = laid_by(*engine.cascades, settings, cascades.near_m, cascades.ends_m);
+  const std::vector<Technique> laid = cascades_of(scene, cascades.laid);
   std::vector<std::vector<AdvisedPart>> parts;
   for (size_t k = 0; k < laid.size(); ++k) {
     const AdvicePlace asked = advice_place(settings, recommended[k].frame, scene);
@@ -319,6 +344,7 @@ EngineAdvice advice_of_cascades(const Engine& engine, const Settings& settings, 
     place.map = {laid[k].frame.resolution, laid[k].frame.extent_m, laid[k].frame.extent_m / laid[k].frame.resolution};
     cascades.places.push_back(place);
   }
+  cascades.scene_depth_m = depth_along(scene, laid.front().frame.forward);
   if (engine.cascades->depth_m) {
     const double depth_m = engine.cascades->depth_m(cascades);
     for (AdvicePlace& place : cascades.places) place.depth_slope = 1 / depth_m;
@@ -415,15 +441,15 @@ bool filter_is(const AdvicePlace& place, std::string_view kind, int size) {
 }
 
 std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene,
-                                        double farthest_m) {
+                                        const SeenDepths& in_views) {
   std::vector<EngineAdvice> all;
   if (settings.cascades.count > 1) {
-    for (const Engine& engine : engines()) all.push_back(advice_of_cascades(engine, settings, scene));
+    for (const Engine& engine : engines()) all.push_back(advice_of_cascades(engine, settings, scene, in_views));
     all.push_back(opengl_cascades());
     return all;
   }
   AdvicePlace place = advice_place(settings, frame, scene);
-  place.seen.farthest_m = std::max(place.seen.farthest_m, farthest_m);
+  place.seen.farthest_m = std::max(place.seen.farthest_m, in_views.farthest_m);
   const std::vector<AdvisedPart> parts = advised_parts(place);
   for (const Engine& engine : engines()) all.push_back(advice_of_map(engine, place, parts));
   all.push_back(opengl_advice(place, parts));
@@ -440,11 +466,25 @@ std::string engine_word(std::string_view engine) {
   return word;
 }
 
+namespace {
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const Engine& engine : engines()) names.push_back(engine.name);
+  names.push_back(opengl_fields().front().engine);
+  return names;
+}
+}  // namespace
+
 std::vector<std::string> engine_words() {
   std::vector<std::string> words;
-  for (const Engine& engine : engines()) words.push_back(engine_word(engine.name));
-  words.push_back(engine_word(opengl_fields().front().engine));
+  for (const std::string& name : engine_names()) words.push_back(engine_word(name));
   return words;
+}
+
+std::string engine_of_word(std::string_view word) {
+  for (const std::string& name : engine_names())
+    if (engine_word(name) == word) return name;
+  throw std::logic_error("no engine has this word");
 }
 
 std::vector<EngineField> engine_fields() {

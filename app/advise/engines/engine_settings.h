@@ -9,6 +9,7 @@
 // form is replaced by the least amounts of other fields that give at least its depth at every slope and azimuth. A filter
 // that reaches further, or a coarser texel, multiplies the bias as law 1 says. The numbers hold all of that.
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,18 +63,25 @@ struct EngineAdvice {
       {};  // in the engine itself, if it was asked for; app/advise/engine_trial.h makes it
 };
 
+// What several views show, along each view: the nearest near plane, and the farthest that is in view.
+struct SeenDepths {
+  double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = 0;
+};
+
 // One piece of advice for each engine, in the order of the table. frame: of these settings in this scene.
 //
 // Numbers are computed in double and written with 6 significant digits. A spot or point light has no single conversion
 // from depth or texels to metres. For these lights the numbers hold at one distance from the light, that of the point
 // at which the camera looks, held between near and far. A sentence in `cannot` says so.
-// farthest_m: the farthest that is in view from any camera, along its view; 0: of these settings' own view.
+// in_views: of all views that the lines are for; the settings' own view is one of them in any case.
 std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene,
-                                        double farthest_m = 0);
+                                        const SeenDepths& in_views = {});
 
 // What people type for each engine of the table, in its order: "three", "babylon"; and for one of them.
 std::vector<std::string> engine_words();
 std::string engine_word(std::string_view engine);
+// EngineAdvice::engine of one of the words.
+std::string engine_of_word(std::string_view word);
 
 // How far from the camera along its view the farthest is that the settings' picture can show.
 double farthest_in_view_m(const Settings& settings, const Scene& scene);

@@ -220,7 +220,17 @@ Engine godot() {
                          "RendererSceneCull::_light_instance_setup_directional_shadow and "
                          "LightStorage::get_directional_light_shadow_size",
                          {},
-                         "but blend_splits, whose width is its own"}};
+                         "but blend_splits, whose width is its own",
+                         "depth",
+                         {},
+                         {},
+                         nullptr,
+                         false,
+                         [](const AdvisedCascades& cascades) -> std::string {
+                           return cascades.count() == 2
+                                      ? "the texels of its two maps are oblong, and Noonmark's are square"
+                                      : "";
+                         }}};
 }
 
 }  // namespace noonmark

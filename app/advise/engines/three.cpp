@@ -129,7 +129,8 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 }
 
 // Cascades: the addon CSM, which has a directional light for each. Each map is the square of the
-// slice's longest diagonal, and reaches from lightNear to lightFar, measured from lightMargin before the slice. The shader
+// slice's longest diagonal, and reaches from lightNear to lightFar, measured from lightMargin before the slice. So lightMargin
+// holds all casters, and lightFar the whole slice, however the camera turns it. The shader
 // (CSMShader.js) compares depth / (far - near) of the view with the ends, where the slices of the maps end at ends times far,
 // and looks nothing up beyond an end of 1. So maxFar is near beyond the reach: then far - near is the reach.
 constexpr double light_near_m = 1;
@@ -141,13 +142,12 @@ void lay_cascades(Settings& s) {
   s.map.reach_m = *s.map.reach_m * longer;
 }
 
-double deepest_m(const AdvisedCascades& cascades) {
-  double most = 0;
-  for (const AdvicePlace& place : cascades.places) most = std::max(most, place.range_m());
-  return std::ceil(most);
+double margin_m(const AdvisedCascades& cascades) { return light_near_m + std::ceil(cascades.scene_depth_m); }
+double light_far_m(const AdvisedCascades& cascades) {
+  double longest = 0;
+  for (const AdvicePlace& place : cascades.places) longest = std::max(longest, place.map.extent_m);
+  return margin_m(cascades) + std::ceil(longest);
 }
-double margin_m(const AdvisedCascades& cascades) { return light_near_m + deepest_m(cascades); }
-double light_far_m(const AdvisedCascades& cascades) { return margin_m(cascades) + deepest_m(cascades); }
 
 std::vector<std::string> cascade_lines(const AdvisedCascades& cascades) {
   const AdvicePlace& place = cascades.places.front();
@@ -187,7 +187,8 @@ std::vector<std::string> cascade_limits(const AdvisedCascades&) {
       "CSM compares depths divided by maxFar - near with the ends, and looks nothing up beyond the last; the lines "
       "give "
       "ends and a maxFar for that. With a mode of its own its cascades end nearer than its maps by the camera's near "
-      "plane times their share of maxFar. Noonmark looks what lies beyond up in the last map.",
+      "plane times their share of maxFar. Noonmark looks what lies beyond up in the last map, and its error is that of "
+      "cascades that are used up to the ends of their maps.",
       "The maps reach from lightMargin before a slice to lightFar: a caster further away is clipped.",
       "THREE.SunLight has two cascades with splits of its own (half even, half logarithmic) and always blends a tenth "
       "of "

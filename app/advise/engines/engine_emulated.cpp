@@ -1,0 +1,192 @@
+#include "app/advise/engines/engine_emulated.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/advise/engines/engine_cascades.h"
+#include "app/advise/map_places.h"
+
+namespace noonmark {
+namespace {
+
+// Lines have 6 digits, so amounts that differ by less than half a unit of the last are one number.
+constexpr double same_amount = 5e-6;
+
+bool alike(std::span<const double> values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most - *least <= same_amount * std::max(std::abs(*least), std::abs(*most));
+}
+
+// Of several parts with one law on one side, the first; null if there is none. A map of moments has no casters that move: a depth
+// that is added to each stored one is the same as one that is taken from the receiver's, because lookups see their difference.
+const BiasPart* part_of(const EngineKnob& knob, bool moments) {
+  const bool added = moments && knob.target == BiasTarget::caster && knob.form == BiasForm::constant;
+  const BiasTarget target = added ? BiasTarget::compared_depth : knob.target;
+  if (moments && target == BiasTarget::caster) return nullptr;
+  for (const BiasPart& part : bias_parts())
+    if (part.acts_on == target && form_of(part) == knob.form) return &part;
+  return nullptr;
+}
+
+// Parts of a bias, one number for each map: in texels of the map, or in `unit`, which is metres or depth.
+class Amounts {
+ public:
+  Amounts(std::span<const AdvicePlace> places, BiasUnit unit) : places_(places), unit_(unit) {}
+
+  void add(const BiasPart& part, std::span<const double> metres) {
+    std::vector<double>& sums = of_.try_emplace(part.name, places_.size(), 0.0).first->second;
+    const std::vector<double> amounts = in_unit(part, metres);
+    for (size_t k = 0; k < sums.size(); ++k) sums[k] += amounts[k];
+  }
+
+  bool one_number(const BiasPart& part, std::span<const double> metres) const { return alike(in_unit(part, metres)); }
+
+  // Writes them. Parts of the compared depth may differ from map to map by one factor of all, cascades.bias_scales. Returns the
+  // part that differs otherwise, or null.
+  const BiasPart* write(Settings& settings) const {
+    settings.bias = {};
+    settings.bias.unit = unit_;
+    std::vector<double> scales;
+    for (const auto& [name, amounts] : of_) {
+      const BiasPart& part = bias_part(name);
+      settings.bias[name] += amounts.front();
+      if (part.acts_on != BiasTarget::compared_depth) {
+        if (!alike(amounts)) return &part;
+        continue;
+      }
+      if (amounts.front() == 0) return &part;
+      std::vector<double> own;
+      for (const double amount : amounts) own.push_back(amount / amounts.front());
+      if (scales.empty()) scales = own;
+      for (size_t k = 0; k < own.size(); ++k)
+        if (!(own[k] > 0) || std::abs(own[k] / scales[k] - 1) > same_amount) return &part;
+    }
+    if (!alike(scales.empty() ? std::vector<double>{1} : scales)) settings.cascades.bias_scales = scales;
+    return nullptr;
+  }
+
+ private:
+  std::vector<double> in_unit(const BiasPart& part, std::span<const double> metres) const {
+    std::vector<double> amounts(metres.begin(), metres.end());
+    for (size_t k = 0; k < amounts.size(); ++k) {
+      if (part.unit == "texels") amounts[k] /= places_[k].map.texel_m;
+      if (part.unit == "bias.unit" && unit_ == BiasUnit::depth) amounts[k] /= places_[k].range_m();
+    }
+    return amounts;
+  }
+
+  std::span<const AdvicePlace> places_;
+  BiasUnit unit_;
+  std::map<std::string_view, std::vector<double>> of_;
+};
+
+// Sets the bias that acts. The result says why no settings have it; empty: they do.
+std::string set_bias(const Engine& engine, std::span<const AdvicePlace> places, const ActingMetres& metres,
+                     const std::vector<EngineKnob>& knobs, Settings& settings) {
+  const bool moments = places.front().moments.has_value();
+  const bool of_depth = places.size() > 1 && engine.cascades->bias_of_depth;
+  Amounts amounts(places, of_depth ? BiasUnit::depth : BiasUnit::m);
+  for (size_t i = 0; i < knobs.size(); ++i) {
+    if (std::all_of(metres[i].begin(), metres[i].end(), [](double one) { return one == 0; })) continue;
+    if (knobs[i].form == BiasForm::sideways) {
+      // (1 - c) (1 + 1 / c) = s t: on every plane the same depth, by parts that Noonmark has.
+      amounts.add(bias_part("normal_offset_turned"), metres[i]);
+      amounts.add(bias_part("slope"), metres[i]);
+      continue;
+    }
+    const BiasPart* part = part_of(knobs[i], moments);
+    if (!part)
+      return moments ? "Noonmark does not measure what a map of moments shows with " + knobs[i].field
+                     : "Noonmark has no part of a bias with the form of " + knobs[i].field;
+    // A depth that is added to all that a map stores shows what one shows that is taken from each receiver's, which may differ
+    // from cascade to cascade.
+    if (knobs[i].form == BiasForm::constant && !amounts.one_number(*part, metres[i])) part = &bias_part("constant");
+    amounts.add(*part, metres[i]);
+  }
+  if (const BiasPart* differs = amounts.write(settings))
+    return fmt::format(
+        "bias.{} of Noonmark has one number for all cascades, and with these lines each cascade has another",
+        differs->name);
+  for (const auto& [part, amount] : engine.always) settings.bias[part] += amount;
+  return "";
+}
+
+// Takes the settings if they have the engine's filter and bias.
+void take(const Engine& engine, std::span<const AdvicePlace> places, const ActingMetres& metres,
+          const std::vector<EngineKnob>& knobs, Settings settings, EngineAdvice& advice) {
+  const AdvicePlace& place = places.front();
+  if (!place.filter.as) {
+    advice.why_not_emulated = "no filter of Noonmark has the taps of " + place.filter.what;
+    return;
+  }
+  settings.filter = *place.filter.as;
+  advice.why_not_emulated = set_bias(engine, places, metres, knobs, settings);
+  if (!advice.why_not_emulated.empty()) return;
+  if (engine.emulate) engine.emulate(settings, place);
+  advice.emulated = std::move(settings);
+}
+
+}  // namespace
+
+void emulate(const Engine& engine, const AdvicePlace& place, const std::vector<EngineKnob>& knobs,
+             const ActingMetres& metres, EngineAdvice& advice) {
+  if (place.kind() != LightKind::directional) {
+    advice.why_not_emulated = "a spot or point light's bias changes with the distance in another way here";
+    return;
+  }
+  Settings settings = place.settings;
+  if (place.moments) settings.lookup = place.moments->as, settings.map.moments = place.moments->format;
+  settings.map.resolution = place.map.resolution;
+  if (place.map.reach_m) {
+    settings.map.fit = MapFit::sphere;
+    settings.map.reach_m = *place.map.reach_m;
+    settings.map.extent_m = place.map.extent_m;
+    settings.map.extent_scale = 1;
+    settings.map.near_m = settings.map.far_m = std::nullopt;
+  }
+  // Otherwise the lines are numbers: the map stays where the given view needs it.
+  if (!place.map.reach_m && fits_view(settings.map.fit)) lay_as(place.frame, settings);
+  take(engine, {&place, 1}, metres, knobs, std::move(settings), advice);
+}
+
+void emulate_cascades(const Engine& engine, const AdvisedCascades& cascades, const std::vector<EngineKnob>& knobs,
+                      const ActingMetres& metres, EngineAdvice& advice) {
+  if (engine.cascades->unlike) advice.why_not_emulated = engine.cascades->unlike(cascades);
+  if (!advice.why_not_emulated.empty()) return;
+  Settings settings = cascades.laid;
+  settings.cascades.select = engine.cascades->select;
+  take(engine, cascades.places, metres, knobs, std::move(settings), advice);
+}
+
+Settings as_engine(const EngineAdvice& advice, Settings condition) {
+  const Settings& engine = *advice.emulated;
+  const int placements = condition.map.placements;
+  condition.bias = engine.bias;
+  condition.filter = engine.filter;
+  condition.lookup = engine.lookup;
+  if (engine.cascades.count > 1 || engine.map.fit == MapFit::sphere) {
+    condition.map = engine.map;
+    condition.map.placements = placements;
+    if (engine.cascades.count > 1) {
+      condition.cascades = engine.cascades;
+      condition.view.near_m = engine.view.near_m;  // the lines set it
+    }
+    return condition;
+  }
+  if (fits_view(condition.map.fit)) {
+    condition.light = engine.light;
+    condition.map = engine.map;
+    condition.map.placements = placements;
+  }
+  condition.map.resolution = engine.map.resolution;
+  condition.map.cull = engine.map.cull;
+  condition.map.format = engine.map.format;
+  condition.map.moments = engine.map.moments;
+  condition.map.pancake = engine.map.pancake;
+  return condition;
+}
+
+}  // namespace noonmark
