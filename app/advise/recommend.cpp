@@ -233,9 +233,14 @@ class Search {
       tried.why_not =
           fmt::format("its window, {:.3g} to {:.3g} {}, is too narrow for a margin of {:.0f}% on both sides",
                       tried.bias->window.low, tried.bias->window.high, tried.bias->unit, 100 * (bias_margin - 1));
-    else if (request_.why_not_elsewhere)
-      tried.why_not = request_.why_not_elsewhere(tried);
+    else
+      ask_elsewhere(tried);
     if (!candidate.holds()) say_(fmt::format("{}: {}", name_of(tried, request_), tried.why_not));
+  }
+
+  void ask_elsewhere(Tried& tried) const {
+    if (request_.why_not_elsewhere) tried.why_not = request_.why_not_elsewhere(tried);
+    tried.fails_elsewhere = !tried.why_not.empty();
   }
 
   // A map over what some views show must not leave out what another one shows.
@@ -307,6 +312,11 @@ class Search {
       if (one.narrow) narrow.emplace(one.tried.cost, &one);
     for (const auto& [order, one] : narrow) {
       one->tried.why_not.clear();
+      ask_elsewhere(one->tried);
+      if (!one->holds()) {
+        say_(fmt::format("{}: {}", name_of(one->tried, request_), one->tried.why_not));
+        continue;
+      }
       verify(*one, true);
       if (!one->holds()) continue;
       advice.budget = request_.budget.value_or(budget_of_least * one->tried.cost);

@@ -92,6 +92,8 @@ struct Tried {
   std::optional<NearestBias> nearest;
   std::optional<EyeErrors> eye;  // at the given view, in full size; empty: not looked at
 
+  bool fails_elsewhere = false;  // why_not is that of AdviceRequest::why_not_elsewhere
+
   bool as_is = false;  // a form of an engine that keeps the bounds on causes as it is
   bool held = false;   // of Advice::tried: it keeps the bounds as far as it was measured, and something else is better
 

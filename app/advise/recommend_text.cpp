@@ -187,7 +187,12 @@ std::string kept_text(const AdviceRequest& request) {
 std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   const AdviceRequest& request = advice.request;
   std::vector<std::string> lines;
-  if (nearest.usable() && request.error) {
+  if (nearest.fails_elsewhere) {
+    lines.push_back(
+        "Another engine, or none: without --for and --engine these settings hold. Or finer texels: what a bias in "
+        "texels "
+        "does wrong falls with their width.");
+  } else if (nearest.usable() && request.error) {
     const int times = *request.error > 0 ? static_cast<int>(std::ceil(nearest.error / *request.error)) : 0;
     if (times == 0)
       lines.push_back("A map of texels cannot have an error of 0%: allow a larger --error.");

@@ -366,6 +366,32 @@ TEST_F(Recommend, PrintsTheLinesOfOneEngine) {
   EXPECT_TRUE(says("babylon")) << output_;
 }
 
+// One number for all cascades is too much for the near ones: what holds here does not hold in such an engine.
+TEST_F(Recommend, HoldsInTheEngineThatItIsFor) {
+  const auto for_engine = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options = {"--views", "1", "--edges", "9", "--patch", "1"};
+    for (const char* set : {"cascades.count=3", "cascades.splits=manual", "cascades.bounds_m=6,20", "map.reach_m=78",
+                            "map.fit=sphere", "map.snap=true", "map.resolution=1024", "filter.kind=none"})
+      options.insert(options.end(), {"--set", set});
+    options.insert(options.end(), more.begin(), more.end());
+    return recommend("street", options);
+  };
+  const auto of_engine = [&](const std::string& name) {
+    const nlohmann::json engines = found()["engines"];
+    return *std::find_if(engines.begin(), engines.end(), [&](const auto& one) { return one["engine"] == name; });
+  };
+  ASSERT_EQ(for_engine({}), 0) << output_;
+  EXPECT_FALSE(of_engine("three.js").contains("broken"));
+  EXPECT_GT(of_engine("three.js")["promise"]["error"], 0);
+  EXPECT_NE(of_engine("Bevy")["broken"].get<std::string>().find("Peter Panning"), std::string::npos);
+  ASSERT_EQ(for_engine({"--for", "three"}), 0) << output_;
+  EXPECT_TRUE(says("with the lines of three.js too")) << output_;
+  EXPECT_EQ(for_engine({"--for", "bevy, three"}), 1) << output_;
+  EXPECT_TRUE(says("in Bevy these lines are not an answer: Peter Panning")) << output_;
+  EXPECT_TRUE(says("without --for and --engine these settings hold")) << output_;
+  EXPECT_EQ(for_engine({"--for", "unreal"}), 2);
+}
+
 // A model and the experiment that init writes for it have one folder. Another model of the same name does not take it.
 TEST_F(Recommend, AModelsFolderIsNamedAfterItsFile) {
   ASSERT_EQ(run({"export", "plate", "--out", "a/model.glb"}), 0) << output_;
