@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "compare/results/quantities.h"
 #include "scenes/camera_fit.h"
 #include "technique/cascade_splits.h"
+#include "technique/cascades.h"
 #include "technique/light_frame.h"
 
 namespace noonmark {
@@ -39,6 +41,46 @@ MapPlace place_of(const std::vector<double>& bounds_m, double reach_m) {
   return place;
 }
 
+// Whether each cascade's factor of the bias is that of its texels: then one number of texels is right in all of them.
+bool scale_with_texels(std::span<const Technique> cascades) {
+  constexpr double same = 1e-4;
+  const auto of = [](const Technique& one) { return one.frame.bias_scale / one.frame.extent_m; };
+  return std::all_of(cascades.begin(), cascades.end(),
+                     [&](const Technique& one) { return std::abs(of(one) / of(cascades.front()) - 1) < same; });
+}
+
+// The cascades of `place` as the engine lays them. Empty if Noonmark has no settings for them.
+std::optional<MapPlace> laid_in(const std::string& engine, Workbench& bench, const Settings& first,
+                                const MapPlace& place, const SeenDepths& seen) {
+  const Scene& scene = bench.scene(first.scene);
+  Settings there = first;
+  there.filter = {"none", {}};
+  there.bias = {};
+  place.apply(there);
+  there.bias["constant"] = 1;
+  const std::vector<EngineAdvice> all = engine_advice(there, make_light_frame(scene, there), scene, seen);
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const EngineAdvice& one) { return one.engine == engine; });
+  if (found == all.end() || !found->emulated) return std::nullopt;
+  Settings laid = *found->emulated;
+  if (laid.bias["constant"] == 0 || scale_with_texels(cascades_of(scene, laid))) {
+    laid.bias.unit = BiasUnit::texel;
+    laid.cascades.bias_scales.clear();
+  }
+  MapPlace made;
+  made.laid_by = engine;
+  made.apply = [laid](Settings& settings) {
+    const MapSettings asked = settings.map;
+    settings.map = laid.map;
+    settings.map.resolution = asked.resolution, settings.map.placements = asked.placements,
+    settings.map.cull = asked.cull;
+    settings.cascades = laid.cascades;
+    settings.view.near_m = laid.view.near_m;
+    settings.bias.unit = laid.bias.unit;
+  };
+  return made;
+}
+
 double error_at(Workbench& bench, const Settings& first, const MapPlace& place, int width_px) {
   Settings there = small_picture(first, width_px);
   there.filter = {"none", {}};
@@ -53,7 +95,8 @@ double error_at(Workbench& bench, const Settings& first, const MapPlace& place, 
 }  // namespace
 
 CascadePlaces cascade_places(Workbench& bench, std::span<const Settings> conditions, std::span<const int> counts,
-                             int width_px, const std::function<void(const std::string&)>& say) {
+                             std::span<const std::string> engines, int width_px,
+                             const std::function<void(const std::string&)>& say) {
   const Settings& first = conditions.front();
   if (make_light_frame(bench.scene(first.scene), first).kind != LightKind::directional)
     return {{}, "cascades are maps of a directional light"};
@@ -87,7 +130,11 @@ CascadePlaces cascade_places(Workbench& bench, std::span<const Settings> conditi
     if (!best) continue;
     say(fmt::format("{} cascades: of the practical splits lambda = {:g} errs least, {:.3g}%", count, best_lambda,
                     100 * least));
-    found.places.push_back(std::move(*best));
+    const size_t before = found.places.size();
+    for (const std::string& engine : engines)
+      if (std::optional<MapPlace> laid = laid_in(engine, bench, first, *best, seen))
+        found.places.push_back(std::move(*laid));
+    if (found.places.size() == before) found.places.push_back(std::move(*best));
   }
   return found;
 }

@@ -17,14 +17,15 @@ namespace noonmark {
 std::string name_of(const Tried& tried, const AdviceRequest& request) {
   const FilterSettings& filter = tried.settings.filter;
   const MapPlace& place = request.places[tried.place];
-  return fmt::format("{}, {} texels{}, filter {}{}", tried.level, tried.settings.map.resolution,
-                     tried.settings.cascades.count > 1 ? fmt::format(" in {} cascades", tried.settings.cascades.count)
-                     : place.moves_with                ? " over " + place.covers
-                                                       : "",
-                     filter.kind,
-                     filter.kind == "castano" || (tried.filtered() && filter.kind != "none")
-                         ? fmt::format(" {}", filter.whole("size"))
-                         : "");
+  return fmt::format(
+      "{}, {} texels{}, filter {}{}", tried.level, tried.settings.map.resolution,
+      tried.settings.cascades.count > 1 ? fmt::format(" in {} cascades{}{}", tried.settings.cascades.count,
+                                                      place.laid_by.empty() ? "" : " of ", place.laid_by)
+      : place.moves_with                ? " over " + place.covers
+                                        : "",
+      filter.kind,
+      filter.kind == "castano" || (tried.filtered() && filter.kind != "none") ? fmt::format(" {}", filter.whole("size"))
+                                                                              : "");
 }
 
 const std::vector<FilterSettings>& filters_of(const AdviceRequest& request, size_t level) {

@@ -55,9 +55,10 @@ std::string settings_text(const Tried& tried, const AdviceRequest& request, doub
   const CascadeSettings& cascades = tried.settings.cascades;
   if (cascades.count > 1) {
     text = fmt::format("{} cascades with {}", cascades.count, text);
+    if (!place.laid_by.empty()) text += fmt::format(" each, laid as {} lays them", place.laid_by);
     if (!cascades.bounds_m.empty())
-      text += fmt::format(" each, which end at {:.4g} m and at {:.4g} m", fmt::join(cascades.bounds_m, ", "),
-                          tried.settings.map.reach_m.value_or(0));
+      text += fmt::format("{}, which end at {:.4g} m and at {:.4g} m", place.laid_by.empty() ? " each" : "",
+                          fmt::join(cascades.bounds_m, ", "), tried.settings.map.reach_m.value_or(0));
   } else if (!place.covers.empty()) {
     text += fmt::format(" over {}, {:.4g} m wide", place.covers, place.extent_m);
   }
@@ -77,6 +78,11 @@ std::string settings_text(const Tried& tried, const AdviceRequest& request, doub
         text += fmt::format(", bias.{} = {:g} {}", part, amount, unit_of_bias(tried.settings));
   if (tried.reduction) text += fmt::format(", and lookup.reduction = {:g}", tried.reduction->value);
   if (tried.bias) text += fmt::format(", and {} = {:g} {}", tried.bias->parameter, tried.bias->value, tried.bias->unit);
+  if (tried.bias && !cascades.bias_scales.empty()) {
+    std::vector<std::string> scales;
+    for (const double scale : cascades.bias_scales) scales.push_back(fmt::format("{:.3g}", scale));
+    text += fmt::format(" times {} in the cascades", fmt::join(scales, ", "));
+  }
   return text;
 }
 

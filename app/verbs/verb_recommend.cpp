@@ -241,13 +241,13 @@ std::string source_of_bounds(const Experiment& experiment, const RecommendOption
 }
 
 // --cascades: beside one map, several counts of them.
-void add_cascades(AdviceRequest& request, const Experiment& experiment, Workbench& bench,
-                  const std::function<void(const std::string&)>& say) {
+void add_cascades(AdviceRequest& request, const Experiment& experiment, std::span<const std::string> engines,
+                  Workbench& bench, const std::function<void(const std::string&)>& say) {
   const std::string given = gives(experiment, "cascades.count") ? "cascades.count" : given_place(experiment);
   if (!given.empty())
     throw Error(ErrorKind::usage,
                 fmt::format("--cascades lays the maps itself, and {} is given too; leave one of them out", given));
-  CascadePlaces cascades = cascade_places(bench, request.conditions, cascade_counts, request.width_px, say);
+  CascadePlaces cascades = cascade_places(bench, request.conditions, cascade_counts, engines, request.width_px, say);
   if (cascades.places.empty())
     throw Error(ErrorKind::usage, fmt::format("--cascades: {}; leave it out", cascades.why_not));
   for (MapPlace& place : cascades.places) request.places.push_back(std::move(place));
@@ -276,6 +276,18 @@ void add_lookups(AdviceRequest& request, const Experiment& experiment, const std
                               level.lookup));
     request.levels.push_back(std::move(level));
   }
+}
+
+// --for and --engine.
+std::vector<WantedEngine> wanted_engines(const RecommendOptions& options) {
+  std::vector<WantedEngine> wanted;
+  const auto add = [&](std::string engine, bool is_run) {
+    const auto same = [&](const WantedEngine& one) { return one.engine == engine; };
+    if (std::none_of(wanted.begin(), wanted.end(), same)) wanted.push_back({std::move(engine), is_run});
+  };
+  for (const std::string& word : options.held_in) add(engine_of_word(word), false);
+  for (const std::string& name : options.engines) add(std::string(engine_adapter(name).engine), true);
+  return wanted;
 }
 
 // What is searched: the conditions, the settings to try, and the bounds.
@@ -309,7 +321,11 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
   if (options.acne) request.curve.acne_bound = *options.acne;
   if (options.peter_panning) request.curve.peter_panning_bound = *options.peter_panning;
   if (!options.lookups.empty()) add_lookups(request, experiment, options.lookups);
-  if (options.cascades) add_cascades(request, experiment, bench, say);
+  if (options.cascades) {
+    std::vector<std::string> engines;
+    for (const WantedEngine& one : wanted_engines(options)) engines.push_back(one.engine);
+    add_cascades(request, experiment, engines, bench, say);
+  }
   request.eye = eye_bounds(experiment, options);
   request.accuracy = experiment.accuracy;
   request.error = options.error;
@@ -347,17 +363,6 @@ std::vector<std::string> shown_engines(const RecommendOptions& options, const st
   return words;
 }
 
-// --for and --engine.
-std::vector<WantedEngine> wanted_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan) {
-  std::vector<WantedEngine> wanted;
-  for (const std::string& word : options.held_in) wanted.push_back({engine_of_word(word)});
-  if (!plan) return wanted;
-  for (const std::string& name : plan->names)
-    if (std::find(options.held_in.begin(), options.held_in.end(), name) == options.held_in.end())
-      wanted.push_back({std::string(engine_adapter(name).engine), true});
-  return wanted;
-}
-
 int recommend(const RecommendOptions& options) {
   const std::string& what = options.what;
   ExperimentArguments arguments = options.arguments;
@@ -391,7 +396,7 @@ int recommend(const RecommendOptions& options) {
   if (!options.engines.empty()) {
     plan = plan_trial(bench, request.conditions, options.engines, options.adapters);
   }
-  const std::vector<WantedEngine> wanted = wanted_engines(options, plan);
+  const std::vector<WantedEngine> wanted = wanted_engines(options);
   for (const WantedEngine& one : wanted)
     if (!one.is_run) request.held_in.push_back(one.engine);
   if (!wanted.empty())

@@ -24,7 +24,7 @@ const auto unheard = [](const std::string&) {};
 TEST(CascadePlaces, ReachAsFarAsTheViewsShow) {
   Workbench bench(gl::DebugMode::fatal);
   const Settings first = small_street();
-  const CascadePlaces found = cascade_places(bench, {&first, 1}, cascade_counts, 320, unheard);
+  const CascadePlaces found = cascade_places(bench, {&first, 1}, cascade_counts, {}, 320, unheard);
   ASSERT_EQ(found.places.size(), std::size(cascade_counts)) << found.why_not;
   const double farthest_m = depths_in_views(bench, {&first, 1}).farthest_m;
   for (size_t n = 0; n < found.places.size(); ++n) {
@@ -41,11 +41,48 @@ TEST(CascadePlaces, ReachAsFarAsTheViewsShow) {
   }
   Settings reach = first;
   reach.map.reach_m = 30;
-  const CascadePlaces near_by = cascade_places(bench, {&reach, 1}, {cascade_counts, 1}, 320, unheard);
+  const CascadePlaces near_by = cascade_places(bench, {&reach, 1}, {cascade_counts, 1}, {}, 320, unheard);
   ASSERT_EQ(near_by.places.size(), 1u);
   Settings there = reach;
   near_by.places[0].apply(there);
   EXPECT_EQ(view_slices(bench.scene(first.scene), there).back().end_m, 30);
+}
+
+// Places of an engine have its maps, and the bias that one number of it gives each cascade: what is searched is what is typed.
+TEST(CascadePlaces, OfAnEngineAreItsOwn) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings first = small_street();
+  const Scene& scene = bench.scene(first.scene);
+  constexpr int four[] = {4};
+  const std::vector<std::string> names = {"three.js", "Babylon.js", "Godot", "Bevy", "Unity URP", "PlayCanvas"};
+  const CascadePlaces found = cascade_places(bench, {&first, 1}, four, names, 320, unheard);
+  ASSERT_EQ(found.places.size(), 5u) << "PlayCanvas has no lines for cascades";
+  for (size_t i = 0; i < found.places.size(); ++i) {
+    SCOPED_TRACE(names[i]);
+    EXPECT_EQ(found.places[i].laid_by, names[i]);
+    Settings there = first;
+    there.map.resolution = 1024, there.filter = {"none", {}};
+    found.places[i].apply(there);
+    there.bias["constant"] = there.bias.unit == BiasUnit::texel ? 2.0 : there.bias.unit == BiasUnit::depth ? 0.01 : 0.1;
+    const SeenDepths seen = depths_in_views(bench, {&first, 1});
+    for (const EngineAdvice& advice : engine_advice(there, make_light_frame(scene, there), scene, seen)) {
+      if (advice.engine != names[i]) continue;
+      ASSERT_TRUE(advice.emulated) << advice.why_not_emulated;
+      const double reach = there.filter == advice.emulated->filter ? 1 : 2;  // Hard reads twice as far as a single tap
+      const std::vector<Technique> asked = cascades_of(scene, there), typed = cascades_of(scene, *advice.emulated);
+      for (size_t k = 0; k < typed.size(); ++k) {
+        EXPECT_NEAR(typed[k].frame.extent_m / asked[k].frame.extent_m, 1, 0.02) << k;
+        const auto metres = [&](const Technique& one) {
+          const double unit = one.settings.bias.unit == BiasUnit::texel   ? one.frame.extent_m / 1024
+                              : one.settings.bias.unit == BiasUnit::depth ? one.frame.far_m - one.frame.near_m
+                                                                          : 1;
+          return one.frame.bias_scale * unit * one.settings.bias["constant"] +
+                 one.frame.extent_m / 1024 * one.settings.bias["caster_offset"];
+        };
+        EXPECT_NEAR(metres(typed[k]) / (reach * metres(asked[k])), 1, 0.02) << k;
+      }
+    }
+  }
 }
 
 // The splits are those of the least error among the ones that are compared.
@@ -55,7 +92,7 @@ TEST(CascadePlaces, HaveTheSplitsOfLeastError) {
   constexpr int three[] = {3};
   std::vector<std::string> said;
   const CascadePlaces found =
-      cascade_places(bench, {&first, 1}, three, 320, [&](const std::string& step) { said.push_back(step); });
+      cascade_places(bench, {&first, 1}, three, {}, 320, [&](const std::string& step) { said.push_back(step); });
   ASSERT_EQ(found.places.size(), 1u);
   const auto error_of = [&](const std::vector<double>& bounds) {
     Settings there = first;
@@ -77,7 +114,7 @@ TEST(CascadePlaces, AreOfADirectionalLight) {
   Workbench bench(gl::DebugMode::fatal);
   Settings spot;
   spot.scene.name = "spot-room";
-  const CascadePlaces none = cascade_places(bench, {&spot, 1}, cascade_counts, 320, unheard);
+  const CascadePlaces none = cascade_places(bench, {&spot, 1}, cascade_counts, {}, 320, unheard);
   EXPECT_TRUE(none.places.empty());
   EXPECT_NE(none.why_not.find("directional"), std::string::npos) << none.why_not;
 }
@@ -96,7 +133,7 @@ TEST(CascadePlaces, AreTheAnswerWhereOneMapOfTheirWorkErrsMore) {
   const Advice alone = search(bench, request, unheard);
   EXPECT_EQ(alone.answer(), nullptr);
   constexpr int four[] = {4};
-  for (MapPlace& place : cascade_places(bench, request.conditions, four, 320, unheard).places)
+  for (MapPlace& place : cascade_places(bench, request.conditions, four, {}, 320, unheard).places)
     request.places.push_back(std::move(place));
   const Advice advice = search(bench, request, unheard);
   ASSERT_NE(advice.answer(), nullptr);

@@ -186,12 +186,19 @@ TEST(EngineCascades, BlendWhereTheEngineDoes) {
                 .find("cascades.select = map: the engine chooses a receiver's cascade by its depth"),
             std::string::npos);
   EXPECT_NE(joined(advice(settings, "Unity URP").cannot).find("by its sphere"), std::string::npos);
-  settings.cascades.bias_scales = {1, 1, 2, 2};
   settings.cascades.resolutions = {512, 512, 256, 256};
   const std::string cannot = joined(advice(settings, "Godot").cannot);
-  for (const char* part : {"cascades.bias_scales: the lines have the bias without these factors",
-                           "cascades.resolutions: all maps of the engine have one resolution"})
-    EXPECT_NE(cannot.find(part), std::string::npos) << cannot;
+  EXPECT_NE(cannot.find("cascades.resolutions: all maps of the engine have one resolution"), std::string::npos)
+      << cannot;
+}
+
+TEST(EngineCascades, TheBiasHasTheFactorOfItsCascade) {
+  Settings settings = manual({4, 13, 31});
+  const std::vector<double> without = list_after(advice(settings, "three.js"), "light.shadow.bias = [");
+  settings.cascades.bias_scales = {1, 2, 3, 0.5};
+  const std::vector<double> with = list_after(advice(settings, "three.js"), "light.shadow.bias = [");
+  ASSERT_EQ(with.size(), 4u);
+  for (size_t k = 0; k < 4; ++k) expect_written(with[k], settings.cascades.bias_scales[k] * without[k]);
 }
 
 TEST(EngineCascades, GodotsSplitsAreSharesOfTheWay) {

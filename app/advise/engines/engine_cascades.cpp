@@ -95,8 +95,6 @@ std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const 
                                engine.select));
   if (!asked.resolutions.empty())
     said.push_back("cascades.resolutions: all maps of the engine have one resolution, map.resolution.");
-  if (!asked.bias_scales.empty())
-    said.push_back("cascades.bias_scales: the lines have the bias without these factors.");
   return said;
 }
 

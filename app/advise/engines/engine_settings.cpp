@@ -93,6 +93,7 @@ std::vector<AdvisedPart> advised_parts(const AdvicePlace& place) {
     double metres = 1;
     if (part.unit == "bias.unit") metres = unit_m;
     if (part.unit == "texels") metres = place.texel_m;
+    if (part.acts_on == BiasTarget::compared_depth) metres *= place.frame.bias_scale;
     AdvisedPart advised{&part, form, bias[name] * metres, bias[name], 0, std::numeric_limits<double>::infinity()};
     if (bounded) advised.floor = bias[name + "_floor"] * metres;
     if (!part.cap_help.empty()) advised.cap = bias[name + "_cap"] * metres;
