@@ -301,6 +301,21 @@ TEST(Engines, UrpGivesTheBiasBack) {
   expect_written(typed(got, "Depth: ") * std::tan(std::numbers::pi / 6) * 42 / 512, 0.06);
 }
 
+// The inspector takes no more than 10: the lines hold that, say so, and what is measured has it.
+TEST(Engines, UrpsBiasHasAGreatestValue) {
+  Settings s = constant_m(0);
+  s.filter = FilterSettings("hardware", {});
+  s.bias["caster_offset"] = 4;
+  EXPECT_EQ(joined(advice(s, "Unity URP").cannot).find("is at most"), std::string::npos);
+  s.bias["caster_offset"] = 30;
+  const EngineAdvice got = advice(s, "Unity URP");
+  EXPECT_EQ(typed(got, "Depth: "), 10);
+  EXPECT_NE(joined(got.cannot).find("Shadows > Depth Bias is at most 10, and 30 is needed"), std::string::npos)
+      << joined(got.cannot);
+  ASSERT_TRUE(got.emulated) << got.why_not_emulated;
+  expect_written(got.emulated->bias["caster_offset"], 10);
+}
+
 // OpenGL: the formulas of the parts, with amounts in window depth or metres.
 TEST(Engines, OpenGlGivesTheBiasBack) {
   Settings s = constant_m(0.06);

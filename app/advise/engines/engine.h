@@ -2,6 +2,7 @@
 // numbers for them.
 #pragma once
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -111,6 +112,7 @@ struct EngineKnob {
   BiasTarget target;
   std::string unit;                                                // for people
   std::function<double(double metres, const AdvicePlace&)> typed;  // in proportion to the metres
+  double most = std::numeric_limits<double>::infinity();           // that the engine takes
 };
 
 struct AdvisedCascades;

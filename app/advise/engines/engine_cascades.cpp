@@ -104,11 +104,14 @@ std::string fitted_cascades(const EngineCascades& engine, const AdvisedCascades&
     laid.push_back(place.map.texel_m);
     recommended.push_back(place.texel_m);
   }
+  const std::vector<std::string> of_engine = numbers_of(laid), asked = numbers_of(recommended);
   return fmt::format(
-      "map.fit = {}: the engine fits each map to {}. Its texels are {} m wide, for which the bias is computed; the "
-      "recommended ones are {} m. A wider picture or another angle of view needs other numbers.",
-      find_setting("map.fit").get(cascades.settings()), engine.fit, fmt::join(numbers_of(laid), ", "),
-      fmt::join(numbers_of(recommended), ", "));
+      "map.fit = {}: the engine fits each map to {}. Its texels are {} m wide, for which the bias is computed{}. A "
+      "wider "
+      "picture or another angle of view needs other numbers.",
+      find_setting("map.fit").get(cascades.settings()), engine.fit, fmt::join(of_engine, ", "),
+      of_engine == asked ? "; so are the recommended ones"
+                         : fmt::format("; the recommended ones are {} m", fmt::join(asked, ", ")));
 }
 
 std::string one_for_all(const std::string& field, std::span<const double> typed) {

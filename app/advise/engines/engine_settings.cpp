@@ -220,7 +220,7 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
   std::vector<Typed> typed;
   for (size_t k = 0; k < places.size(); ++k) typed.push_back(typed_amounts(engine, places[k], knobs, parts[k]));
   const bool suffices = std::all_of(typed.begin(), typed.end(), [](const Typed& one) { return one.suffices; });
-  std::vector<std::string> once;  // what is said of fields that all cascades share
+  std::vector<std::string> once;  // what is said of fields that all cascades share, and of numbers that are too large
   if (suffices && !knobs.empty()) {
     advice.lines = cascades ? engine.cascades->lines(*cascades) : engine.map_lines(place);
     for (const std::string& line : place.filter.lines) {
@@ -238,11 +238,17 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
         metres.push_back(typed[k].metres[i]);
         numbers.push_back(knob.typed(metres[k], places[k]));
       }
+      const std::vector<double> needed = numbers;
       if (cascades && !is_of_each(engine, knob.line, places.size())) {
         once.push_back(one_for_all(knob.field, numbers));
         numbers.assign(places.size(), greatest_of(numbers));
-        for (size_t k = 0; k < places.size(); ++k) metres[k] = numbers[k] / knob.typed(1, places[k]);
       }
+      for (double& value : numbers) value = std::clamp(value, -knob.most, knob.most);
+      if (const double greatest = greatest_of(needed); std::abs(greatest) > knob.most)
+        once.push_back(fmt::format("{} is at most {}, and {} is needed: the lines hold less.", knob.field,
+                                   number(knob.most), number(greatest)));
+      for (size_t k = 0; k < places.size(); ++k)
+        if (numbers[k] != needed[k]) metres[k] = numbers[k] / knob.typed(1, places[k]);
       advice.lines.push_back(knob_line(engine, knob, numbers) + typed.front().from[i]);
       acting.push_back(std::move(metres));
     }

@@ -43,13 +43,13 @@ std::vector<EngineKnob> knobs(LightKind kind) {
   };
   const std::string texels =
       kind == LightKind::directional ? "texels" : "half texels of the far plane, at every distance";
-  std::vector<EngineKnob> all = {{"Shadows > Depth Bias", "Light > Shadows > Bias: Custom, Depth: {}",
-                                  BiasForm::constant, BiasTarget::caster,
-                                  texels + " away from the light, times the factor of the soft shadows", typed}};
+  std::vector<EngineKnob> all = {
+      {"Shadows > Depth Bias", "Light > Shadows > Bias: Custom, Depth: {}", BiasForm::constant, BiasTarget::caster,
+       texels + " away from the light, times the factor of the soft shadows", typed, greatest}};
   if (kind != LightKind::point)  // a point light's normal bias is set to 0 by the engine
-    all.push_back({"Shadows > Normal Bias", "Light > Shadows > Bias: Custom, Normal: {}", BiasForm::turned,
-                   BiasTarget::caster,
-                   texels + " against the normal, times 1 - N.L, times the factor of the soft shadows", typed});
+    all.push_back(
+        {"Shadows > Normal Bias", "Light > Shadows > Bias: Custom, Normal: {}", BiasForm::turned, BiasTarget::caster,
+         texels + " against the normal, times 1 - N.L, times the factor of the soft shadows", typed, greatest});
   return all;
 }
 
@@ -94,7 +94,7 @@ std::vector<std::string> limits(const AdvicePlace& place) {
                   "along the light at 45 degrees. No field switches it off; of what replaces other parts it is "
                   "subtracted.",
                   number(fixed_factor), number(fixed_units), number(fixed_factor * place.map.texel_m)),
-      fmt::format("Depth and Normal are at most {}.", number(greatest)), "map.format: the map has 16 bits of depth."};
+      "map.format: the map has 16 bits of depth."};
   if (place.kind() == LightKind::directional)
     said.insert(
         said.end(),
@@ -143,13 +143,10 @@ std::vector<std::string> cascade_limits(const AdvisedCascades&) {
           "The engine always draws the maps with a polygon offset of factor {} and units {}. No field switches it "
           "off; of what replaces other parts it is subtracted.",
           number(fixed_factor), number(fixed_units)),
-      fmt::format("Depth and Normal are at most {}, in texels of each cascade.", number(greatest)),
-      "map.format: the map has 16 bits of depth.",
-      "A receiver is looked up in the first cascade whose sphere holds it, where Noonmark goes by the depth: beside "
-      "the "
-      "middle of the picture a cascade ends nearer than its split says. The sphere itself is computed in Unity's "
-      "closed "
-      "part; the texels are those of the least sphere.",
+      "Depth and Normal are in texels of each cascade.", "map.format: the map has 16 bits of depth.",
+      "A receiver is looked up in the first cascade whose sphere holds it. The sphere is computed in Unity's closed "
+      "part; "
+      "texels and error are those of the least sphere around the slice.",
       "The engine always moves vertices before the near plane onto it (map.pancake). A large triangle across the near "
       "plane gets other depths by that, also behind the plane."};
 }
