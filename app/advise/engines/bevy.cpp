@@ -133,18 +133,20 @@ Engine bevy() {
           {},
           [](Settings& settings, const AdvicePlace&) { settings.map.format = DepthFormat::d32f; },
           {},
-          EngineCascades{{2, 3, 4},
-                         "the square of whole metres that is as wide as its slice's longest diagonal",
-                         [](Settings& s) {
-                           s.map.fit = MapFit::corner_square;
-                           s.cascades.radius_round_m = 0.5;
-                           s.cascades.cover_band = true;
-                           s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
-                         },
-                         cascade_lines,
-                         cascade_limits,
-                         "crates/bevy_light/src/cascade.rs (f43b4a84)",
-                         CascadeBlendOf::end},
+          EngineCascades{.counts = {2, 3, 4},
+                         .fit = "the square of whole metres that is as wide as its slice's longest diagonal",
+                         .lay =
+                             [](Settings& s) {
+                               s.map.fit = MapFit::corner_square;
+                               s.cascades.radius_round_m = 0.5;
+                               s.cascades.cover_band = true;
+                               s.map.resolution =
+                                   static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
+                             },
+                         .lines = cascade_lines,
+                         .limits = cascade_limits,
+                         .source = "crates/bevy_light/src/cascade.rs (f43b4a84)",
+                         .blend_of = CascadeBlendOf::end},
           {},
           rust};
 }

@@ -207,30 +207,24 @@ Engine godot() {
           {},
           [](Settings& settings, const AdvicePlace&) { settings.map.pancake = true; },
           {},
-          EngineCascades{{2, 4},
-                         "the sphere about the mean of its slice's corners, and a texel on each side",
-                         [](Settings& s) {
-                           s.map.fit = MapFit::corner_sphere;
-                           s.map.pancake = true;
-                           s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
-                           s.map.extent_scale = s.map.resolution / std::max(1.0, s.map.resolution - 2.0);
-                         },
-                         cascade_lines,
-                         cascade_limits,
-                         "RendererSceneCull::_light_instance_setup_directional_shadow and "
-                         "LightStorage::get_directional_light_shadow_size",
-                         {},
-                         "but blend_splits, whose width is its own",
-                         "depth",
-                         {},
-                         {},
-                         nullptr,
-                         false,
-                         [](const AdvisedCascades& cascades) -> std::string {
-                           return cascades.count() == 2
-                                      ? "the texels of its two maps are oblong, and Noonmark's are square"
-                                      : "";
-                         }}};
+          EngineCascades{
+              .counts = {2, 4},
+              .fit = "the sphere about the mean of its slice's corners, and a texel on each side",
+              .lay =
+                  [](Settings& s) {
+                    s.map.fit = MapFit::corner_sphere;
+                    s.map.pancake = true;
+                    s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
+                    s.map.extent_scale = s.map.resolution / std::max(1.0, s.map.resolution - 2.0);
+                  },
+              .lines = cascade_lines,
+              .limits = cascade_limits,
+              .source = "RendererSceneCull::_light_instance_setup_directional_shadow and "
+                        "LightStorage::get_directional_light_shadow_size",
+              .other_blending = "but blend_splits, whose width is its own",
+              .unlike = [](const AdvisedCascades& cascades) -> std::string {
+                return cascades.count() == 2 ? "the texels of its two maps are oblong, and Noonmark's are square" : "";
+              }}};
 }
 
 }  // namespace noonmark

@@ -174,20 +174,20 @@ Engine unity_urp() {
           },
           {},
           EngineCascades{
-              {2, 3, 4},
-              "the least sphere around its slice",
-              [](Settings& s) {
-                s.map.fit = MapFit::sphere;
-                s.map.pancake = true;
-                s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
-              },
-              cascade_lines,
-              cascade_limits,
-              "Runtime/ShadowUtils.cs (b850b71a; GetMaxTileResolutionInAtlas), Runtime/UniversalRenderPipeline.cs "
-              "(mainLightShadowCascadesSplit) and ShaderLibrary/Shadows.hlsl (ComputeCascadeIndex)",
-              {},
-              {},
-              "sphere"}};
+              .counts = {2, 3, 4},
+              .fit = "the least sphere around its slice",
+              .lay =
+                  [](Settings& s) {
+                    s.map.fit = MapFit::sphere;
+                    s.map.pancake = true;
+                    s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
+                  },
+              .lines = cascade_lines,
+              .limits = cascade_limits,
+              .source =
+                  "Runtime/ShadowUtils.cs (b850b71a; GetMaxTileResolutionInAtlas), Runtime/UniversalRenderPipeline.cs "
+                  "(mainLightShadowCascadesSplit) and ShaderLibrary/Shadows.hlsl (ComputeCascadeIndex)",
+              .select = "sphere"}};
 }
 
 }  // namespace noonmark
