@@ -108,8 +108,8 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8, e9] = motion;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
-                                d20, d21, d22, d23, d24] = s.map;
-  [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12, i13] = s.cascades;
+                                d20, d21, d22, d23, d24, d25] = s.map;
+  [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12, i13, i14, i15] = s.cascades;
   [[maybe_unused]] const auto& [g1, g2] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
   // Unit, reference and plane_cap, and every parameter of a part.
@@ -121,8 +121,8 @@ TEST(SettingsTable, HasARowForEveryMember) {
                                               {"view", 11},
                                               {"motion", 9},
                                               {"light", 11},
-                                              {"map", 24},
-                                              {"cascades", 13},
+                                              {"map", 25},
+                                              {"cascades", 15},
                                               {"bias", bias},
                                               {"filter", filter},
                                               {"lookup", lookup},
