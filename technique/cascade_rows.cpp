@@ -28,6 +28,8 @@ std::function<std::string(const Settings&, LightKind)> without_split_that_reads(
 // What a point with several cascades cannot have.
 std::string cascades_with(const Settings& s, std::optional<LightKind> light) {
   if (s.cascades.count == 1) return "";
+  if (!light && s.light.kind != LightChoice::automatic)  // before the scene is loaded
+    light = static_cast<LightKind>(static_cast<int>(s.light.kind) - 1);
   if (light && !kind_of_light(*light).rays().have_one_direction())
     return fmt::format("cascades need a directional light, and this one is a {} light; set cascades.count = 1",
                        kind_of_light(*light).name());

@@ -50,25 +50,11 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers without a unit.
-  const std::set<std::string_view> pure = {"scene.plates", "scene.animation",
-                                           "map.placements",
-                                           "map.extent_scale",
-                                           "truth.standard_error",
-                                           "bias.polygon_factor",
-                                           "bias.polygon_units",
-                                           "view.up",
-                                           "motion.frame",
-                                           "motion.zoom",
-                                           "light.index",
-                                           "map.aspect",
-                                           "cascades.count",
-                                           "cascades.lambda",
-                                           "cascades.exponent",
-                                           "cascades.blend",
-                                           "cascades.bias_scales",
-                                           "lookup.level",
-                                           "lookup.exponent",
-                                           "lookup.negative_exponent"};
+  const std::set<std::string_view> pure = {
+      "scene.plates",        "scene.animation",      "map.placements", "map.extent_scale", "truth.standard_error",
+      "bias.polygon_factor", "bias.polygon_units",   "view.up",        "motion.frame",     "motion.zoom",
+      "light.index",         "map.aspect",           "cascades.count", "cascades.lambda",  "cascades.exponent",
+      "cascades.blend",      "cascades.bias_scales", "lookup.level",   "lookup.exponent",  "lookup.negative_exponent"};
   const std::set<std::string_view> units = {"s",      "px",        "m",     "deg",     "texels",  "taps",
                                             "frames", "bias.unit", "depth", "depth^2", "fraction"};
   std::set<std::string_view> names;
@@ -186,6 +172,15 @@ TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
       EXPECT_TRUE(contains(refusal(row, std::to_string(max + 1)), row.range_with_unit())) << row.name;
     }
   }
+}
+
+// Brackets are a TOML file's. The refusal says what to type.
+TEST(SettingsTable, SaysHowToWriteNumbersWithoutBrackets) {
+  EXPECT_TRUE(contains(refusal("cascades.bounds_m", "[10,20]"), "; write cascades.bounds_m = 10,20, without brackets"));
+  EXPECT_TRUE(contains(refusal("view.eye_m", "(0, 1, 2)"), "; write view.eye_m = 0, 1, 2, without brackets"));
+  for (const char* other : {"20,10", "[", "]10,20["})
+    EXPECT_FALSE(contains(refusal("cascades.bounds_m", other), "brackets")) << other;
+  EXPECT_FALSE(contains(refusal("map.resolution", "[64]"), "brackets")) << "it is one number";
 }
 
 // Of the junk below, what a list takes.
