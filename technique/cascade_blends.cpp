@@ -24,8 +24,7 @@ namespace noonmark {
 std::span<const CascadeBlend> cascade_blends() {
   static const std::vector<CascadeBlend> all = {
       {"linear", "evenly, as in Babylon.js, Bevy and three.js's CSM", in_double::linear_blend, in_bounds::linear_blend},
-      {"smooth", "by a smoothstep, as in three.js's SunLight", in_double::smooth_blend,
-       in_bounds::smooth_blend},
+      {"smooth", "by a smoothstep, as in three.js's SunLight", in_double::smooth_blend, in_bounds::smooth_blend},
   };
   return all;
 }

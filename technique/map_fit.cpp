@@ -10,6 +10,7 @@
 #include "scenes/view_clip.h"
 #include "technique/corner_fits.h"
 #include "technique/lights/shared.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
