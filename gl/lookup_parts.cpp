@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "gl/bias_text.h"
+#include "technique/cascade_blends.h"
 #include "technique/cascade_selections.h"
 
 namespace noonmark::gl {
@@ -13,8 +14,17 @@ std::string uniform(const KindRead<FilterSettings>& read) { return fmt::format("
 
 }  // namespace
 
-std::string cascade_file(const Technique& technique) {
-  return technique.cascade ? std::string(technique.cascade->selection->shader) : "shaders/cascade/single.glsl";
+ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique) {
+  if (!technique.cascade) return {{"cascade", "shaders/cascade/single.glsl"}};
+  const std::string_view shape = technique.cascade->shape->name;
+  const std::string blend = fmt::format("blend {}", shape);
+  programs.define(blend, fmt::format("#include \"technique/blends/{0}.glsl\"\n"
+                                     "float weight_of_next(float place, float blend) {{\n"
+                                     "  precise float way = way_into_band(place, blend);\n"
+                                     "  return {0}_blend(way);\n"
+                                     "}}\n",
+                                     shape));
+  return {{"cascade", std::string(technique.cascade->selection->shader)}, {"blend", blend}};
 }
 
 ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias) {
@@ -62,7 +72,7 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
     slots.merge(moment_slots(programs, technique));
     slots["filter"] = "moments";
     programs.define("moments", "#include <lookup>\n#include \"shaders/filter/moments.glsl\"\n");
-    slots["cascade"] = cascade_file(technique);
+    slots.merge(cascade_slots(programs, technique));
     return slots;
   }
   const Filter& filter = *technique.filter;
@@ -80,7 +90,7 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
 
   ShaderSlots slots = receiver_slots(programs, technique.frame, technique.bias);
   slots["filter"] = "filter " + name;
-  slots["cascade"] = cascade_file(technique);
+  slots.merge(cascade_slots(programs, technique));
   programs.define(slots["filter"], text);
   return slots;
 }

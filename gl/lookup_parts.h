@@ -20,7 +20,9 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
 //   Lookups lookups_of(vec3 position)         in which maps a receiver is looked up (shaders/cascade/lookups.glsl)
 ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
 
-std::string cascade_file(const Technique& technique);  // of <cascade>
+// <cascade>, and of cascades <blend>, a text that it defines in `programs`:
+//   float weight_of_next(float place, float blend)   technique/blends/<name>.glsl at a place of technique/cascade_place.glsl
+ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique);
 
 // The slot of the passes that make a map of moments, <lookup>: the formulas of technique.moments, as
 //   vec4 stored_moments(float depth)                 what a texel of this window depth stores

@@ -104,9 +104,8 @@ ChosenCascades Renderer::choose_cascades(const Technique& technique) {
   r.context->make_current();
   if (!technique.cascade) throw std::logic_error("choose_cascades: a technique without cascades");
   if (!r.position_image.texture) throw std::logic_error("load_receivers comes before choose_cascades");
-  ShaderSlots slots;
-  slots["cascade"] = cascade_file(technique);
-  Program& program = r.programs.get({"shaders/screen.vert", "shaders/choose_cascade.frag"}, slots);
+  Program& program =
+      r.programs.get({"shaders/screen.vert", "shaders/choose_cascade.frag"}, cascade_slots(r.programs, technique));
   set_cascade_uniforms(program, *technique.cascade);
   program.set_if_used("eye_m", r.eye_m);
   glBindTextureUnit(0, r.position_image.texture.id());

@@ -95,12 +95,15 @@ Flicker trace_flicker(const FlickerInput& in) {
   std::optional<Scene> moved;
   if (settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, next.scene);
   const Scene& scene = moved ? *moved : *in.loaded.scene;
-  const std::vector<Technique> next_techniques = cascades_of(scene, next);
+  const Camera camera = effective_camera(scene, next.view);
+  std::optional<ViewSlice> visible;  // in the next frame's picture
+  if (in.cascades && settings.cascades.depths == CascadeDepths::visible)
+    visible = visible_depths(next, in.stages.take_view(in.renderer, scene, next.view).receivers, camera);
+  const std::vector<Technique> next_techniques = cascades_of(scene, next, visible);
   const Technique& next_technique = next_techniques.front();
   const LightFrame& next_light = next_technique.frame;
 
   // The receivers that count.
-  const Camera camera = effective_camera(scene, next.view);
   const CameraFrame camera_frame = make_camera_frame(camera, width, height);
   const bool still = same_place(camera, in.view.camera);
   std::optional<raytrace::SeenReceivers> seen;

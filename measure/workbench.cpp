@@ -114,9 +114,10 @@ PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup
   Impl& b = *impl_;
   const Impl::Asked asked = b.begin(settings);
   const SceneStage& loaded = asked.loaded;
-  b.see(asked);
+  const ViewStage& seen = b.see(asked);
   b.forget_maps();  // there may be no memory for another map
-  std::vector<Technique> techniques = cascades_of(*loaded.scene, settings);
+  const std::optional<ViewSlice> visible = visible_depths(settings, seen.receivers, seen.camera);
+  std::vector<Technique> techniques = cascades_of(*loaded.scene, settings, visible);
   for (Technique& one : techniques)
     if (one.cascade) one.cascade->seam = 1;  // an engine looks up nothing for comparison
   PassTimes times;

@@ -83,8 +83,14 @@ PointRecord record_of(const Recorded& in) {
   const MeasureInput input{ladder, receivers, in.maps, occluders, t.moves_casters(), in.loaded.surfaces, in.of()};
   record.metrics = measure_ladder(input);
   record.metrics.insert(in.view.metrics.begin(), in.view.metrics.end());
+  const CameraFrame camera = make_camera_frame(in.view.camera, receivers.width(), receivers.height());
+  DepthSpan depths;
+  for (size_t i = 0; i < ladder.flags.size(); ++i)
+    if (is_counted(ladder, i)) depths.add(camera.in_axes(receivers.position[i]).z);
+  const bool any = depths.least_m <= depths.most_m;
+  record.metrics["nearest_receiver_m"] = any ? depths.least_m : not_a_number;
+  record.metrics["farthest_receiver_m"] = any ? depths.most_m : not_a_number;
   if (in.metrics == MetricSet::all) {
-    const CameraFrame camera = make_camera_frame(in.view.camera, receivers.width(), receivers.height());
     record.metrics["shaded_rmse"] = shaded_rmse(receivers, t.frame, camera, ladder.truth(), ladder.shown());
     record.metrics["flip"] = shaded_flip(receivers, t.frame, camera, ladder.truth(), ladder.shown());
     std::vector<const LightFrame*> frames;
@@ -343,7 +349,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Impl::Looked looked = b.look(asked);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  const auto all_techniques = std::make_shared<const std::vector<Technique>>(cascades_of(scene, settings));
+  const std::optional<ViewSlice> visible = visible_depths(settings, view.receivers, view.camera);
+  const auto all_techniques = std::make_shared<const std::vector<Technique>>(cascades_of(scene, settings, visible));
   const std::vector<Technique>& techniques = *all_techniques;
   const bool cascaded = techniques.size() > 1;
   KeptMaps& kept = b.of_maps(techniques.size());

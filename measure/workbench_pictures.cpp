@@ -19,8 +19,9 @@ constexpr size_t most_live_bytes = 2'000'000;
 // the bench remembers is replaced, because the next point has a picture of full size again.
 struct Workbench::Impl::SmallPicture {
   SmallPicture(Impl& bench, const SceneStage& loaded, const Settings& settings)
-      : techniques(cascades_of(*loaded.scene, settings)),
-        seen(bench.stages->take_view(bench.renderer, *loaded.scene, settings.view)),
+      : seen(bench.stages->take_view(bench.renderer, *loaded.scene, settings.view)),
+        visible(visible_depths(settings, seen.receivers, seen.camera)),
+        techniques(at(*loaded.scene, settings)),
         all(bench.stages->trace_truth(loaded, seen, techniques.front())) {
     bench.renderer.load_receivers(seen.receivers, seen.camera.eye_m);
     if (techniques.size() == 1) {
@@ -34,8 +35,13 @@ struct Workbench::Impl::SmallPicture {
     for (size_t k = 0; k < techniques.size(); ++k) scaled.push_back({techniques[k].frame, truths[k].receivers});
     scale = bias_scale(scaled, seen.receivers, settings.bias.unit);
   }
-  std::vector<Technique> techniques;
+  // Its maps with other settings of the same view.
+  std::vector<Technique> at(const Scene& scene, const Settings& settings) const {
+    return cascades_of(scene, settings, visible);
+  }
   ViewStage seen;
+  std::optional<ViewSlice> visible;  // of this picture's own pixels
+  std::vector<Technique> techniques;
   TruthStage all;
   std::optional<ChosenCascades> chosen;  // none with one map
   std::deque<TruthStage> truths;         // of each map; lookups refer to them
@@ -94,7 +100,7 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
     else
       at.lookup["reduction"] = value;
     const StageKeys keys(at);
-    const std::vector<Technique> techniques = cascades_of(*loaded.scene, at);
+    const std::vector<Technique> techniques = small.at(*loaded.scene, at);
     std::vector<const TruthStage*> truths;
     for (const TruthStage& truth : small.truths) truths.push_back(&truth);
     const ChosenCascades* const of_receivers = small.chosen ? &*small.chosen : nullptr;

@@ -25,8 +25,9 @@ real place_by_sphere(vec3 position, vec3 middle, real radius) {
   return place;
 }
 
-// The weight of the next cascade. blend: the part of the cascade in which it grows from 0 to 1.
-real weight_of_next(real place, real blend) {
+// How far a place lies in the band in which the next cascade is blended in: 0 where it begins, 1 where the cascade ends.
+// blend: the part of the cascade that the band is.
+real way_into_band(real place, real blend) {
   precise real way = (place - (real(1) - blend)) / blend;
   return clamp(way, real(0), real(1));
 }

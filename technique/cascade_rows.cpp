@@ -1,6 +1,7 @@
 // The rows of the settings of cascades (CascadeSettings), for the table in technique/settings.cpp.
 #include <algorithm>
 
+#include "technique/cascade_blends.h"
 #include "technique/cascade_selections.h"
 #include "technique/cascade_splits.h"
 #include "technique/light_kind.h"
@@ -27,6 +28,8 @@ std::function<std::string(const Settings&, LightKind)> without_split_that_reads(
 // What a point with several cascades cannot have.
 std::string cascades_with(const Settings& s, std::optional<LightKind> light) {
   if (s.cascades.count == 1) return "";
+  if (!light && s.light.kind != LightChoice::automatic)  // before the scene is loaded
+    light = static_cast<LightKind>(static_cast<int>(s.light.kind) - 1);
   if (light && !kind_of_light(*light).rays().have_one_direction())
     return fmt::format("cascades need a directional light, and this one is a {} light; set cascades.count = 1",
                        kind_of_light(*light).name());
@@ -49,6 +52,12 @@ std::string bounds_of_another_count(const Settings& s, std::optional<LightKind>)
       "cascades.splits = manual needs the ends of all cascades but the last: {} for cascades.count = {}, and "
       "cascades.bounds_m has {}",
       wanted, s.cascades.count, s.cascades.bounds_m.size());
+}
+
+std::string bounds_of_visible_depths(const Settings& s, std::optional<LightKind>) {
+  if (s.cascades.count == 1 || s.cascades.depths == CascadeDepths::planes || s.cascades.splits != "manual") return "";
+  return "cascades.depths = visible moves the ends of the slices with the picture, and cascades.splits = manual gives "
+         "them; set one of them";
 }
 
 std::string without_blend(const Settings& s, LightKind light) {
@@ -91,6 +100,14 @@ std::vector<Setting> cascade_rows() {
           "sphere, view or corner_*. What lies beyond the last slice is looked up in the last map.",
           MEMBER(count))
           .refused(cascades_with),
+      choice("cascades.depths", {"planes", "visible"},
+             "Between which depths the slices lie. planes: from the camera's near plane to map.reach_m or its far "
+             "plane; visible: from the nearest to the farthest surface that a pixel of the picture shows, and at most "
+             "to map.reach_m, as sample distribution shadow maps do (Lauritzen, Salvi, Lefohn 2011). Where all pixels "
+             "show one depth, as planes.",
+             MEMBER(depths))
+          .idle(without_cascades)
+          .refused(bounds_of_visible_depths),
       named("cascades.splits", "At which depths the slices end.", cascade_splits(), MEMBER(splits))
           .idle(without_cascades),
       real("cascades.lambda", "", 0, 1, "practical: 0 is even, 1 is logarithmic.", MEMBER(lambda))
@@ -111,20 +128,25 @@ std::vector<Setting> cascade_rows() {
           .idle(without_cascades)
           .refused(spheres_without_sphere),
       real("cascades.blend", "", 0, 0.5,
-           "The part of a cascade, before its end, in which the next one is blended in: its weight grows evenly from 0 "
-           "to 1. By "
+           "The part of a cascade, before its end, in which the next one is blended in: its weight grows from 0 to 1. "
+           "By "
            "cascades.select = map or sphere it is a part of the way from the middle to the edge. 0: none.",
            MEMBER(blend))
           .idle(without_cascades),
-      choice("cascades.blend_of", {"slice", "end"},
+      choice("cascades.blend_of", {"slice", "end", "square"},
              "cascades.select = depth: of what cascades.blend is a part. slice: of the depth of the slice, as in "
-             "Babylon.js; end: of the depth at which it ends, as in Bevy.",
+             "Babylon.js; end: of the depth at which it ends, as in Bevy; square: of the square of that depth over the "
+             "way from near to the reach, half of it before the end and half after it, as three.js's CSM fades "
+             "(cascades.blend = 0.25).",
              MEMBER(blend_of))
           .idle(without_blend_by_depth),
+      named("cascades.blend_shape", "How the weight of the next cascade grows over the band.", cascade_blends(),
+            MEMBER(blend_shape))
+          .idle(without_blend),
       flag("cascades.cover_band",
            "Whether the map of a cascade is fitted to the band too in which it is blended in. Without it, what the map "
-           "does "
-           "not hold there is wrong by its coverage.",
+           "does not hold there is wrong by its coverage. With cascades.blend_of = square and map.fit = corner_* the "
+           "square is wider by the band, as in three.js's CSM.",
            MEMBER(cover_band))
           .idle(without_blend),
       number_list(ValueType::whole_list, "cascades.resolutions", "texels", 1, 16384,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "technique/cascade_blends.h"
 #include "technique/formulas.h"
 #include "technique/technique.h"
 
@@ -86,9 +87,11 @@ const CascadeSelection& find_cascade_selection(std::string_view name) {
   throw std::logic_error("there is no cascade selection '" + std::string(name) + "'");
 }
 
-double weight_of_next(double place, float blend) {
-  return in_double::weight_of_next(place, static_cast<double>(blend));
+double weight_of_next(const CascadePlace& p, double place) {
+  return p.shape->in_double(in_double::way_into_band(place, static_cast<double>(p.blend)));
 }
-Bounded weight_of_next(Bounded place, float blend) { return in_bounds::weight_of_next(place, exact(blend)); }
+Bounded weight_of_next(const CascadePlace& p, Bounded place) {
+  return p.shape->in_bounds(in_bounds::way_into_band(place, exact(p.blend)));
+}
 
 }  // namespace noonmark

@@ -29,8 +29,8 @@ std::span<const CascadeSelection> cascade_selections();
 // Throws std::logic_error if no row has that name.
 const CascadeSelection& find_cascade_selection(std::string_view name);
 
-// The weight of the next cascade at a place, with the bound of the shader's error. blend: above 0.
-double weight_of_next(double place, float blend);
-Bounded weight_of_next(Bounded place, float blend);
+// The weight of the next cascade at a place, with the bound of the shader's error. Of a CascadePlace that blends.
+double weight_of_next(const CascadePlace&, double place);
+Bounded weight_of_next(const CascadePlace&, Bounded place);
 
 }  // namespace noonmark

@@ -9,6 +9,7 @@
 
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
+#include "technique/cascade_blends.h"
 #include "technique/cascade_selections.h"
 #include "technique/cascade_splits.h"
 #include "technique/map_fit.h"
@@ -23,9 +24,23 @@ CameraFrame camera_of(const Scene& scene, const Settings& settings) {
 
 }  // namespace
 
-std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings) {
+std::optional<ViewSlice> visible_depths(const Settings& settings, const ReceiverImage& receivers,
+                                        const Camera& camera) {
+  if (settings.cascades.count == 1 || settings.cascades.depths == CascadeDepths::planes) return std::nullopt;
+  const CameraFrame frame = make_camera_frame(camera, receivers.width(), receivers.height());
+  DepthSpan seen;
+  for (size_t i = 0; i < receivers.primitive.size(); ++i)
+    if (receivers.primitive[i] != no_primitive) seen.add(frame.in_axes(receivers.position[i]).z);
+  seen.most_m = std::min(seen.most_m, settings.map.reach_m.value_or(seen.most_m));
+  if (!(seen.least_m < seen.most_m)) return std::nullopt;
+  return ViewSlice{seen.least_m, seen.most_m};
+}
+
+std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings,
+                                   const std::optional<ViewSlice>& visible) {
   const CameraFrame camera = camera_of(scene, settings);
-  const double near_m = *camera.camera.near_m, far_m = settings.map.reach_m.value_or(*camera.camera.far_m);
+  const double near_m = visible ? visible->begin_m : *camera.camera.near_m,
+               far_m = visible ? visible->end_m : settings.map.reach_m.value_or(*camera.camera.far_m);
   const CascadeSplit& split = find_cascade_split(settings.cascades.splits);
   if (!(near_m > 0 && near_m < far_m))
     throw SettingConflict(
@@ -41,12 +56,15 @@ std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings)
     if (!(end > begin))
       throw SettingConflict(
           "cascades.splits",
-          fmt::format(
-              "cascades.splits = {} lets cascades end at {:.6g} m; the ends must ascend between {:.6g} m, the camera's "
-              "near plane, and {:.6g} m, {}{}",
-              split.name, fmt::join(ends, " m, "), near_m, far_m,
-              settings.map.reach_m ? "map.reach_m" : "the camera's far plane",
-              split.reads.empty() ? "" : fmt::format("; change {}", split.reads.front())));
+          fmt::format("cascades.splits = {} lets cascades end at {:.6g} m; the ends must ascend between {:.6g} m, {}, "
+                      "and {:.6g} "
+                      "m, {}{}",
+                      split.name, fmt::join(ends, " m, "), near_m,
+                      visible ? "the nearest surface in the picture" : "the camera's near plane", far_m,
+                      visible                ? "the farthest one that counts"
+                      : settings.map.reach_m ? "map.reach_m"
+                                             : "the camera's far plane",
+                      split.reads.empty() ? "" : fmt::format("; change {}", split.reads.front())));
     slices.push_back({begin, end});
     begin = end;
   }
@@ -60,9 +78,27 @@ double band_from(const ViewSlice& slice, const CascadeSettings& settings) {
   return settings.blend_of == CascadeBlendOf::end ? 0 : slice.begin_m;
 }
 
-// Where the band begins in which the next cascade is blended in.
-double band_begin(const ViewSlice& slice, const CascadeSettings& settings) {
-  return slice.end_m - settings.blend * (slice.end_m - band_from(slice, settings));
+// Between which depths the next cascade is blended in.
+struct Band {
+  double begin_m = 0, end_m = 0;
+  double width_m() const { return end_m - begin_m; }
+};
+// whole: all slices, of which this is one.
+Band band_of(const ViewSlice& slice, std::span<const ViewSlice> whole, const CascadeSettings& settings) {
+  const double end = slice.end_m;
+  if (settings.blend_of != CascadeBlendOf::square)
+    return {end - settings.blend * (end - band_from(slice, settings)), end};
+  // CSM.js and CSMShader.js of three.js, but that their far and their way from near to far are of one size.
+  const double half = settings.blend * end * end / (whole.back().end_m - whole.front().begin_m) / 2;
+  return {end - half, end + half};
+}
+
+// Where the place by depth is 0 and 1: the cascade is left where the band ends, of which cascades.blend is the last part.
+glm::vec2 places_by_depth(const ViewSlice& slice, std::span<const ViewSlice> whole, const CascadeSettings& settings) {
+  if (settings.blend_of != CascadeBlendOf::square || settings.blend == 0)
+    return {band_from(slice, settings), slice.end_m};
+  const Band band = band_of(slice, whole, settings);
+  return {band.end_m - band.width_m() / settings.blend, band.end_m};
 }
 
 int resolution_of(const Settings& settings, size_t cascade) {
@@ -88,22 +124,33 @@ void add_volume(CascadePlace& place, const Technique& cascade) {
 
 }  // namespace
 
-std::vector<ViewSlice> fitted_slices(const Scene& scene, const Settings& settings) {
-  const std::vector<ViewSlice> slices = view_slices(scene, settings);
+std::vector<ViewSlice> fitted_slices(const Scene& scene, const Settings& settings,
+                                     const std::optional<ViewSlice>& visible) {
+  const std::vector<ViewSlice> slices = view_slices(scene, settings, visible);
   std::vector<ViewSlice> fitted = slices;
-  for (size_t k = 1; k < slices.size() && settings.cascades.cover_band; ++k)
-    fitted[k].begin_m = band_begin(slices[k - 1], settings.cascades);
+  if (!settings.cascades.cover_band) return fitted;
+  const bool wider = settings.cascades.blend_of == CascadeBlendOf::square && fits_corners(settings.map.fit);
+  for (size_t k = 0; k < slices.size(); ++k) {
+    if (wider) {
+      fitted[k].wider_m = band_of(slices[k], slices, settings.cascades).width_m();
+      continue;
+    }
+    if (k > 0) fitted[k].begin_m = band_of(slices[k - 1], slices, settings.cascades).begin_m;
+    if (k + 1 < slices.size()) fitted[k].end_m = band_of(slices[k], slices, settings.cascades).end_m;
+  }
   return fitted;
 }
 
-std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings) {
+std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings,
+                                   const std::optional<ViewSlice>& visible) {
   Technique whole(scene, settings);
   if (settings.cascades.count == 1) return {whole};
   CascadePlace place;
-  place.slices = view_slices(scene, settings);
-  const std::vector<ViewSlice> fitted_to = fitted_slices(scene, settings);
+  place.slices = view_slices(scene, settings, visible);
+  const std::vector<ViewSlice> fitted_to = fitted_slices(scene, settings, visible);
   place.selection = &find_cascade_selection(settings.cascades.select);
   place.blend = static_cast<float>(settings.cascades.blend);
+  place.shape = &find_cascade_blend(settings.cascades.blend_shape);
   place.seam = seam_from;
   place.view_forward = glm::vec3(camera_of(scene, settings).forward);
   std::vector<Technique> cascades;
@@ -116,8 +163,7 @@ std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings)
     if (!settings.cascades.bias_scales.empty()) one.frame.bias_scale = settings.cascades.bias_scales[k];
     cascades.push_back(std::move(one));
     if (k + 1 == place.slices.size()) break;
-    const ViewSlice& slice = place.slices[k];
-    place.depths.emplace_back(band_from(slice, settings.cascades), slice.end_m);
+    place.depths.push_back(places_by_depth(place.slices[k], place.slices, settings.cascades));
     if (settings.cascades.select == "sphere") {
       const FittedSphere sphere = sphere_of_slice(scene, settings, fitted);
       place.middles.emplace_back(sphere.middle_m);
@@ -138,7 +184,7 @@ std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings)
 CascadeChoice choose_cascade(const CascadePlace& place, glm::dvec3 eye_m, glm::dvec3 world) {
   for (int k = 0; k < place.last(); ++k) {
     const double at = place.selection->place_in_double(place, k, eye_m, world);
-    if (at <= 1) return {k, place.blend > 0 ? weight_of_next(at, place.blend) : 0};
+    if (at <= 1) return {k, place.blend > 0 ? weight_of_next(place, at) : 0};
   }
   return {place.last(), 0};
 }
@@ -181,7 +227,7 @@ double choice_excess(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 posi
   if (made.cascade == exact.cascade) {
     if (made.next == exact.next) return 0;
     const Bounded at = place.selection->place_in_bounds(place, made.cascade, eye_m, position);
-    return std::abs(made.next - exact.next) / weight_of_next(at, place.blend).error;
+    return std::abs(made.next - exact.next) / weight_of_next(place, at).error;
   }
   if (made.cascade < exact.cascade) return wrong_side(made.cascade);
   // It left out the one that holds the point, and all between.

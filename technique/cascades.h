@@ -5,28 +5,48 @@
 //   cascades[2].frame; cascades[2].cascade->slices[2].end_m;
 //   int k = cascade_at(*cascades[0].cascade, eye_m, P);
 #pragma once
+#include <algorithm>
 #include <glm/glm.hpp>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/image.h"
+#include "scenes/receivers.h"
 #include "scenes/scene.h"
 #include "technique/technique.h"
 
 namespace noonmark {
 
-// The slices of the view from the camera's near plane to map.reach_m, or to its far plane without one; the last is open
-// towards the back in cascade_at(). Throws SettingConflict if the bounds of the settings do not ascend between the two, and
-// Error(usage) as effective_camera() does.
-std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings);
+// The least and the greatest of some depths along a view.
+struct DepthSpan {
+  double least_m = std::numeric_limits<double>::infinity(), most_m = -std::numeric_limits<double>::infinity();
+  void add(double depth_m) {
+    least_m = std::min(least_m, depth_m);
+    most_m = std::max(most_m, depth_m);
+  }
+};
 
-// The slices that the maps are fitted to: with cascades.cover_band each also holds the band in which it is blended in. Throws
-// as view_slices().
-std::vector<ViewSlice> fitted_slices(const Scene& scene, const Settings& settings);
+// With cascades.depths = visible: from the nearest to the farthest of the picture's receivers, or to map.reach_m if that is
+// nearer. Nothing with planes, and where no two depths are left. camera: of the picture.
+std::optional<ViewSlice> visible_depths(const Settings& settings, const ReceiverImage& receivers, const Camera& camera);
+
+// The slices of the view from the camera's near plane to map.reach_m, or to its far plane without one; the last is open
+// towards the back in cascade_at(). visible: they lie between its depths instead (visible_depths()). Throws
+// SettingConflict if the bounds of the settings do not ascend between the two, and Error(usage) as effective_camera() does.
+std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings,
+                                   const std::optional<ViewSlice>& visible = {});
+
+// The slices that the maps are fitted to: with cascades.cover_band each also holds the bands that it has a part in. Throws as
+// view_slices().
+std::vector<ViewSlice> fitted_slices(const Scene& scene, const Settings& settings,
+                                     const std::optional<ViewSlice>& visible = {});
 
 // The techniques of the cascades, near ones first: the settings with the frame of each. With cascades.count = 1 the
 // technique of the settings alone. All frames have the light's position as origin. With cascades.cover_band the frame of a
-// cascade also holds the band in which it is blended in. Throws as Technique() and view_slices().
-std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings);
+// cascade also holds the bands that it has a part in. Throws as Technique() and view_slices().
+std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings,
+                                   const std::optional<ViewSlice>& visible = {});
 
 // The cascade that a point is looked up in, and the weight of the one after it, which is above 0 in the blend band.
 struct CascadeChoice {

@@ -260,6 +260,11 @@ namespace {
 // Law 33 wants one extent in every frame.
 std::string moving_splits_note(const Scene& scene, const Settings& settings) {
   if (settings.cascades.count == 1 || !settings.view.motion.any() || !settings.map.snap) return "";
+  if (settings.cascades.depths == CascadeDepths::visible)
+    return "cascades.depths = visible: the slices reach from the nearest to the farthest surface of each frame's "
+           "picture, "
+           "so their maps' sizes change from frame to frame, and their texels flicker although map.snap is set; set "
+           "cascades.depths = planes, or a cascades.radius_round_m";
   std::vector<std::string> open;
   if (!settings.view.near_m && !scene.camera.near_m) open.emplace_back("view.near_m");
   if (!settings.map.reach_m && !settings.view.far_m && !scene.camera.far_m) open.emplace_back("map.reach_m");
@@ -272,7 +277,9 @@ std::string moving_splits_note(const Scene& scene, const Settings& settings) {
 
 // map.fit = view has nothing to fit the map to where a slice holds no part of the scene.
 std::string empty_slices_note(const Scene& scene, const Settings& settings) {
-  if (settings.cascades.count == 1 || settings.map.fit != MapFit::view) return "";
+  if (settings.cascades.count == 1 || settings.map.fit != MapFit::view ||
+      settings.cascades.depths == CascadeDepths::visible)  // which nothing but the picture knows
+    return "";
   const Light light = effective_light(scene, settings);
   const LightFrame axes = kind_of_light(light.kind).axes(light);
   const std::vector<ViewSlice> slices = fitted_slices(scene, settings);

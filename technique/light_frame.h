@@ -164,6 +164,7 @@ Light effective_light(const Scene& scene, const Settings& settings);
 // A part of the view, by the depth along the view's direction, in metres.
 struct ViewSlice {
   double begin_m = 0, end_m = 0;
+  double wider_m = 0;  // map.fit = corner_*: so much wider is the map than the square of the slice
 };
 
 // slice: the part of the view that the map is for, which map.fit = view and sphere read; null: all of it. Throws

@@ -10,6 +10,7 @@
 #include "scenes/view_clip.h"
 #include "technique/corner_fits.h"
 #include "technique/lights/shared.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -107,6 +108,14 @@ double diagonal_of(const Scene& scene) {
   return scene.positions.empty() ? 1 : glm::length(box.high - box.low);
 }
 
+// The camera whose frustum is fitted to, where that must not depend on its zoom.
+CameraFrame camera_to_fit(const Scene& scene, const Settings& settings) {
+  const ViewSettings& view = settings.view;
+  Camera camera = effective_camera(scene, view);
+  camera.fov_y_deg = std::max(camera.fov_y_deg, settings.map.fit_fov_deg.value_or(0));
+  return make_camera_frame(camera, view.width_px, view.height_px);
+}
+
 struct Sphere {
   double along = 0;  // of its middle, from the eye
   double radius = 0;
@@ -129,8 +138,7 @@ Sphere sphere_of_frustum(const CameraFrame& camera, double begin, double end) {
 }  // namespace
 
 FittedSphere sphere_of_slice(const Scene& scene, const Settings& settings, const ViewSlice& slice) {
-  const ViewSettings& view = settings.view;
-  const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
+  const CameraFrame camera = camera_to_fit(scene, settings);
   Sphere sphere = sphere_of_frustum(camera, slice.begin_m, slice.end_m);
   if (const double step = settings.cascades.radius_round_m; step > 0)
     sphere.radius = step * std::ceil(sphere.radius / step);
@@ -167,13 +175,13 @@ Depths depths_of_box(const Scene& scene, const LightFrame& axes) {
 }  // namespace
 
 FittedMap fit_to_corners(const Scene& scene, const Settings& settings, const LightFrame& axes, const ViewSlice* slice) {
-  const ViewSettings& view = settings.view;
-  const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
+  const CameraFrame camera = camera_to_fit(scene, settings);
   const ViewSlice whole{*camera.camera.near_m, settings.map.reach_m.value_or(*camera.camera.far_m)};
   const CornerSquare square =
       find_corner_fit(settings.map.fit)
           ->around(corners_of_slice(camera, slice ? *slice : whole, axes), settings.cascades.radius_round_m);
-  const glm::dvec2 half = lights::area_around(glm::dvec2(square.half_m), 0, settings.map);
+  const double half_m = square.half_m + (slice ? slice->wider_m / 2 : 0);
+  const glm::dvec2 half = lights::area_around(glm::dvec2(half_m), 0, settings.map);
   const Depths all = depths_of_box(scene, axes);
   const double before = settings.map.keeps_clipped()
                             ? std::max(square.low_m, all.least)

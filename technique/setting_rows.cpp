@@ -10,11 +10,24 @@
 
 namespace noonmark::setting_rows {
 
+namespace {
+
+// Numbers in brackets, as a TOML file has them: what to type instead.
+std::string without_brackets(const Setting& row, std::string_view text) {
+  if (row.type != ValueType::point && !row.is_of_numbers()) return "";
+  if (text.size() < 2 || !(text.front() == '[' || text.front() == '(') || !(text.back() == ']' || text.back() == ')'))
+    return "";
+  return fmt::format("; write {} = {}, without brackets", row.name, text.substr(1, text.size() - 2));
+}
+
+}  // namespace
+
 [[noreturn]] void refuse(const Setting& row, std::string_view text) {
   constexpr std::string_view flags[] = {"true", "false"};
   const std::span<const std::string_view> choices = row.type == ValueType::flag ? flags : std::span(row.choices);
-  throw Error(ErrorKind::usage, fmt::format("{} = '{}' is not allowed; it takes {}{}", row.name, text,
-                                            row.range_with_unit(), did_you_mean(text, choices)));
+  throw Error(ErrorKind::usage,
+              fmt::format("{} = '{}' is not allowed; it takes {}{}{}", row.name, text, row.range_with_unit(),
+                          did_you_mean(text, choices), without_brackets(row, text)));
 }
 
 std::string number_text(double value) { return fmt::format("{}", value == 0 ? 0.0 : value); }

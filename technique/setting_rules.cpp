@@ -140,6 +140,10 @@ std::string sun_of_elevation(const Settings& s, std::optional<LightKind> light) 
 }
 std::string moved_fit_without_parallel_rays(const Settings& s, std::optional<LightKind> light) {
   if (!moves_map(s.map.fit) || !light || kind_of_light(*light).rays().have_one_direction()) return "";
+  if (s.cascades.count > 1)  // which ask for such a fit
+    return fmt::format(
+        "cascades need a directional light, and this one is a {} light; set cascades.count = 1 and map.fit = tight",
+        kind_of_light(*light).name());
   return fmt::format("map.fit = {} needs a directional light, and this one is a {} light; take map.fit = tight",
                      find_setting("map.fit").get(s), kind_of_light(*light).name());
 }

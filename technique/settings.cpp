@@ -294,6 +294,13 @@ std::vector<Setting> make_table() {
            "ends; auto: the camera's far plane.",
            MEMBER(map.reach_m))
           .idle(without_reach),
+      real(
+          "map.fit_fov_deg", "deg", 1, 170,
+          "map.fit = sphere, corner_*: the map is fitted to a picture of at least this vertical angle, in place of the "
+          "camera's own where that is narrower. With the widest angle that a camera has, its zoom changes no size, and "
+          "a snapped map does not flicker; auto: the camera's own.",
+          MEMBER(map.fit_fov_deg))
+          .idle(without_slice_fit),
       choice("map.depth_range", {"fit", "scene"},
              "directional: what near and far are if they are auto. fit: by map.fit; scene: those of the whole scene, "
              "whatever the camera sees, so that depths are rounded alike in every frame.",

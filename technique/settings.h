@@ -74,6 +74,7 @@ struct MapSettings {
   MapFit fit = MapFit::scene;  // the source of empty extent, near and far: the scene's own values, or a fit
   std::optional<double>
       reach_m;  // sphere, corner_*: how far from the camera there are shadows; empty: the scene's diagonal
+  std::optional<double> fit_fov_deg;  // sphere, corner_*: fitted to a picture of at least this vertical angle
   DepthRange depth_range =
       DepthRange::fit;                 // directional: empty near and far are those of `fit`, or of the whole scene
   std::optional<double> extent_m;      // directional: whole width; empty: from `fit`
@@ -103,8 +104,11 @@ struct MapSettings {
 };
 
 // Cascades: the map of a directional light as several maps, each for a slice of the view's depth (technique/cascades.h).
-// Of what cascades.blend is a share: of the slice's depth, or of the depth of its end.
-enum class CascadeBlendOf { slice, end };
+// Of what cascades.blend is a share: of the slice's depth, of the depth of its end, or of that depth's square over the way
+// from near to the reach.
+enum class CascadeBlendOf { slice, end, square };
+// Between which depths the slices lie: the camera's planes, or what the picture's pixels show.
+enum class CascadeDepths { planes, visible };
 
 struct CascadeSettings {
   int count = 1;                     // 1: one map for all of the view
@@ -116,6 +120,8 @@ struct CascadeSettings {
   std::string select = "depth";      // the name of one of cascade_selections() (technique/cascade_selections.h)
   double blend = 0;                  // the part of a cascade in which the next one is blended in
   CascadeBlendOf blend_of = CascadeBlendOf::slice;
+  std::string blend_shape = "linear";  // the name of one of cascade_blends() (technique/cascade_blends.h)
+  CascadeDepths depths = CascadeDepths::planes;
   bool cover_band = true;           // the next cascade's map holds that part too
   std::vector<double> resolutions;  // whole texels, one number for each cascade; empty: map.resolution
   std::vector<double> bias_scales;  // of the compared depth\'s bias, one number for each cascade; empty: all 1

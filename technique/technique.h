@@ -16,6 +16,7 @@
 
 namespace noonmark {
 
+struct CascadeBlend;
 struct CascadeSelection;
 
 // A cascade's place among the others: what the lookup chooses by, as floats, because the shader has them so.
@@ -24,7 +25,8 @@ struct CascadePlace {
   std::vector<ViewSlice> slices;                // of all cascades
   const CascadeSelection* selection = nullptr;  // never null in a technique
   float blend = 0;  // the part of a cascade, before its end, in which the next one is blended in; 0: none
-  float seam = 1;   // from this place in a cascade on, the next one is looked up too, for comparison
+  const CascadeBlend* shape = nullptr;  // of the weight in the band; never null in a technique
+  float seam = 1;  // from this place in a cascade on, the next one is looked up too, for comparison
   glm::vec3 view_forward{0, 0, -1};
   glm::mat3 light_axes{1};  // right, up and forward
   // Of all cascades but the last. The selection reads some of them (technique/cascade_place.glsl).

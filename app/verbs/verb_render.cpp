@@ -92,8 +92,9 @@ void print_fitted_map(const Measurement& m) {
 // The table of the cascades, and which of them the error comes from.
 void print_cascades(const Measurement& m) {
   if (m.record.cascades.empty()) return;
-  fmt::print("\n  {:<10}{:>19}{:>11}{:>11}{:>12}{:>10}{:>10}{:>28}{:>28}\n", "cascade", "depth", "texel", "receivers",
-             "error", "of all", "seam", "bias needed", "bias set");
+  fmt::print("\n  {:<10}{:>19}{:>11}{:>11}{:>12}{:>10}{:>10}{:>28}{:>28}\n", "cascade",
+             cascades_by_depth(m.record) ? "depth" : "receivers from", "texel", "receivers", "error", "of all", "seam",
+             "bias needed", "bias set");
   const auto share = [](const std::optional<double>& value, int digits) {
     return value ? quantity_text(*value, "fraction", digits) : "-";
   };

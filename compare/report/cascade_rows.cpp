@@ -90,6 +90,11 @@ bool cascade_bias_unit_varies(const PointRecord& point) {
   return part && part->unit == "bias.unit" && setting_of(point, "bias.unit") != "m";
 }
 
+bool cascades_by_depth(const PointRecord& point) {
+  const std::string select = setting_of(point, "cascades.select");
+  return select.empty() || select == "depth";
+}
+
 std::vector<CascadeRow> cascade_rows_of(const PointRecord& point) {
   std::vector<CascadeRow> rows;
   const double all = whole_error(point);
@@ -98,8 +103,9 @@ std::vector<CascadeRow> cascade_rows_of(const PointRecord& point) {
   for (const Cascade& cascade : point.cascades) {
     CascadeRow row;
     row.number = static_cast<int>(rows.size()) + 1;
-    row.begin_m = cascade.begin_m;
-    row.end_m = cascade.end_m;
+    const bool of_slice = cascades_by_depth(point);
+    row.begin_m = of_slice ? cascade.begin_m : cascade.metrics.at("nearest_receiver_m");
+    row.end_m = of_slice ? cascade.end_m : cascade.metrics.at("farthest_receiver_m");
     row.texel_m = cascade.metrics.at("texel_m");
     row.receivers = cascade.metrics.at("counted");
     if (row.receivers > 0) row.error = cascade.metrics.at("error");
@@ -119,6 +125,7 @@ std::vector<CascadeRow> cascade_rows_of(const PointRecord& point) {
 }
 
 std::string cascade_depths_text(const CascadeRow& row) {
+  if (!std::isfinite(row.begin_m)) return "-";
   return fmt::format("{:.3g} to {:.3g} m", row.begin_m, row.end_m);
 }
 
@@ -138,8 +145,9 @@ std::string worst_cascade(const PointRecord& point) {
   if (worst == rows.end() || !worst->share) return "";
   const LargestCause cause = largest_cause(point.cascades[static_cast<size_t>(worst - rows.begin())]);
   std::string text = fmt::format(
-      "Cascade {} ({}, texel {:.2g} m) holds {:.0f}% of the error{}.", worst->number, cascade_depths_text(*worst),
-      worst->texel_m, 100 * *worst->share,
+      "Cascade {} ({}{}, texel {:.2g} m) holds {:.0f}% of the error{}.", worst->number,
+      cascades_by_depth(point) ? "" : "receivers from ", cascade_depths_text(*worst), worst->texel_m,
+      100 * *worst->share,
       cause.size > 0 ? fmt::format("; its largest cause: {}, {:.0f}%", cause.label, 100 * cause.of_all) : "");
   if (worst->needed && *worst->set < *worst->needed)
     text += fmt::format(" Its {} is {} where {} is needed against acne.", point.curve->parameter,

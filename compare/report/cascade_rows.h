@@ -14,8 +14,10 @@
 namespace noonmark {
 
 struct CascadeRow {
-  int number = 1;                 // from 1, the nearest
-  double begin_m = 0, end_m = 0;  // depths along the view
+  int number = 1;  // from 1, the nearest
+  // Depths along the view: of the slice, or where cascades are not chosen by it (cascades_by_depth()), of the nearest and the
+  // farthest counted receiver, which are not finite without one.
+  double begin_m = 0, end_m = 0;
   double texel_m = 0;
   double receivers = 0;         // that are counted
   std::optional<double> error;  // mean |R5 - R1| over its own receivers, a fraction; empty without any
@@ -29,6 +31,10 @@ struct CascadeRow {
   double m_per_unit = 1;  // metres along the light; 1 where the unit is no length
 };
 
+// Whether the cascade of a receiver is that of its depth. Otherwise a cascade's slice says what its map is fitted to, and not
+// what is looked up in it.
+bool cascades_by_depth(const PointRecord& point);
+
 // Empty for a point with one map.
 std::vector<CascadeRow> cascade_rows_of(const PointRecord& point);
 
@@ -37,7 +43,7 @@ std::string cascade_bias_unit(const PointRecord& point);
 // Whether that unit has another length in each cascade: texels and depth have.
 bool cascade_bias_unit_varies(const PointRecord& point);
 
-// As in a sentence: "28 to 80 m"; "2.22 texels = 0.0539 m", "0", and "-" for an amount that is empty.
+// As in a sentence: "28 to 80 m", and "-" without a receiver; "2.22 texels = 0.0539 m", "0", and "-" for an amount that is empty.
 std::string cascade_depths_text(const CascadeRow& row);
 std::string cascade_bias_text(const PointRecord& point, const CascadeRow& row, const std::optional<double>& amount);
 

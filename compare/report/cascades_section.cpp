@@ -1,6 +1,7 @@
 #include "compare/report/cascades_section.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,9 +24,11 @@ Markup table_of(const PointRecord& point) {
     if (varies) cells += td(amount ? number(*amount * m_per_unit) : "-");
     return cells;
   };
+  const auto depth = [](double m) { return std::isfinite(m) ? number(m) : "-"; };
+  const bool by_depth = cascades_by_depth(point);
   Markup rows;
   for (const CascadeRow& row : cascade_rows_of(point))
-    rows += tr(row_head(std::to_string(row.number)), td(number(row.begin_m)), td(number(row.end_m)),
+    rows += tr(row_head(std::to_string(row.number)), td(depth(row.begin_m)), td(depth(row.end_m)),
                td(number(row.texel_m)), td(cell(row.receivers, "count")), td(share(row.error)), td(share(row.share)),
                td(css("text"), row.cause.empty() ? "-" : std::string(row.cause)), td(share(row.seam)),
                amounts(row.needed, row.m_per_unit), amounts(row.set, row.m_per_unit));
@@ -34,10 +37,11 @@ Markup table_of(const PointRecord& point) {
     if (varies) heads += th(with_small(name, "m"));
     return heads;
   };
-  const Markup head = th("Cascade") + th(with_small("From", "m")) + th(with_small("To", "m")) +
-                      th(with_small("Texel", "m")) + th("Receivers") + th(with_small("Error", "%")) +
-                      th(with_small("Of all error", "%")) + th(css("text"), "Largest cause") +
-                      th(with_small("Seam", "%")) + bias("Bias needed") + bias("Bias set");
+  const Markup head = th("Cascade") + th(with_small(by_depth ? "From" : "Receivers from", "m")) +
+                      th(with_small("To", "m")) + th(with_small("Texel", "m")) + th("Receivers") +
+                      th(with_small("Error", "%")) + th(with_small("Of all error", "%")) +
+                      th(css("text"), "Largest cause") + th(with_small("Seam", "%")) + bias("Bias needed") +
+                      bias("Bias set");
   return div(css("scroll"), table("numbers", head, rows)) + "\n";
 }
 
@@ -70,9 +74,9 @@ Markup cascades_section(const Results& results) {
       "and "
       "the share is of the whole picture's error. Seam is how far the picture would jump if the receivers in its last "
       "4% were looked up in the next cascade. The bias "
-      "that it needs is the least one without acne. Elsewhere on "
-      "this "
-      "page, a bias in another unit than bias.unit is that at the median receiver: depth and texels differ between "
+      "that it needs is the least one without acne. From and to are the depths of the slice; where cascades.select is "
+      "not depth, they are those of the receivers that are looked up in the cascade. Elsewhere on this page, a bias in "
+      "another unit than bias.unit is that at the median receiver: depth and texels differ between "
       "cascades.");
   for (const PointRecord* point : points) {
     std::string phrase = settings_phrase(*point, results.info.swept);

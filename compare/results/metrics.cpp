@@ -120,6 +120,12 @@ constexpr Metric measured_with_causes[] = {
      "w: the width of a texel in the world. Under a spot or point light it grows with the distance; this is its value "
      "at the median counted receiver.",
      false},
+    {"nearest_receiver_m", "m",
+     "Depth along the view of the nearest counted receiver. Of a cascade: of the nearest that is looked up in it, "
+     "wherever "
+     "its slice begins.",
+     false},
+    {"farthest_receiver_m", "m", "Depth along the view of the farthest counted receiver, likewise.", false},
     {"map_range_m", "m", "Distance from the map's near plane to its far plane, along the light.", false},
     {"depth_quantum_m", "m",
      "q: one step of the map's depth format, along the light. Of 32f it is the largest step in [0,1], 2^-24 of the "

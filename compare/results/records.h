@@ -133,6 +133,8 @@ inline constexpr const char* cascade_metrics[] = {"facing",
                                                   "precision",
                                                   "texel_m",
                                                   "map_range_m",
+                                                  "nearest_receiver_m",
+                                                  "farthest_receiver_m",
                                                   "acne_free_bias_law_m",
                                                   "edge_displacement_texels",
                                                   "seam_points",
@@ -149,8 +151,9 @@ struct PointRecord : PointPictures {
   // Of a map of moments, over lookup.reduction, by ascending values; empty: none was asked for.
   std::vector<LookupCurvePoint> lookup_curve;
   std::optional<CauseBounds> lookup_bounds;  // of its usable window, the metrics reduction_min and reduction_max
-  std::vector<LookupCurvePoint> over_curve;  // the same over the setting of CurveOptions::over; empty: none was asked for
-  std::vector<RungCause> causes;               // the causes that rungs on top of R5 brought, in the order of the rungs
+  std::vector<LookupCurvePoint>
+      over_curve;                 // the same over the setting of CurveOptions::over; empty: none was asked for
+  std::vector<RungCause> causes;  // the causes that rungs on top of R5 brought, in the order of the rungs
   struct Worst {
     int x = -1, y = -1;
     double error = 0;

@@ -10,7 +10,7 @@ constexpr int store_application_id = 0x4e6e4d6b;
 // Counts the changes of the tables below. A store of another version is refused. A store whose schema differs for
 // another reason is refused too: it was edited, or another build has other settings or metrics in the view `points`
 // (compare/store/check.h).
-constexpr int store_version = 21;
+constexpr int store_version = 22;
 
 // Points that the present experiment does not have keep their rows, under ids from here on (ResultStore::replace).
 constexpr int64_t first_aside = 1'000'000'000'000;

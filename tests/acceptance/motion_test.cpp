@@ -99,6 +99,32 @@ TEST(Motion, SnappedCascadesFlickerOnlyWhereTheCascadeChanges) {
   EXPECT_GT(cascade, 0) << "no point changed its cascade in sight";
 }
 
+// A walk, a turn and a zoom to more than twice the size at once, over 200 frames. The maps are fitted to the widest angle.
+TEST(Motion, SnappedCascadesOfOneAngleDoNotFlickerUnderAZoom) {
+  Workbench bench(gl::DebugMode::fatal);
+  Settings settings = with({{"view.fov_deg", "60"},
+                            {"map.fit_fov_deg", "60"},
+                            {"cascades.blend", "0.1"},
+                            {"motion.move_m", "0.002,0,-0.1"},
+                            {"motion.turn_deg", "0,0.2,0"},
+                            {"motion.zoom", "1.004"}},
+                           street());
+  double cascade = 0;
+  for (int frame = 0; frame < 200; ++frame) {
+    settings.view.motion.frame = frame;
+    const Measurement m = bench.measure(settings, std::nullopt);
+    for (const char* part : {"flicker_grid", "flicker_depth", "flicker_kernel", "flicker_coverage"})
+      EXPECT_EQ(metric(m, part), 0) << part << " " << frame;
+    EXPECT_LE(metric(m, "cascade_choice_excess"), 1) << frame;
+    EXPECT_GT(metric(m, "flicker_points"), 500) << frame;
+    cascade += metric(m, "flicker_cascade");
+  }
+  EXPECT_GT(cascade, 0) << "no point changed its cascade in sight";
+  // Fitted to each frame's own angle the maps shrink from frame to frame.
+  settings = with({{"map.fit_fov_deg", "auto"}, {"motion.frame", "0"}}, settings);
+  EXPECT_GT(metric(bench.measure(settings, std::nullopt), "flicker_grid"), 0);
+}
+
 TEST(Motion, CascadesThatAreNotSnappedFlickerByTheirGrids) {
   Workbench bench(gl::DebugMode::fatal);
   double grid = 0, depth = 0;

@@ -87,6 +87,15 @@ std::vector<Planted> defects() {
                  {.shaders = patched(choice, "weight_of_next(place, cascade_blend)",
                                      "weight_of_next(place, 0.5 * cascade_blend)")},
                  {{"cascade_choice_excess", 1, 1000}}});
+  // The weight of another shape; and a smoothstep that leaves out the part that falls.
+  all.push_back({"CascadeBlendOfAnotherShape",
+                 cascades({{"cascades.blend", "0.3"}}),
+                 {.shaders = patched("technique/blends/linear.glsl", "return way;", "return way * way;")},
+                 {{"cascade_choice_excess", 1, 1000}}});
+  all.push_back({"CascadeBlendOfASquare",
+                 cascades({{"cascades.blend", "0.3"}, {"cascades.blend_shape", "smooth"}}),
+                 {.shaders = patched("technique/blends/smooth.glsl", "real(3) - real(2) * way", "real(1) + 0.0 * way")},
+                 {{"cascade_choice_excess", 1, 1000}}});
   // The first map that holds a receiver, forgetting what lies beyond its far plane.
   all.push_back({"CascadeByAMapWithoutItsDepth",
                  cascades({{"scene.name", "street"}, {"cascades.select", "map"}, {"map.fit", "view"}}),

@@ -22,10 +22,11 @@ CSM_DEPTH_M = 1999  # from lightNear to lightFar of CSM, by default
 RASTER_M = 0.0239 / 32 * 2 ** 0.5 * 0.88
 
 
-def csm(bias, off_m=0):
+def csm(bias, off_m=0, fade=False):
     """The square of the longest diagonal; one bias in depth is one in metres, because all maps are as deep."""
-    return (["three/page.html", "class=CSM", "cascades=4", "type=BasicShadowMap", "shadow_side=both", f"bias={-bias}"],
-            [["cascades.count=4", "map.fit=corner_square", "bias.unit=m", f"bias.constant={bias * CSM_DEPTH_M + off}"]
+    faded = ["cascades.blend=0.25", "cascades.blend_of=square"] if fade else []
+    return (["three/page.html", "class=CSM", "cascades=4", "type=BasicShadowMap", "shadow_side=both", f"bias={-bias}", *(["fade=true"] if fade else [])],
+            [["cascades.count=4", "map.fit=corner_square", "bias.unit=m", f"bias.constant={bias * CSM_DEPTH_M + off}", *faded]
              for off in ([-off_m, off_m] if off_m else [0])])
 
 
@@ -42,14 +43,15 @@ def babylon(stabilize, bias, blend=0, filtered=(), filter_settings=()):
 def sun(bias):
     """Two cascades with the sphere about the corners' mean, of the 1020 texels that are left of a tile and half a texel wider on each
     side. Its depths reach over 167 m in the first and 244 m in the second cascade (depth_m of laid.json), so one bias in depth lies
-    between the two in metres. It blends by a smoothstep, whose mean over the band is that of an even one."""
-    laid = ["cascades.count=2", "map.fit=corner_sphere", "map.resolution=1020", f"map.extent_scale={1020 / 1019!r}", "cascades.blend=0.1"]
+    between the two in metres."""
+    laid = ["cascades.count=2", "map.fit=corner_sphere", "map.resolution=1020", f"map.extent_scale={1020 / 1019!r}", "cascades.blend=0.1", "cascades.blend_shape=smooth"]
     return (["three/page.html", "class=SunLight", "type=BasicShadowMap", "shadow_side=both", f"bias={-bias}"],
             [[*laid, "bias.unit=m", f"bias.constant={bias * depth_m}"] for depth_m in (167.22, 244.14)])
 
 
 # The name, what is shot, and what is predicted: one point, or two between which the frame lies.
 CASES = [("three.js CSM, `bias=-0.00002`", *csm(0.00002, RASTER_M)), ("three.js CSM, `bias=-0.0003`", *csm(0.0003)),
+         ("three.js CSM, `fade=true bias=-0.0003`", *csm(0.0003, fade=True)),
          ("Babylon.js, `stabilize=true bias=0.001`", *babylon(True, 0.001)), ("Babylon.js, `stabilize=true bias=0.01`", *babylon(True, 0.01)),
          ("Babylon.js, `stabilize=true filter=usePercentageCloserFiltering bias=0.008`",
           *babylon(True, 0.008, 0, ["filter=usePercentageCloserFiltering"], ["bias.constant=0.012", "filter.kind=castano", "filter.size=5"])),

@@ -10,6 +10,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/shapes.h"
+#include "technique/cascade_blends.h"
 #include "technique/cascade_selections.h"
 #include "technique/cascade_splits.h"
 #include "technique/light_frame.h"
@@ -274,6 +275,7 @@ CascadePlace by_depth(double first, double second) {
   CascadePlace place;
   place.slices = {{0.5, first}, {first, second}, {second, 100}};
   place.selection = &find_cascade_selection("depth");
+  place.shape = &find_cascade_blend("linear");
   place.depths = {{0.5, first}, {first, second}};
   place.view_forward = {0, 0, -1};
   return place;
@@ -301,6 +303,53 @@ TEST(Cascades, BlendIntoTheNextEvenly) {
   EXPECT_NEAR(at(8).next, 1, 1e-12);
   EXPECT_EQ(at(8.01).next, 0) << "the next one has begun";
   EXPECT_EQ(at(90).next, 0) << "the last blends into none";
+}
+
+TEST(CascadeBlends, AreTheirClosedForms) {
+  for (const double way : {0.0, 0.1, 0.25, 0.5, 0.875, 1.0}) {
+    EXPECT_EQ(find_cascade_blend("linear").in_double(way), way);
+    EXPECT_NEAR(find_cascade_blend("smooth").in_double(way), 3 * way * way - 2 * way * way * way, 1e-15);
+  }
+  for (const CascadeBlend& blend : cascade_blends()) {
+    EXPECT_EQ(blend.in_double(0), 0) << blend.name;
+    EXPECT_EQ(blend.in_double(0.5), 0.5) << blend.name << ": as much before the middle as after it";
+    EXPECT_EQ(blend.in_double(1), 1) << blend.name;
+  }
+}
+
+// The weights that a shader makes in float stay within their bound, also from a place that is in error itself.
+TEST(CascadeBlends, FloatArithmeticStaysWithinItsBound) {
+  std::mt19937 random(65);
+  std::uniform_real_distribution<float> unit(0, 1);
+  for (const CascadeBlend& blend : cascade_blends()) {
+    double largest = 0;
+    for (int n = 0; n < 20000; ++n) {
+      const float way = unit(random);
+      const double off = 1e-6 * static_cast<double>(unit(random));
+      float made = way;
+      if (blend.name == "smooth") {
+        const float square = way * way, falling = 3.0f - 2.0f * way;
+        made = square * falling;
+      }
+      const Bounded bounds = blend.in_bounds(Bounded(static_cast<double>(way) + off / 2, off));
+      EXPECT_EQ(bounds.value, blend.in_double(static_cast<double>(way) + off / 2)) << blend.name;
+      largest = std::max(largest, std::abs(static_cast<double>(made) - bounds.value) / bounds.error);
+    }
+    EXPECT_LE(largest, 1) << blend.name;
+    EXPECT_GT(largest, 0.3) << blend.name << ": the bound says nothing";
+  }
+}
+
+TEST(Cascades, BlendIntoTheNextSmoothly) {
+  CascadePlace place = by_depth(2, 8);
+  place.blend = 0.25f;
+  place.shape = &find_cascade_blend("smooth");
+  const glm::dvec3 eye(1, 2, 3);
+  const auto at = [&](double depth) { return choose_cascade(place, eye, eye + glm::dvec3(5, -4, -depth)).next; };
+  EXPECT_EQ(at(6.4), 0);
+  EXPECT_NEAR(at(6.5 + 1.5 / 4), 5.0 / 32, 1e-12) << "a quarter of the last quarter of 6 m";
+  EXPECT_NEAR(at(7.25), 0.5, 1e-12);
+  EXPECT_EQ(at(8.01), 0) << "the next one has begun";
 }
 
 TEST(Cascades, AreChosenByTheFirstMapOrSphereThatHoldsThePoint) {
@@ -380,10 +429,11 @@ TEST(Cascades, TheExcessOfAChoiceCountsEveryWrongSide) {
 }
 
 // The map of the next cascade holds the band in which it is blended in, unless it is not to.
+// The square about the corners, because in a wide picture the least sphere stands on the slice's far end alone.
 TEST(Cascades, CoverTheBandInWhichTheyAreBlendedIn) {
   Settings s;
   s.scene.name = "street";
-  s.map.fit = MapFit::sphere;
+  s.map.fit = MapFit::corner_square;
   s.map.reach_m = 80;
   s.cascades.count = 3;
   s.cascades.blend = 0.2;
@@ -400,6 +450,111 @@ TEST(Cascades, CoverTheBandInWhichTheyAreBlendedIn) {
         const ViewSlice fitted{cover ? end - band : end, slices[k].end_m};
         EXPECT_EQ(cascades[k].frame, make_light_frame(scene, s, &fitted)) << k;
         EXPECT_NEAR(cascades[0].cascade->depths[k - 1].x, of == CascadeBlendOf::slice ? begin : 0, 1e-5);
+      }
+    }
+}
+
+// three.js's CSM with fade: CSMShader.js blends over 0.25 (end / far)^2 of the way from near to far, half of it before the end
+// and half after it, and CSM.js makes the square of each map, the last one too, wider by that.
+TEST(Cascades, BlendOverABandOfTheSquareOfTheEnd) {
+  Settings s;
+  s.scene.name = "street";
+  s.map.fit = MapFit::corner_square;
+  s.view.near_m = 2;
+  s.map.reach_m = 82;
+  s.cascades.count = 3;
+  s.cascades.splits = "manual";
+  s.cascades.bounds_m = {20, 40};
+  s.cascades.blend = 0.25;
+  s.cascades.blend_of = CascadeBlendOf::square;
+  const Scene scene = make_scene(s.scene);
+  const double widths[] = {0.25 * 400 / 80, 0.25 * 1600 / 80, 0.25 * 82 * 82 / 80};
+  const auto weight = [&](double depth) {
+    const CascadePlace place = *cascades_of(scene, s).front().cascade;
+    const glm::dvec3 eye = effective_camera(scene, s.view).eye_m;
+    const CascadeChoice chosen = choose_cascade(place, eye, eye + depth * glm::dvec3(place.view_forward));
+    return chosen.cascade + chosen.next;
+  };
+  for (const int k : {0, 1}) {
+    const double end = s.cascades.bounds_m[static_cast<size_t>(k)], half = widths[k] / 2;
+    EXPECT_EQ(weight(end - half - 0.001), k);
+    EXPECT_NEAR(weight(end - half / 2), k + 0.25, 1e-4);
+    EXPECT_NEAR(weight(end), k + 0.5, 1e-4);
+    EXPECT_NEAR(weight(end + half / 2), k + 0.75, 1e-4);
+    EXPECT_EQ(weight(end + half + 0.001), k + 1);
+  }
+  const std::vector<Technique> wider = cascades_of(scene, s);
+  s.cascades.cover_band = false;
+  const std::vector<Technique> own = cascades_of(scene, s);
+  for (size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(wider[k].frame.extent_m - own[k].frame.extent_m, widths[k], 1e-9);
+    EXPECT_EQ(wider[k].cascade->slices[k].end_m, k < 2 ? s.cascades.bounds_m[k] : 82);
+  }
+  // Other fits hold the slice with both of its bands.
+  s.cascades.cover_band = true;
+  s.map.fit = MapFit::sphere;
+  const ViewSlice fitted{20 - widths[0] / 2, 40 + widths[1] / 2};
+  EXPECT_EQ(cascades_of(scene, s)[1].frame, make_light_frame(scene, s, &fitted));
+}
+
+// A picture of 2 x 2 pixels that shows points at these depths, one of them of no surface.
+TEST(Cascades, ReachFromTheNearestToTheFarthestVisiblePoint) {
+  Settings s = cascaded(3, MapFit::sphere);
+  const Scene scene = floor_scene();
+  const Camera camera = effective_camera(scene, s.view);
+  const CameraFrame frame = make_camera_frame(camera, 2, 2);
+  ReceiverImage seen{Image<glm::vec3>(2, 2), Image<glm::vec3>(2, 2), Image<uint32_t>(2, 2, 0)};
+  const double depths[] = {7, 0.5, 3, 31};
+  for (size_t i = 0; i < 4; ++i) seen.position[i] = glm::vec3(frame.to_world({0.1 * depths[i], -0.2, depths[i]}));
+  seen.primitive[1] = no_primitive;
+  EXPECT_FALSE(visible_depths(s, seen, camera)) << "the planes";
+  s.cascades.depths = CascadeDepths::visible;
+  const std::optional<ViewSlice> visible = visible_depths(s, seen, camera);
+  ASSERT_TRUE(visible);
+  EXPECT_NEAR(visible->begin_m, 3, 1e-5);
+  EXPECT_NEAR(visible->end_m, 31, 1e-5);
+  // As if these depths were given.
+  Settings by_hand = s;
+  by_hand.cascades.depths = CascadeDepths::planes;
+  by_hand.view.near_m = visible->begin_m;
+  by_hand.map.reach_m = visible->end_m;
+  for (const MapFit fit : {MapFit::sphere, MapFit::corner_square, MapFit::view}) {
+    s.map.fit = by_hand.map.fit = fit;
+    const std::vector<Technique> found = cascades_of(scene, s, visible), given = cascades_of(scene, by_hand);
+    for (size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(found[k].frame, given[k].frame) << k;
+      EXPECT_EQ(found[k].cascade->depths, given[k].cascade->depths) << k;
+    }
+    EXPECT_NE(found[0].frame, cascades_of(scene, s)[0].frame) << "the planes' are others";
+  }
+  s.map.reach_m = 20;
+  EXPECT_EQ(visible_depths(s, seen, camera)->end_m, 20);
+  s.map.reach_m = 2;
+  EXPECT_FALSE(visible_depths(s, seen, camera)) << "nothing is visible before the reach";
+  s.cascades.count = 1;
+  EXPECT_FALSE(visible_depths(s, seen, camera));
+}
+
+// Law 29: the radius reads the picture's angle. With one that all frames share it stays, however the camera zooms.
+TEST(Cascades, KeepTheirSizesUnderAZoomWithAnAngleToFitTo) {
+  const Scene scene = floor_scene();
+  for (const MapFit fit : {MapFit::sphere, MapFit::corner_sphere, MapFit::corner_square})
+    for (const bool given : {false, true}) {
+      Settings s = cascaded(3, fit);
+      s.view.near_m = 0.5;
+      s.map.reach_m = 50;
+      s.view.fov_deg = 60;
+      const std::vector<Technique> widest = cascades_of(scene, s);
+      if (given) s.map.fit_fov_deg = 60;
+      s.view.motion.zoom = 1.3;
+      s.view.motion.frame = 2;
+      const std::vector<Technique> zoomed = cascades_of(scene, s);
+      for (size_t k = 0; k < 3; ++k) EXPECT_EQ(zoomed[k].frame.extent_m == widest[k].frame.extent_m, given) << k;
+      if (given) {
+        for (size_t k = 0; k < 3; ++k) EXPECT_EQ(zoomed[k].frame, widest[k].frame) << k;
+        // A camera that zooms out further is still covered.
+        s.view.motion.zoom = 0.8;
+        EXPECT_GT(cascades_of(scene, s)[0].frame.extent_m, widest[0].frame.extent_m);
       }
     }
 }

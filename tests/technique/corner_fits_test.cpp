@@ -78,7 +78,7 @@ TEST(CornerFits, HaveARowForEachChoice) {
 // The mean of the corners lies in the middle of the slice, and the far corners are the furthest from it.
 TEST(CornerFits, SphereIsAboutTheMeanOfTheCorners) {
   for_slices(MapFit::corner_sphere, [](const Scene& scene, const Seen& seen) {
-    const auto [begin, end] = seen.slice;
+    const double begin = seen.slice.begin_m, end = seen.slice.end_m;
     const LightFrame frame = make_light_frame(scene, seen.settings, &seen.slice);
     const double radius = std::hypot((end - begin) / 2, seen.diagonal() * end);
     EXPECT_NEAR(frame.extent_m, 2 * radius, corner_rounding * radius);
@@ -95,7 +95,7 @@ TEST(CornerFits, SphereIsAboutTheMeanOfTheCorners) {
 TEST(CornerFits, SquareIsAsWideAsTheLongestDiagonal) {
   int of_far = 0, of_body = 0;
   for_slices(MapFit::corner_square, [&](const Scene& scene, const Seen& seen) {
-    const auto [begin, end] = seen.slice;
+    const double begin = seen.slice.begin_m, end = seen.slice.end_m;
     const double far_rectangle = 2 * seen.diagonal() * end;
     const double body = std::hypot(end - begin, seen.diagonal() * (begin + end));
     ++(far_rectangle > body ? of_far : of_body);
@@ -111,7 +111,7 @@ TEST(CornerFits, SquareIsAsWideAsTheLongestDiagonal) {
 TEST(CornerFits, BoxIsThatOfTheCornersInTheLightsAxes) {
   int wide = 0, deep = 0;
   for_slices(MapFit::corner_box, [&](const Scene& scene, const Seen& seen) {
-    const auto [begin, end] = seen.slice;
+    const double begin = seen.slice.begin_m, end = seen.slice.end_m;
     const double width = 2 * seen.camera.half_width * end, depth = end - begin;
     ++(width > depth ? wide : deep);
     const LightFrame frame = make_light_frame(scene, seen.settings, &seen.slice);

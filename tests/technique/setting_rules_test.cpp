@@ -255,6 +255,19 @@ TEST(Cascades, RefuseWhatTheyCannotDo) {
   refused({{"map.fit", "view"}}, "a spot light", LightKind::spot);
   refused({{"cascades.splits", "manual"}}, "3 for cascades.count = 4, and cascades.bounds_m has 0");
   refused({{"cascades.splits", "manual"}, {"cascades.bounds_m", "1,2"}}, "has 2");
+  refused({{"cascades.splits", "manual"}, {"cascades.bounds_m", "1,2,3"}, {"cascades.depths", "visible"}},
+          "cascades.depths = visible moves the ends");
+  // Of a spot light no fit is named that it cannot have either.
+  refused({}, "a spot light; set cascades.count = 1 and map.fit = tight", LightKind::spot);
+  for (const char* fit : {"scene", "sphere"}) {
+    const Settings spot = with({{"cascades.count", "4"}, {"map.fit", fit}, {"light.kind", "spot"}});
+    try {
+      validate(spot);  // before the scene is loaded
+      ADD_FAILURE() << "it is not refused";
+    } catch (const SettingConflict& error) {
+      EXPECT_NE(std::string(error.what()).find("cascades need a directional light"), std::string::npos) << error.what();
+    }
+  }
   EXPECT_THROW(require_one_map(four, "a chart"), SettingConflict);
   EXPECT_NO_THROW(require_one_map({}, "a chart"));
 }
@@ -270,6 +283,11 @@ TEST(Cascades, ReadOnlyWhatTheirSplitsNeed) {
   EXPECT_EQ(idle({{"cascades.count", "3"}, {"cascades.lambda", "0.2"}}), Names{});
   EXPECT_EQ(idle({{"cascades.count", "3"}, {"cascades.splits", "exponent"}, {"cascades.lambda", "0.2"}}),
             Names{"cascades.lambda"});
+  EXPECT_EQ(idle({{"cascades.depths", "visible"}}), Names{"cascades.depths"});
+  EXPECT_EQ(idle({{"cascades.count", "3"}, {"cascades.blend_shape", "smooth"}}), Names{"cascades.blend_shape"});
+  EXPECT_EQ(idle({{"cascades.count", "3"}, {"cascades.blend_shape", "smooth"}, {"cascades.blend", "0.1"}}), Names{});
+  EXPECT_EQ(idle({{"map.fit_fov_deg", "60"}}), Names{"map.fit_fov_deg"});
+  EXPECT_EQ(idle({{"map.fit_fov_deg", "60"}, {"map.fit", "sphere"}}), Names{});
   EXPECT_EQ(idle({{"map.reach_m", "9"}}), Names{"map.reach_m"});
   EXPECT_EQ(idle({{"map.reach_m", "9"}, {"map.fit", "view"}}), Names{"map.reach_m"});
   EXPECT_EQ(idle({{"map.reach_m", "9"}, {"map.fit", "view"}, {"cascades.count", "2"}}), Names{});

@@ -50,25 +50,11 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers without a unit.
-  const std::set<std::string_view> pure = {"scene.plates", "scene.animation",
-                                           "map.placements",
-                                           "map.extent_scale",
-                                           "truth.standard_error",
-                                           "bias.polygon_factor",
-                                           "bias.polygon_units",
-                                           "view.up",
-                                           "motion.frame",
-                                           "motion.zoom",
-                                           "light.index",
-                                           "map.aspect",
-                                           "cascades.count",
-                                           "cascades.lambda",
-                                           "cascades.exponent",
-                                           "cascades.blend",
-                                           "cascades.bias_scales",
-                                           "lookup.level",
-                                           "lookup.exponent",
-                                           "lookup.negative_exponent"};
+  const std::set<std::string_view> pure = {
+      "scene.plates",        "scene.animation",      "map.placements", "map.extent_scale", "truth.standard_error",
+      "bias.polygon_factor", "bias.polygon_units",   "view.up",        "motion.frame",     "motion.zoom",
+      "light.index",         "map.aspect",           "cascades.count", "cascades.lambda",  "cascades.exponent",
+      "cascades.blend",      "cascades.bias_scales", "lookup.level",   "lookup.exponent",  "lookup.negative_exponent"};
   const std::set<std::string_view> units = {"s",      "px",        "m",     "deg",     "texels",  "taps",
                                             "frames", "bias.unit", "depth", "depth^2", "fraction"};
   std::set<std::string_view> names;
@@ -108,8 +94,8 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8, e9] = motion;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
-                                d20, d21, d22, d23, d24] = s.map;
-  [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12, i13] = s.cascades;
+                                d20, d21, d22, d23, d24, d25] = s.map;
+  [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12, i13, i14, i15] = s.cascades;
   [[maybe_unused]] const auto& [g1, g2] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
   // Unit, reference and plane_cap, and every parameter of a part.
@@ -121,8 +107,8 @@ TEST(SettingsTable, HasARowForEveryMember) {
                                               {"view", 11},
                                               {"motion", 9},
                                               {"light", 11},
-                                              {"map", 24},
-                                              {"cascades", 13},
+                                              {"map", 25},
+                                              {"cascades", 15},
                                               {"bias", bias},
                                               {"filter", filter},
                                               {"lookup", lookup},
@@ -186,6 +172,15 @@ TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
       EXPECT_TRUE(contains(refusal(row, std::to_string(max + 1)), row.range_with_unit())) << row.name;
     }
   }
+}
+
+// Brackets are a TOML file's. The refusal says what to type.
+TEST(SettingsTable, SaysHowToWriteNumbersWithoutBrackets) {
+  EXPECT_TRUE(contains(refusal("cascades.bounds_m", "[10,20]"), "; write cascades.bounds_m = 10,20, without brackets"));
+  EXPECT_TRUE(contains(refusal("view.eye_m", "(0, 1, 2)"), "; write view.eye_m = 0, 1, 2, without brackets"));
+  for (const char* other : {"20,10", "[", "]10,20["})
+    EXPECT_FALSE(contains(refusal("cascades.bounds_m", other), "brackets")) << other;
+  EXPECT_FALSE(contains(refusal("map.resolution", "[64]"), "brackets")) << "it is one number";
 }
 
 // Of the junk below, what a list takes.

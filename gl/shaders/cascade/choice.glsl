@@ -1,6 +1,7 @@
 // Which cascades a receiver is looked up in. The file that includes this one has defined
 //   float cascade_place(int cascade, vec3 position)   how far it lies in a cascade: at most 1 inside
 
+#include <blend>
 #include "shaders/cascade/lookups.glsl"
 #include "shaders/map/layer.glsl"
 uniform int layer_of_cascade[most_layers];  // in the array that is looked up; -1: in another one

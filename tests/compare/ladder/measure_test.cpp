@@ -267,7 +267,9 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
                            "perspective_aliasing_p95",
                            "truth_by_cells",
                            "truth_by_rays",
-                           "truth_by_scan"})
+                           "truth_by_scan",
+                           "nearest_receiver_m",
+                           "farthest_receiver_m"})
     measured.insert(name);  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);

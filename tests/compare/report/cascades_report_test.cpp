@@ -1,6 +1,8 @@
 // The report's section of cascades, and the sentence about the worst of them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "compare/report/cascade_rows.h"
 #include "compare/report/cascades_section.h"
 #include "compare/results/causes.h"
@@ -89,6 +91,26 @@ TEST(CascadesSection, ABiasInMetresHasOneColumn) {
   const std::string html = cascades_section(results_of({point})).html();
   EXPECT_EQ(row_text(html, 1), "1|0.2|10|0.02|300|1|37.5|Aliasing|-|1.25|2.25|") << html;
   EXPECT_EQ(html.find("is needed against acne"), std::string::npos);
+}
+
+// By map or sphere a receiver need not be looked up in the cascade of its slice, so the slice says nothing about it.
+TEST(CascadesSection, ShowsTheReceiversWhereTheDepthDoesNotChoose) {
+  PointRecord point = two_cascades();
+  point.settings["cascades.select"] = "depth";
+  EXPECT_EQ(row_text(cascades_section(results_of({point})).html(), 1).substr(0, 9), "1|0.2|10|");
+  point.settings["cascades.select"] = "map";
+  point.cascades[0].metrics["nearest_receiver_m"] = 3;
+  point.cascades[0].metrics["farthest_receiver_m"] = 17;
+  point.cascades[1].metrics["nearest_receiver_m"] = 15;
+  point.cascades[1].metrics["farthest_receiver_m"] = 88;
+  const std::string html = cascades_section(results_of({point})).html();
+  EXPECT_NE(row_text(html, 0).find("Receivers from"), std::string::npos) << row_text(html, 0);
+  EXPECT_EQ(row_text(html, 1).substr(0, 7), "1|3|17|");
+  EXPECT_NE(html.find("Cascade 2 (receivers from 15 to 88 m, texel 0.16 m) holds 62% of the error"), std::string::npos);
+  point.cascades[0].metrics["counted"] = 0;
+  point.cascades[0].metrics["nearest_receiver_m"] = point.cascades[0].metrics["farthest_receiver_m"] = NAN;
+  EXPECT_EQ(row_text(cascades_section(results_of({point})).html(), 1).substr(0, 6), "1|-|-|");
+  EXPECT_EQ(cascade_depths_text(cascade_rows_of(point)[0]), "-");
 }
 
 TEST(CascadesSection, SaysWhereThereIsNothing) {
