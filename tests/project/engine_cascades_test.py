@@ -42,11 +42,12 @@ def babylon(stabilize, bias, blend=0, filtered=(), filter_settings=()):
 
 def sun(bias):
     """Two cascades with the sphere about the corners' mean, of the 1020 texels that are left of a tile and half a texel wider on each
-    side. Its depths reach over 167 m in the first and 244 m in the second cascade (depth_m of laid.json), so one bias in depth lies
-    between the two in metres."""
+    side. Its depths reach over 167 m in the first and 244 m in the second cascade (depth_m of laid.json), so one bias in depth has other
+    metres in each."""
+    first_m, second_m = 167.22, 244.14
     laid = ["cascades.count=2", "map.fit=corner_sphere", "map.resolution=1020", f"map.extent_scale={1020 / 1019!r}", "cascades.blend=0.1", "cascades.blend_shape=smooth"]
     return (["three/page.html", "class=SunLight", "type=BasicShadowMap", "shadow_side=both", f"bias={-bias}"],
-            [[*laid, "bias.unit=m", f"bias.constant={bias * depth_m}"] for depth_m in (167.22, 244.14)])
+            [[*laid, "bias.unit=m", f"bias.constant={bias * first_m}", f"cascades.bias_scales=1,{second_m / first_m!r}"]])
 
 
 # The name, what is shot, and what is predicted: one point, or two between which the frame lies.
