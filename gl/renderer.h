@@ -151,8 +151,10 @@ class Renderer {
   int64_t used_texels(const ShadowMap& map);
 
   // Gives the memory of deleted maps back. Drivers keep a texture that was bound until the next draw, and until what
-  // was drawn with it is done.
+  // was drawn with it is done. The texture of a map that is gone may be spare, for the next one of its size and format:
+  // release_spares() deletes these too.
   void release_deleted();
+  void release_spares();
 
   // One unit of glPolygonOffset on this device, in window depth. It is measured by drawing with it. For 32-bit float it
   // is NaN, because the unit depends on the depth of the primitive.

@@ -89,7 +89,9 @@ struct Renderer::Impl {
   glm::vec3 eye_m{0};
   Target lit, fetched, map_strip, listed_texels, listed_depths;
   // Two uploaded ones: an exact map and a tie map come by turns. Shared, because a map may exist longer.
-  std::shared_ptr<SpareMaps> uploaded = std::make_shared<SpareMaps>(2), drawn = std::make_shared<SpareMaps>(1);
+  std::shared_ptr<SpareMaps> large = std::make_shared<SpareMaps>(1, SpareMaps::no_limit),
+                             uploaded = std::make_shared<SpareMaps>(2, SpareMaps::most_small_bytes, large),
+                             drawn = std::make_shared<SpareMaps>(1, SpareMaps::most_small_bytes, large);
   Target probe_scalars, probe_texels, probe_radius;
   Buffer tap_rows;
   Sampler comparing;   // for hardware comparison
@@ -131,10 +133,12 @@ struct Renderer::Impl {
   void check_map_size(glm::ivec2 size, bool cube) const;
   Texture make_map_texture(GLenum format, glm::ivec3 size, bool cube, Wrap wrap);
   // Flat maps of these sizes, in spare textures or new ones. ends_in: null for maps that are no spares afterwards.
-  // keep_spares_of: deletes the spare maps of other sizes.
+  // keep_spares_of: deletes the spare maps of other sizes. A large one that is deleted gives its memory back before a new
+  // texture is made (release_deleted), so that never both take memory.
   std::unique_ptr<ShadowMap::Impl> make_flat(const std::shared_ptr<SpareMaps>& ends_in, GLenum format,
                                              std::span<const glm::ivec2> sizes, Wrap wrap);
   void keep_spares_of(glm::ivec2 size);
+  void release_deleted();
   // The wrap mode and what else the lookup's sampler needs to know of a map.
   static void set_sampling(const Texture& map, bool cube, Wrap wrap);
   // Writes faces, or a layer of a flat map, of 32-bit floats. copy_row(y, row) writes row y of the map's image.

@@ -56,7 +56,7 @@ void Renderer::release_receivers() {
   for (Target* target : {&r.position_image, &r.normal_image, &r.lit, &r.probe_scalars, &r.probe_texels, &r.probe_radius,
                          &r.primitive_colour, &r.primitive_depth})
     *target = Target{};
-  release_deleted();
+  release_spares();
 }
 
 void Renderer::Impl::set_receiver_uniforms(Program& program, std::span<const Technique* const> maps) {

@@ -143,7 +143,10 @@ ShadowMap Renderer::render_maps(std::span<const Technique> techniques, double* t
                                                  sizes.back().x, one.settings.map.resolution));
   }
   std::unique_ptr<ShadowMap::Impl> made;
-  if (!cube) made = r.make_flat(r.drawn, gl_format(settings.format), sizes, settings.wrap);
+  if (!cube) {
+    made = r.make_flat(r.drawn, gl_format(settings.format), sizes, settings.wrap);
+    for (TiledMaps& array : made->arrays) array.known.assign(array.known.size(), {});  // it may have been uploaded
+  }
   const std::optional<Bias::PolygonOffset> offset = first.bias.polygon_offset();
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);

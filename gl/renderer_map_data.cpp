@@ -89,10 +89,13 @@ std::unique_ptr<ShadowMap::Impl> Renderer::Impl::make_flat(const std::shared_ptr
   auto made = std::make_unique<ShadowMap::Impl>(context, ends_in, wrap, sizes);
   for (TiledMaps& array : made->arrays) {
     keep_spares_of(glm::ivec2(array.size));
-    if (std::optional<TiledMaps> spare = ends_in ? ends_in->take(format, array.size) : std::nullopt) {
+    const size_t large_before = large->count();
+    std::optional<TiledMaps> spare = ends_in ? ends_in->take(format, array.size) : std::nullopt;
+    if (spare) {
       set_sampling(spare->texture, false, wrap);
       array = std::move(*spare);
     } else {
+      if (large->count() < large_before) release_deleted();
       array.texture = make_map_texture(format, array.size, false, wrap);
       array.format = format;
       array.known.resize(static_cast<size_t>(array.size.z));
@@ -102,8 +105,20 @@ std::unique_ptr<ShadowMap::Impl> Renderer::Impl::make_flat(const std::shared_ptr
 }
 
 void Renderer::Impl::keep_spares_of(glm::ivec2 size) {
+  const size_t large_before = large->count();
   uploaded->keep_only(size);
   drawn->keep_only(size);
+  if (large->count() < large_before) release_deleted();
+}
+
+void Renderer::Impl::release_deleted() {
+  // A draw without textures: what the driver has bound for the draw before is bound no longer.
+  require(map_strip, GL_R32F, 1, 1);
+  draw_into({map_strip.texture.id()}, 0, 1, 1);
+  draw_screen(programs.get({"shaders/screen.vert", "shaders/depth.frag"}));
+  detach(1);
+  glFinish();
+  context->check("release_deleted");
 }
 
 void Renderer::Impl::set_sampling(const Texture& map, bool cube, Wrap wrap) {
@@ -192,14 +207,14 @@ ShadowMap Renderer::upload_maps(std::span<const MapDepths* const> maps, std::spa
 void Renderer::release_deleted() {
   Impl& r = *impl_;
   r.context->make_current();
+  r.release_deleted();
+}
+
+void Renderer::release_spares() {
+  Impl& r = *impl_;
+  r.context->make_current();
   r.keep_spares_of(glm::ivec2(0));
-  // A draw without textures: what the driver has bound for the draw before is bound no longer.
-  r.require(r.map_strip, GL_R32F, 1, 1);
-  r.draw_into({r.map_strip.texture.id()}, 0, 1, 1);
-  r.draw_screen(r.programs.get({"shaders/screen.vert", "shaders/depth.frag"}));
-  r.detach(1);
-  glFinish();
-  r.context->check("release_deleted");
+  r.release_deleted();
 }
 
 Image<float> Renderer::read_rows(const ShadowMap& map, int first_row, int count, int which) {

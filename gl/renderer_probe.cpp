@@ -147,7 +147,7 @@ void Renderer::forget_cube_index() {
   if (!r.cube_index) return;
   r.cube_index_resolution = 0;
   r.cube_index = {};
-  release_deleted();
+  release_spares();
 }
 
 std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, const Technique& technique, Rows rows,

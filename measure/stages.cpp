@@ -57,7 +57,7 @@ void keep_small(gl::Renderer& renderer, std::optional<gl::ShadowMap>& map) {
   bool kept = true;
   for (int k = 0; k < map->count(); ++k) kept = kept && is_kept(map->texels(k));
   if (kept) return;
-  map.reset();
+  map.reset();  // its texture may be spare now, for the next map of its size and format
   renderer.release_deleted();
 }
 

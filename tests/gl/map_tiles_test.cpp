@@ -107,7 +107,8 @@ TEST(GlSpareMaps, AreFewAndOfOneKind) {
   constexpr GLenum kind = GL_DEPTH_COMPONENT32F;
   const auto of_side = [](int side) { return TiledMaps{Texture(), kind, glm::ivec3(side, side, 1)}; };
   const glm::ivec3 square(64, 64, 1);
-  SpareMaps spares(2);
+  const auto large = std::make_shared<SpareMaps>(1, SpareMaps::no_limit);
+  SpareMaps spares(2, SpareMaps::most_small_bytes, large), others(1, SpareMaps::most_small_bytes, large);
   EXPECT_FALSE(spares.take(kind, square));
   for (int i = 0; i < 5; ++i) spares.put(of_side(64));
   EXPECT_EQ(spares.count(), 2u);
@@ -126,8 +127,22 @@ TEST(GlSpareMaps, AreFewAndOfOneKind) {
   EXPECT_EQ(spares.count(), 1u);
   spares.keep_only(glm::ivec2(0));
   EXPECT_EQ(spares.count(), 0u);
+  for (int i = 0; i < 2; ++i) spares.put(of_side(8192)), others.put(of_side(8192));
+  EXPECT_EQ(spares.count(), 0u);
+  EXPECT_EQ(large->count(), 1u) << "one of 256 MiB is enough";
+  EXPECT_FALSE(spares.take(GL_DEPTH_COMPONENT16, {8192, 8192, 1}));
+  EXPECT_EQ(large->count(), 0u) << "must not take memory beside one of another format";
   spares.put(of_side(8192));
-  EXPECT_EQ(spares.count(), 0u) << "256 MiB are too much to be kept";
+  EXPECT_TRUE(others.take(kind, {8192, 8192, 1})) << "whoever put it";
+  spares.put(of_side(8192));
+  others.keep_only(glm::ivec2(64));
+  EXPECT_EQ(large->count(), 0u);
+  spares.put(of_side(8192));
+  spares.clear();
+  EXPECT_EQ(large->count(), 0u);
+  SpareMaps small_only(2, SpareMaps::most_small_bytes);
+  small_only.put(of_side(8192));
+  EXPECT_FALSE(small_only.take(kind, {8192, 8192, 1}));
 }
 
 int live_textures() {
@@ -143,7 +158,7 @@ TEST_F(GlTest, SpareTexturesAreDeleted) {
     const ShadowMap exact = renderer.upload_map(some_depths(random, side, 50, 1), map_of(side).map);
     const ShadowMap ties = renderer.upload_map(some_depths(random, side, 50, 1), map_of(side).map);
   };
-  renderer.release_deleted();
+  renderer.release_spares();
   const int before = live_textures();
   upload_two(100);
   EXPECT_EQ(live_textures(), before + 2) << "both are kept for the next";
@@ -154,7 +169,7 @@ TEST_F(GlTest, SpareTexturesAreDeleted) {
   { const ShadowMap image = renderer.upload_map(Image<float>(70, 70, 0.5f), map_of(70).map); }
   EXPECT_EQ(live_textures(), before) << "a map of another side has come";
   upload_two(100);
-  renderer.release_deleted();
+  renderer.release_spares();
   EXPECT_EQ(live_textures(), before);
 }
 
@@ -168,7 +183,7 @@ TEST_F(GlTest, ADrawnMapShowsNothingOfTheOneBefore) {
   settings.map.extent_m = 6;
   settings.map.near_m = 1;
   settings.map.far_m = 20;
-  renderer.release_deleted();
+  renderer.release_spares();
   const int before = live_textures();
   for (const DepthFormat format : {DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d16, DepthFormat::d32f}) {
     settings.map.format = format;
@@ -184,8 +199,49 @@ TEST_F(GlTest, ADrawnMapShowsNothingOfTheOneBefore) {
     EXPECT_LT(expected.at(25, 25), 1.0f);
     EXPECT_EQ(expected.at(2, 2), 1.0f) << "where the wide floor was";
     EXPECT_TRUE(renderer.read_map(drawn).pixels == expected.pixels);
-    renderer.release_deleted();
+    renderer.release_spares();
   }
+}
+
+// A large map is drawn into the texture of an uploaded one, and uploaded into that of a drawn one.
+TEST_F(GlTest, ALargeMapTakesTheTextureOfTheOneBefore) {
+  const int side = 5800;
+  static_assert(side * side * sizeof(float) > SpareMaps::most_small_bytes);
+  Scene scene;
+  scene.light = light_from_above();
+  add_floor(scene, 0, 1);
+  Settings settings = map_of(side);
+  settings.map.extent_m = 6;
+  settings.map.near_m = 1;
+  settings.map.far_m = 20;
+  renderer.load_scene(scene);
+  renderer.release_spares();
+  const int before = live_textures();
+  const auto texels = std::make_shared<TexelSet>(glm::ivec2(side));
+  for (int i = 0; i < side; i += 7) texels->add(glm::ivec2(i));
+  texels->close();
+  const auto row_of = [&](const ShadowMap& map, int row) { return renderer.read_rows(map, row, 1); };
+  for (const DepthFormat format : {DepthFormat::d32f, DepthFormat::d32f, DepthFormat::d16, DepthFormat::d32f}) {
+    settings.map.format = format;
+    {
+      const ShadowMap drawn = renderer.render_map({scene, settings});
+      EXPECT_EQ(live_textures(), before + 1) << "that of the map before was used, or deleted";
+      const Image<float> row = row_of(drawn, side / 2);
+      EXPECT_LT(row.at(side / 2, 0), 1.0f) << "the floor";
+      EXPECT_EQ(row.at(1, 0), 1.0f) << "beside it";
+      EXPECT_EQ(row_of(drawn, 7).at(7, 0), 1.0f) << "where an uploaded map has a texel";
+    }
+    for (const float depth : {0.25f, 0.5f}) {
+      const MapDepths depths(texels, 0.75f, depth);
+      const ShadowMap uploaded = renderer.upload_map(depths, settings.map);
+      EXPECT_EQ(live_textures(), before + 1);
+      const Image<float> row = row_of(uploaded, 7 * 400);
+      EXPECT_EQ(row.at(7 * 400, 0), depth);
+      EXPECT_EQ(std::count(row.pixels.begin(), row.pixels.end(), depths.elsewhere), side - 1);
+    }
+  }
+  renderer.release_spares();
+  EXPECT_EQ(live_textures(), before);
 }
 
 TEST(GlLife, AnUploadedMapMayOutliveItsRenderer) {

@@ -24,13 +24,16 @@ class Memory : public Program {
   static void with_usual_pages() { unsetenv("GLIBC_TUNABLES"); }
   // The peak memory of a whole run of the program, in bytes.
   double peak(const std::vector<std::string>& arguments) {
+    return 1024.0 * static_cast<double>(usage_of(arguments).ru_maxrss);
+  }
+  struct rusage usage_of(const std::vector<std::string>& arguments) {
     const pid_t child = start(arguments, with_usual_pages);
     int status = 0;
     struct rusage usage {};
     wait4(child, &status, 0, &usage);
     output_ = read_file((folder_ / "output.txt").string());
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << output_;
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+    return usage;
   }
   // Runs with a limited address space, so that the memory of the machine does not decide the test.
   int run_within(rlim_t bytes, const std::vector<std::string>& arguments) {
@@ -147,6 +150,18 @@ INSTANTIATE_TEST_SUITE_P(
              "scene = \"stack.gltf\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
              "64\n"}),
     [](const auto& one) { return std::string(one.param.name); });
+
+// A texture of 256 MiB has 65536 usual pages, and the kernel takes more time to give them than OpenGL to clear them.
+TEST_F(Memory, ALargeMapHasHugePages) {
+  const std::string given = read_file("/sys/kernel/mm/transparent_hugepage/enabled");
+  if (given.find("[never]") != std::string::npos) GTEST_SKIP() << "the kernel gives no huge pages";
+  const auto pages = [&](const char* side) {
+    write("x.toml",
+          std::string("pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = ") + side);
+    return usage_of({"run", (folder_ / "x.toml").string(), "--out", (folder_ / side).string()}).ru_minflt;
+  };
+  EXPECT_LT(pages("8192") - pages("16"), 65536 / 4);
+}
 
 // `render` also lists every part in point.json.
 TEST_F(Memory, TilesAreListedAsPredicted) {

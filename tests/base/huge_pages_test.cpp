@@ -1,0 +1,77 @@
+// Large memory of the executable (base/huge_pages.cpp, which is part of this test).
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <sstream>
+#include <string>
+
+// With AddressSanitizer that file has no functions.
+#ifndef __SANITIZE_ADDRESS__
+namespace noonmark {
+namespace {
+
+constexpr size_t MiB = size_t{1} << 20;
+
+// Whether huge pages are asked for where this address is (`hg` among the flags of its range).
+bool asks_for_huge_pages(const void* memory) {
+  const auto address = reinterpret_cast<uintptr_t>(memory);
+  std::ifstream ranges("/proc/self/smaps");
+  bool here = false;
+  for (std::string line; std::getline(ranges, line);) {
+    uintptr_t begin = 0, end = 0;
+    char between = 0;
+    std::istringstream words(line);
+    if (words >> std::hex >> begin >> between >> end && between == '-') here = begin <= address && address < end;
+    if (here && line.rfind("VmFlags:", 0) == 0) return line.find(" hg") != std::string::npos;
+  }
+  return false;
+}
+
+bool kernel_has_huge_pages() { return std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled").good(); }
+
+bool begins_huge_page(const void* memory) { return reinterpret_cast<uintptr_t>(memory) % (2 * MiB) == 0; }
+
+TEST(HugePages, AreAskedForWhereMemoryIsLarge) {
+  if (!kernel_has_huge_pages()) GTEST_SKIP() << "the kernel has none";
+  void* memory = nullptr;
+  ASSERT_EQ(posix_memalign(&memory, 64, 64 * MiB), 0);
+  EXPECT_TRUE(begins_huge_page(memory));
+  EXPECT_TRUE(asks_for_huge_pages(static_cast<char*>(memory) + 63 * MiB));
+  std::free(memory);
+  const auto image = std::make_unique<char[]>(64 * MiB);
+  EXPECT_TRUE(begins_huge_page(image.get()));
+  EXPECT_TRUE(asks_for_huge_pages(image.get() + 63 * MiB));
+  const auto small = std::make_unique<char[]>(MiB);
+  EXPECT_FALSE(asks_for_huge_pages(small.get()));
+}
+
+TEST(HugePages, MemoryIsAlignedAsItIsAskedFor) {
+  for (const size_t alignment : {sizeof(void*), size_t{64}, size_t{4096}, 4 * MiB})
+    for (const size_t bytes : {size_t{1}, size_t{1000}, 5 * MiB + 1}) {
+      void* memory = nullptr;
+      errno = 7;
+      ASSERT_EQ(posix_memalign(&memory, alignment, bytes), 0);
+      EXPECT_EQ(errno, 7) << "posix_memalign leaves it alone";
+      EXPECT_EQ(reinterpret_cast<uintptr_t>(memory) % alignment, 0u);
+      static_cast<char*>(memory)[bytes - 1] = 1;
+      std::free(memory);
+    }
+  void* const before = &errno;
+  void* memory = before;
+  for (const size_t wrong : {size_t{0}, size_t{4}, size_t{24}})
+    EXPECT_EQ(posix_memalign(&memory, wrong, 100), EINVAL) << wrong;
+  volatile size_t too_much = SIZE_MAX / 4;
+  EXPECT_EQ(posix_memalign(&memory, 64, too_much), ENOMEM);
+  EXPECT_EQ(memory, before) << "nothing was made";
+  EXPECT_THROW(static_cast<void>(::operator new(too_much)), std::bad_alloc);
+  EXPECT_NE(std::unique_ptr<char[]>(new char[0]).get(), nullptr);
+}
+
+}  // namespace
+}  // namespace noonmark
+#endif
