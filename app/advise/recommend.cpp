@@ -156,6 +156,8 @@ class Search {
     const Candidate& one = candidates()[least];
     const std::vector<int>& all = request_.resolutions;
     const int resolution = one.tried.settings.map.resolution;
+    // Cascades of an engine keep to powers of two, which most of them need.
+    if (!request_.places[one.tried.place].laid_by.empty()) return false;
     if (!request_.between || resolution == all.front() || std::find(all.begin(), all.end(), resolution) == all.end())
       return false;
     return screening_.try_at(one, 2 * static_cast<int>(std::lround(resolution / std::numbers::sqrt2 / 2)));

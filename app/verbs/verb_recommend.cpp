@@ -247,6 +247,10 @@ void add_cascades(AdviceRequest& request, const Experiment& experiment, std::spa
   if (!given.empty())
     throw Error(ErrorKind::usage,
                 fmt::format("--cascades lays the maps itself, and {} is given too; leave one of them out", given));
+  if (request.conditions.front().cascades.depths != CascadeDepths::planes)
+    throw SettingConflict("cascades.depths",
+                          "--cascades searches ends that are numbers, the same in every view; leave "
+                          "cascades.depths = visible out, or leave out --cascades and give cascades.count");
   CascadePlaces cascades = cascade_places(bench, request.conditions, cascade_counts, engines, request.width_px, say);
   if (cascades.places.empty())
     throw Error(ErrorKind::usage, fmt::format("--cascades: {}; leave it out", cascades.why_not));

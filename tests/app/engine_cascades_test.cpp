@@ -181,6 +181,30 @@ TEST(EngineCascades, BlendWhereTheEngineDoes) {
   EXPECT_EQ(typed(advice(settings, "Bevy"), "overlap_proportion: "), 0.1);
   EXPECT_TRUE(is_missing("Babylon.js"));
   EXPECT_FALSE(is_missing("Bevy"));
+  settings.cascades.blend_shape = "smooth";
+  EXPECT_EQ(typed(advice(settings, "Bevy"), "overlap_proportion: "), 0);
+  EXPECT_NE(joined(advice(settings, "Bevy").cannot).find("cascades.blend_shape = smooth: the engine has no such"),
+            std::string::npos);
+  settings.cascades.blend_shape = "linear";
+  // CSM's fade has one width.
+  const auto fades = [&] {
+    return joined(advice(settings, "three.js").lines).find("csm.fade = true") != std::string::npos;
+  };
+  settings.cascades.blend_of = CascadeBlendOf::square;
+  EXPECT_FALSE(fades());
+  settings.cascades.blend = 0.25;
+  EXPECT_TRUE(fades());
+  EXPECT_EQ(advice(settings, "three.js").emulated->cascades.blend, 0.25);
+  settings.cascades.depths = CascadeDepths::visible;
+  settings.map.fit_fov_deg = 80;
+  const EngineAdvice three = advice(settings, "three.js");
+  for (const char* part : {"cascades.depths = visible: the lines lay cascades between the camera's planes",
+                           "map.fit_fov_deg = 80 is not set by the lines above"})
+    EXPECT_NE(joined(three.cannot).find(part), std::string::npos) << joined(three.cannot);
+  EXPECT_EQ(three.emulated->cascades.depths, CascadeDepths::planes);
+  EXPECT_FALSE(three.emulated->map.fit_fov_deg);
+  settings.cascades.depths = CascadeDepths::planes;
+  settings.map.fit_fov_deg.reset();
   settings.cascades.select = "map";
   EXPECT_NE(joined(advice(settings, "Bevy").cannot)
                 .find("cascades.select = map: the engine chooses a receiver's cascade by its depth"),

@@ -127,6 +127,7 @@ struct EngineCascades {
   std::vector<std::string> (*limits)(const AdvisedCascades&);  // in place of limits()
   std::string source;                                          // of all this
   std::optional<CascadeBlendOf> blend_of = {};                 // how it blends, if evenly and by the depth
+  std::optional<double> only_blend = {};                       // cascades.blend, if it is fixed in the engine
   std::string other_blending = {};                             // how it blends otherwise, for a sentence
   std::string select = "depth";                                // as in cascades.select
   // Fields that begin so are there once for each cascade: one line sets them all, with {} for the line of one. Empty: every

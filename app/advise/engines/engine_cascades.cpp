@@ -26,7 +26,9 @@ std::vector<std::string> numbers_of(std::span<const double> values) {
 }  // namespace
 
 double blend_in(const EngineCascades& engine, const CascadeSettings& asked) {
-  return engine.blend_of == asked.blend_of ? asked.blend : 0;
+  const bool can = engine.blend_of == asked.blend_of && asked.blend_shape == "linear" &&
+                   (!engine.only_blend || engine.only_blend == asked.blend);
+  return can ? asked.blend : 0;
 }
 
 std::vector<std::string> AdvisedCascades::inner(const std::function<double(double end_m)>& of) const {
@@ -71,6 +73,8 @@ Settings laid_by(const EngineCascades& engine, Settings settings, double near_m,
   map.depth_range = DepthRange::fit;
   map.snap = true;
   settings.view.near_m = near_m;
+  settings.map.fit_fov_deg.reset();
+  settings.cascades.depths = CascadeDepths::planes;
   settings.cascades.splits = "manual";
   settings.cascades.bounds_m.assign(ends_m.begin(), ends_m.end() - 1);
   settings.cascades.radius_round_m = 0;
@@ -87,12 +91,17 @@ std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const 
   std::vector<std::string> said;
   if (asked.blend != cascades.blend)
     said.push_back(fmt::format(
-        "cascades.blend = {} with cascades.blend_of = {}: the engine has no such blending{}. The lines switch it off.",
+        "cascades.blend = {} with cascades.blend_of = {}{}: the engine has no such blending{}. The lines switch it "
+        "off.",
         number(asked.blend), find_setting("cascades.blend_of").get(cascades.settings()),
+        asked.blend_shape == "linear" ? "" : fmt::format(" and cascades.blend_shape = {}", asked.blend_shape),
         engine.other_blending.empty() ? "" : ", " + engine.other_blending));
   if (asked.select != engine.select)
     said.push_back(fmt::format("cascades.select = {}: the engine chooses a receiver's cascade by its {}.", asked.select,
                                engine.select));
+  if (asked.depths != CascadeDepths::planes)
+    said.push_back(
+        "cascades.depths = visible: the lines lay cascades between the camera's planes, as the engine does.");
   if (!asked.resolutions.empty())
     said.push_back("cascades.resolutions: all maps of the engine have one resolution, map.resolution.");
   return said;

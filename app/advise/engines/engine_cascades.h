@@ -35,7 +35,7 @@ std::string missed_ends(const AdvisedCascades& cascades, double lambda);
 // The settings with the maps that the engine lays for these ends.
 Settings laid_by(const EngineCascades& engine, Settings settings, double near_m, std::span<const double> ends_m);
 
-// cascades.blend, if the engine can blend so; otherwise 0.
+// cascades.blend, if the engine can blend so, evenly; otherwise 0.
 double blend_in(const EngineCascades& engine, const CascadeSettings& asked);
 
 // Of what the engine does otherwise when it chooses and blends cascades; empty sentences if nothing.

@@ -275,6 +275,7 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
     say(place.moments ? unexpressed_moments(place) : unexpressed_filter(place));
   std::vector<std::string_view> maps = engine.maps;
   if (cascades) maps.insert(maps.end(), {"map.snap", "map.depth_clamp", "map.pancake"});  // part of the engine's fit
+  if (!cascades && !place.map.reach_m) maps.push_back("map.fit_fov_deg");  // the lines have the extent as a number
   say(unexpressed_map(place, maps));
   say(unexpressed_distance(place));
   say(once);

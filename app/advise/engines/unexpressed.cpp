@@ -104,7 +104,7 @@ std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::ve
                                        "map.wrap",        "map.cull",           "map.lit_beyond_far",
                                        "map.depth_clamp", "map.pancake",        "map.turn_deg",
                                        "map.fov_deg",     "light.radius_m",     "light.angular_diameter_deg",
-                                       "map.roll_deg",    "map.aspect"};
+                                       "map.roll_deg",    "map.aspect",         "map.fit_fov_deg"};
   const Settings defaults;
   std::vector<std::string> said;
   for (std::string_view name : rows) {
