@@ -29,6 +29,17 @@ std::vector<Settings> promised_under(const Tried& tried, const AdviceRequest& re
   return conditions;
 }
 
+// Without the full stop of what the engine cannot.
+std::string no_lines(const EngineAdvice& advice) {
+  std::string why = advice.cannot.front();
+  if (why.ends_with('.')) why.pop_back();
+  return fmt::format("of {}: {}", advice.engine, why);
+}
+
+std::string not_known(const EngineAdvice& advice) {
+  return fmt::format("what {} does with its lines is not known: {}", advice.engine, advice.why_not_emulated);
+}
+
 }  // namespace
 
 std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer, const AdviceRequest& request,
@@ -43,20 +54,36 @@ std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer
   return engines;
 }
 
-std::string why_not_in_engines(Workbench& bench, std::span<const WantedEngine> engines, const Tried& tried,
-                               const AdviceRequest& request) {
+Elsewhere in_engines(Workbench& bench, std::span<const WantedEngine> engines, const Tried& tried,
+                     const AdviceRequest& request) {
+  Elsewhere found;
   for (EngineAdvice& advice : engines_of(bench, tried, request)) {
     const auto wanted = std::find_if(engines.begin(), engines.end(),
                                      [&](const WantedEngine& one) { return one.engine == advice.engine; });
     if (wanted == engines.end()) continue;
-    if (advice.lines.empty()) return fmt::format("{} has no lines for it: {}", advice.engine, advice.cannot.front());
+    if (advice.lines.empty()) return {no_lines(advice)};
     if (!advice.emulated && wanted->is_run) continue;
-    if (!advice.emulated)
-      return fmt::format("what {} does with its lines is not known: {}", advice.engine, advice.why_not_emulated);
+    if (!advice.emulated) return {not_known(advice)};
     advice.promise = measured_promise(bench, under_engine(advice, promised_under(tried, request)), request.accuracy);
     if (const std::string broken = broken_promise_text(advice, request.curve, request.error); !broken.empty())
-      return fmt::format("in {} {}", advice.engine, broken);
+      return {fmt::format("in {} {}", advice.engine, broken)};
+    found.does.push_back(as_engine(advice, tried.settings));
   }
+  return found;
+}
+
+std::string why_never_in_engines(Workbench& bench, std::span<const WantedEngine> engines, Settings settings) {
+  if (settings.cascades.count == 1) return "";
+  settings.filter = {"none", {}};  // every engine has it, or one of its own that Noonmark knows
+  settings.bias = {};
+  settings.bias["constant"] = 1;
+  const Scene& scene = bench.scene(settings.scene);
+  for (const EngineAdvice& advice : engine_advice(settings, make_light_frame(scene, settings), scene))
+    for (const WantedEngine& wanted : engines) {
+      if (wanted.engine != advice.engine) continue;
+      if (advice.lines.empty()) return no_lines(advice);
+      if (!advice.emulated && !wanted.is_run) return not_known(advice);
+    }
   return "";
 }
 

@@ -23,8 +23,12 @@ struct WantedEngine {
 };
 
 // Why these settings are no answer for one of the engines: it has no lines for them, what it does with them breaks a bound under a
-// searched condition, or that is not known. Empty if they are one for all. Throws Error.
-std::string why_not_in_engines(Workbench& bench, std::span<const WantedEngine> engines, const Tried& tried,
-                               const AdviceRequest& request);
+// searched condition, or that is not known. If they are one for all: what each does. Throws Error.
+Elsewhere in_engines(Workbench& bench, std::span<const WantedEngine> engines, const Tried& tried,
+                     const AdviceRequest& request);
+
+// Why no settings like these can be an answer for one of the engines: it lays no cascades, or not so many, or Noonmark has no
+// settings for what it lays. A sentence; empty: there is no such reason. Throws Error.
+std::string why_never_in_engines(Workbench& bench, std::span<const WantedEngine> engines, Settings settings);
 
 }  // namespace noonmark

@@ -230,19 +230,24 @@ class Search {
     if (tried.filtered()) tried.screened_error = screening_.error_of(tried);  // its reduction can be another one now
     tried.why_not = why_too_wrong(tried, request_);
     if (!candidate.holds()) return;
-    candidate.narrow = tried.bias && tried.bias->narrow;
+    ask_elsewhere(tried);
+    candidate.narrow = candidate.holds() && tried.bias && tried.bias->narrow;
     if (candidate.narrow)
       tried.why_not =
           fmt::format("its window, {:.3g} to {:.3g} {}, is too narrow for a margin of {:.0f}% on both sides",
                       tried.bias->window.low, tried.bias->window.high, tried.bias->unit, 100 * (bias_margin - 1));
-    else
-      ask_elsewhere(tried);
     if (!candidate.holds()) say_(fmt::format("{}: {}", name_of(tried, request_), tried.why_not));
   }
 
-  void ask_elsewhere(Tried& tried) const {
-    if (request_.why_not_elsewhere) tried.why_not = request_.why_not_elsewhere(tried);
+  void ask_elsewhere(Tried& tried) {
+    if (!request_.elsewhere) return;
+    Elsewhere found = request_.elsewhere(tried);
+    tried.why_not = std::move(found.why_not);
     tried.fails_elsewhere = !tried.why_not.empty();
+    // An engine that fits its map to the camera may need more texels.
+    for (const Settings& settings : found.does) tried.cost = std::max(tried.cost, screening_.cost(settings));
+    if (tried.why_not.empty() && request_.budget && tried.cost > *request_.budget)
+      tried.why_not = "it costs more than the budget";
   }
 
   // A map over what some views show must not leave out what another one shows.
@@ -297,7 +302,9 @@ class Search {
     Answer answer;
     answer.kinds = std::move(kinds);
     answer.tried = one.tried;
-    answer.doubled_cost = screening_.cost_at(one, 2 * one.tried.settings.map.resolution);
+    const int resolution = one.tried.settings.map.resolution;
+    const double here = screening_.cost_at(one, resolution);
+    answer.doubled_cost = screening_.cost_at(one, 2 * resolution) * one.tried.cost / here;
     answer.conditions = one.conditions;
     answer.placements = placements_along(one.tried) * placements_along(one.tried);
     if (const LightFrame frame = make_light_frame(bench_.scene(one.tried.settings.scene), one.tried.settings);
@@ -314,11 +321,6 @@ class Search {
       if (one.narrow) narrow.emplace(one.tried.cost, &one);
     for (const auto& [order, one] : narrow) {
       one->tried.why_not.clear();
-      ask_elsewhere(one->tried);
-      if (!one->holds()) {
-        say_(fmt::format("{}: {}", name_of(one->tried, request_), one->tried.why_not));
-        continue;
-      }
       verify(*one, true);
       if (!one->holds()) continue;
       advice.budget = request_.budget.value_or(budget_of_least * one->tried.cost);

@@ -53,6 +53,11 @@ struct ReductionChoice {
   double value = 0, low = 0, high = 0;
 };
 
+struct Elsewhere {
+  std::string why_not = {};         // why they are no answer, as a sentence without a full stop; empty: they are one
+  std::vector<Settings> does = {};  // what engines do that keep the bounds, in full size: the costliest is the cost
+};
+
 struct AdviceRequest {
   std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only
   LightKind light = LightKind::directional;
@@ -71,9 +76,9 @@ struct AdviceRequest {
   std::string given;                 // what the user gave that decides the answer, for a sentence; empty: nothing
   std::string source_of_bounds;      // for a sentence: "the defaults of recommend"; empty: it is not said
   int width_px = least_searched_px;  // of the pictures that are searched on
-  std::vector<std::string> held_in;  // engines in which the bounds hold too (why_not_elsewhere asks), for a sentence
-  // Further reasons why settings with their bias are no answer, as a sentence; empty: none. Asked last, of few.
-  std::function<std::string(const Tried&)> why_not_elsewhere;
+  std::vector<std::string> held_in;  // engines in which the bounds hold too (`elsewhere` asks), for a sentence
+  // What engines make of settings with their bias. Asked last, of few; null: nothing is asked.
+  std::function<Elsewhere(const Tried&)> elsewhere;
 };
 
 // Settings that were measured.
@@ -92,7 +97,7 @@ struct Tried {
   std::optional<NearestBias> nearest;
   std::optional<EyeErrors> eye;  // at the given view, in full size; empty: not looked at
 
-  bool fails_elsewhere = false;  // why_not is that of AdviceRequest::why_not_elsewhere
+  bool fails_elsewhere = false;  // why_not is that of AdviceRequest::elsewhere
 
   bool as_is = false;  // a form of an engine that keeps the bounds on causes as it is
   bool held = false;   // of Advice::tried: it keeps the bounds as far as it was measured, and something else is better

@@ -11,7 +11,7 @@ SeenShare seen_share(const PointRecord& measured) {
   const auto setting = [&](const char* name) { return number_of(setting_of(measured, name)).value(); };
   const double side = setting("map.resolution");
   return {metric_of(measured, "facing") / (setting("view.width_px") * setting("view.height_px")),
-          metric_of(measured, "map_texels") / side / side};
+          metric_of(measured, "map_texels") / side / side / setting("cascades.count")};
 }
 
 double full_texel_work(const Settings& full, const SeenShare& seen) {

@@ -7,8 +7,9 @@ namespace noonmark {
 
 // What a view and a light have in common for all settings.
 struct SeenShare {
-  double facing = 0;       // share of the pixels that look up
-  double map_squares = 1;  // texels of the map, in squares of map.resolution: 6 for a cube
+  double facing = 0;  // share of the pixels that look up
+  double map_squares =
+      1;  // texels of a map, in squares of map.resolution: 6 for a cube; of cascades that of one of them
 };
 SeenShare seen_share(const PointRecord& measured);
 

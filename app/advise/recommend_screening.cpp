@@ -96,6 +96,8 @@ double Screening::cost_of(const Choice& choice) const {
       of_choice(request_.conditions.front(), choice.level, choice.place, choice.filter, choice.resolution), *seen_);
 }
 
+double Screening::cost(const Settings& settings) const { return full_texel_work(settings, *seen_); }
+
 double Screening::cost_at(const Candidate& like, int resolution) const {
   return cost_of({like.level, like.tried.place, like.tried.settings.filter, resolution});
 }
@@ -146,12 +148,13 @@ bool Screening::fails_for_good(const Choice& choice) const {
 }
 
 // A bias cannot mend what is not its fault: aliasing, the filter's blur and the light's size. With the least kind of bias it is
-// known how much of the error, and how far edges lie off, is due to these.
+// known how much of the error, and how far edges lie off, is due to these. In an engine one kind of bias can keep the bounds
+// where another one does not: what fails there says nothing of the others.
 bool Screening::another_bias_can_pay(const Choice& choice) const {
   const Choice least{0, choice.place, choice.filter, choice.resolution};
   const Candidate* lesser = known(least);
   if (!lesser) return !cannot_win(least);
-  if (!lesser->tried.bias) return true;
+  if (!lesser->tried.bias || lesser->tried.fails_elsewhere) return true;
   return !lesser->edges_too_far &&
          metric_of(*lesser->tried.worst, "acne") + metric_of(*lesser->tried.worst, "peter_panning") >=
              (1 - 1 / factor_that_pays) * lesser->tried.screened_error;

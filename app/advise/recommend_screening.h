@@ -51,6 +51,9 @@ class Screening {
   // texel_work of the settings of `like` at another resolution.
   double cost_at(const Candidate& like, int resolution) const;
 
+  // texel_work of settings of full size.
+  double cost(const Settings& settings) const;
+
   // Advice::least_costs.
   std::map<std::string, double> least_costs() const;
 

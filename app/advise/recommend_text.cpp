@@ -195,9 +195,9 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   std::vector<std::string> lines;
   if (nearest.fails_elsewhere) {
     lines.push_back(
-        "Another engine, or none: without --for and --engine these settings hold. Or finer texels: what a bias in "
-        "texels "
-        "does wrong falls with their width.");
+        "Another engine, or none: without --for and --engine these settings hold. Or other choices of what was given, "
+        "and "
+        "finer texels: what a bias in texels does wrong falls with their width.");
   } else if (nearest.usable() && request.error) {
     const int times = *request.error > 0 ? static_cast<int>(std::ceil(nearest.error / *request.error)) : 0;
     if (times == 0)
@@ -239,13 +239,14 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
 std::vector<std::string> nothing_works(const Advice& advice) {
   std::vector<std::string> lines;
   lines.push_back(
-      fmt::format("Nothing that was tried keeps {}{}{} under all conditions.", kept_text(advice.request),
+      fmt::format("Nothing that was tried keeps {}{}{} under all conditions{}.", kept_text(advice.request),
                   eye_bounds_text(advice.request),
-                  advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : ""));
+                  advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : "",
+                  advice.nearest && advice.nearest->fails_elsewhere ? ", here and in the engine that it is for" : ""));
   const std::optional<Tried>& nearest = advice.nearest;
   if (!nearest) return lines;
   lines.push_back(fmt::format("Nearest came {}: {}.", settings_text(*nearest, advice.request), nearest->why_not));
-  if (nearest->worst && nearest->worst->worst.x >= 0) {
+  if (nearest->worst && nearest->worst->worst.x >= 0 && !nearest->fails_elsewhere) {
     const std::string where = condition_text(*nearest->worst, advice.request);
     lines.push_back(fmt::format(
         "Its worst pixel is x = {}, y = {} (row 0 on top, of {} x {}{}), by {}.", nearest->worst->worst.x,
@@ -344,10 +345,15 @@ std::string pictures_text(const Advice& advice, const Answer& answer) {
   const bool filtered =
       std::any_of(advice.answers.begin(), advice.answers.end(), [](const Answer& one) { return one.tried.filtered(); });
   std::string text = fmt::format(
-      "Work is that of a picture of {} x {} pixels. Error is the largest under {}, with the map's grid where the "
+      "Work is that of a picture of {} x {} pixels{}. Error is the largest under {}, with the map's grid where the "
       "settings put it{}; {} are held at {} placements of the grid{}. Both are measured "
       "in pictures {} pixels wide; recommended.toml measures full pictures, so its report has other numbers.",
-      settings.view.width_px, settings.view.height_px, counted(answer.conditions, "condition"),
+      settings.view.width_px, settings.view.height_px,
+      advice.request.held_in.empty() ? ""
+                                     : fmt::format(", with the maps that {} {} if those have more texels",
+                                                   fmt::join(advice.request.held_in, " and "),
+                                                   advice.request.held_in.size() > 1 ? "draw" : "draws"),
+      counted(answer.conditions, "condition"),
       filtered ? " (of filtered maps, where the light has no size, at their worst placement on the exact map)" : "",
       answer.tried.filtered() ? "leak, over-darkening and their like" : "acne, Peter Panning and their like",
       answer.placements, other, std::min(advice.request.width_px, settings.view.width_px));

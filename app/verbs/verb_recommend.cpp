@@ -403,8 +403,11 @@ int recommend(const RecommendOptions& options) {
   const std::vector<WantedEngine> wanted = wanted_engines(options);
   for (const WantedEngine& one : wanted)
     if (!one.is_run) request.held_in.push_back(one.engine);
+  if (const std::string never = why_never_in_engines(bench, wanted, request.conditions.front()); !never.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("--for and --engine: {}; choose another engine, or change cascades.count", never));
   if (!wanted.empty())
-    request.why_not_elsewhere = [&](const Tried& tried) { return why_not_in_engines(bench, wanted, tried, request); };
+    request.elsewhere = [&](const Tried& tried) { return in_engines(bench, wanted, tried, request); };
 
   make_output_folder(out);
   clear_abandoned_files(out);

@@ -92,7 +92,10 @@ bool cascade_bias_unit_varies(const PointRecord& point) {
 
 bool cascades_by_depth(const PointRecord& point) {
   const std::string select = setting_of(point, "cascades.select");
-  return select.empty() || select == "depth";
+  // A band about the end of a slice takes receivers from both sides of it.
+  const bool about_ends =
+      setting_of(point, "cascades.blend_of") == "square" && setting_of(point, "cascades.blend") != "0";
+  return (select.empty() || select == "depth") && !about_ends;
 }
 
 std::vector<CascadeRow> cascade_rows_of(const PointRecord& point) {

@@ -33,10 +33,10 @@ TEST(AnswerInEngines, IsNotWhatFailsElsewhere) {
   ASSERT_NE(free.answer(), nullptr);
   ASSERT_EQ(free.answer()->tried.settings.filter.kind, "none");
   size_t asked = 0;
-  request.why_not_elsewhere = [&](const Tried& tried) {
+  request.elsewhere = [&](const Tried& tried) {
     ++asked;
     EXPECT_TRUE(tried.bias.has_value());
-    return tried.settings.filter.kind == "none" ? "in an engine it has 1% acne" : "";
+    return Elsewhere{tried.settings.filter.kind == "none" ? "in an engine it has 1% acne" : ""};
   };
   const Advice held = search(bench, request, quiet);
   EXPECT_GT(asked, 1u);
@@ -58,7 +58,7 @@ TEST(AnswerInEngines, IsAskedForTheBoundsOfTheSearch) {
   const auto why_not = [&](double bias, const char* engine, bool is_run = false) {
     tried.settings.bias["constant"] = bias;
     const std::vector<WantedEngine> wanted = {{engine, is_run}};
-    return why_not_in_engines(bench, wanted, tried, request);
+    return in_engines(bench, wanted, tried, request).why_not;
   };
   const BiasChoice& bias = *advice.answer()->tried.bias;
   EXPECT_EQ(why_not(bias.value, "three.js"), "");

@@ -368,6 +368,7 @@ TEST_F(Recommend, PrintsTheLinesOfOneEngine) {
 
 // One number for all cascades is too much for the near ones: what holds here does not hold in such an engine.
 TEST_F(Recommend, HoldsInTheEngineThatItIsFor) {
+  width_ = 320, height_ = 180;
   const auto for_engine = [&](const std::vector<std::string>& more) {
     std::vector<std::string> options = {"--views", "1", "--edges", "9", "--patch", "1"};
     for (const char* set : {"cascades.count=3", "cascades.splits=manual", "cascades.bounds_m=6,20", "map.reach_m=78",
@@ -386,10 +387,16 @@ TEST_F(Recommend, HoldsInTheEngineThatItIsFor) {
   EXPECT_NE(of_engine("Bevy")["broken"].get<std::string>().find("Peter Panning"), std::string::npos);
   ASSERT_EQ(for_engine({"--for", "three"}), 0) << output_;
   EXPECT_TRUE(says("with the lines of three.js too")) << output_;
-  EXPECT_EQ(for_engine({"--for", "bevy, three"}), 1) << output_;
+  // With one constant bias Bevy does not hold it; with its normal bias, in texels of each cascade, it does.
+  ASSERT_EQ(for_engine({"--for", "bevy"}), 0) << output_;
+  EXPECT_FALSE(of_engine("Bevy").contains("broken"));
+  EXPECT_GT(std::stod(of_engine("Bevy")["settings"]["bias.normal_offset"].get<std::string>()), 0);
+  EXPECT_EQ(for_engine({"--for", "bevy, three", "--set", "bias.constant=2"}), 1) << output_;
   EXPECT_TRUE(says("in Bevy these lines are not an answer: Peter Panning")) << output_;
   EXPECT_TRUE(says("without --for and --engine these settings hold")) << output_;
   EXPECT_EQ(for_engine({"--for", "unreal"}), 2);
+  EXPECT_EQ(for_engine({"--for", "godot"}), 2);
+  EXPECT_TRUE(says("the engine lays 2, 4 cascades, and cascades.count = 3; choose another")) << output_;
 }
 
 // A model and the experiment that init writes for it have one folder. Another model of the same name does not take it.
