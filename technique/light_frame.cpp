@@ -268,11 +268,27 @@ std::string moving_splits_note(const Scene& scene, const Settings& settings) {
   std::vector<std::string> open;
   if (!settings.view.near_m && !scene.camera.near_m) open.emplace_back("view.near_m");
   if (!settings.map.reach_m && !settings.view.far_m && !scene.camera.far_m) open.emplace_back("map.reach_m");
+  if (open.empty() && settings.view.motion.zoom != 1 && !settings.map.fit_fov_deg)
+    return "motion.zoom changes the angle that the maps are fitted to: their sizes change from frame to frame, and "
+           "their "
+           "texels flicker although map.snap is set; set map.fit_fov_deg to the widest angle";
   if (open.empty()) return "";
   return fmt::format(
       "cascades reach from the camera's near to its far plane, which are fitted anew in each frame: their sizes change "
       "from frame to frame, and their texels flicker although map.snap is set; set {}",
       fmt::join(open, " and "));
+}
+
+// A map is fitted to the camera's angle at least.
+std::string narrow_fit_note(const Scene& scene, const Settings& settings) {
+  const Camera camera = effective_camera(scene, settings.view);
+  const std::optional<double> asked = settings.map.fit_fov_deg;
+  const bool fits = settings.map.fit == MapFit::sphere || fits_corners(settings.map.fit);
+  if (!asked || !fits || settings.view.motion.zoom != 1 || camera.projection != Projection::perspective ||
+      *asked >= camera.fov_y_deg)
+    return "";
+  return fmt::format("map.fit_fov_deg = {:g} has no effect: the camera's own angle, {:g} degrees, is wider", *asked,
+                     camera.fov_y_deg);
 }
 
 // map.fit = view has nothing to fit the map to where a slice holds no part of the scene.
@@ -299,8 +315,8 @@ std::string empty_slices_note(const Scene& scene, const Settings& settings) {
 
 std::vector<std::string> light_notes(const Scene& scene, const Settings& settings) {
   std::vector<std::string> notes;
-  for (const auto& note_of :
-       {first_of_several_note, made_up_light_note, map_fit_note, moving_splits_note, empty_slices_note})
+  for (const auto& note_of : {first_of_several_note, made_up_light_note, map_fit_note, moving_splits_note,
+                              narrow_fit_note, empty_slices_note})
     if (std::string note = note_of(scene, settings); !note.empty()) notes.push_back(std::move(note));
   return notes;
 }

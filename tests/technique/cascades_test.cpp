@@ -270,6 +270,29 @@ TEST(Cascades, SayWhichSliceIsEmpty) {
   EXPECT_EQ(notes(), "");
 }
 
+// Snapped texels flicker in a zoom, unless the maps are fitted to one angle; an angle that is less than the camera's does nothing.
+TEST(Cascades, SayWhatAZoomDoes) {
+  const Scene scene = floor_scene();
+  Settings s = cascaded(3, MapFit::sphere);
+  s.view.near_m = 0.2, s.map.reach_m = 70;
+  s.map.snap = true;
+  const auto says = [&](const char* part) {
+    const std::vector<std::string> notes = light_notes(scene, s);
+    return std::any_of(notes.begin(), notes.end(),
+                       [&](const std::string& note) { return note.find(part) != note.npos; });
+  };
+  const char* const changes = "motion.zoom changes the angle that the maps are fitted to";
+  EXPECT_FALSE(says(changes));
+  s.view.motion.zoom = 1.004;
+  EXPECT_TRUE(says(changes));
+  s.map.fit_fov_deg = 120;
+  EXPECT_FALSE(says(changes));
+  s.view.motion.zoom = 1;
+  EXPECT_FALSE(says("map.fit_fov_deg = "));
+  s.map.fit_fov_deg = 5;
+  EXPECT_TRUE(says("map.fit_fov_deg = 5 has no effect: the camera's own angle"));
+}
+
 // Three cascades that end at these depths.
 CascadePlace by_depth(double first, double second) {
   CascadePlace place;
