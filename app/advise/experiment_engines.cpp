@@ -91,6 +91,11 @@ void promise_lines(Workbench& bench, EngineAdvice& engine, const DescribedChoice
   if (!engine.emulated) return;
   try {
     const std::vector<Settings> there = under_engine(engine, choice.conditions);
+    // The memory of a run is known before it starts, and that is the memory of its points.
+    if (const int needed = there.front().map.resolution, own = choice.conditions.front().map.resolution; needed > own)
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("its maps have {0} x {0} texels, more than the point; noonmark recommend measures them", needed));
     engine.promise = measured_promise(bench, there, accuracy);
     engine.promise->all_views = there.size() == choice.conditions.size();
   } catch (const Error& error) {

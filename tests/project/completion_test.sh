@@ -121,7 +121,7 @@ expect 'models sweeps' report ''
 expect 'models sweeps' run one.toml --out ''
 
 # Settings: their names, then their values. Bash splits words at =.
-expect 'map.far_m= map.fit= map.format= map.fov_deg=' run --set map.f
+expect 'map.far_m= map.fit= map.fit_fov_deg= map.format= map.fov_deg=' run --set map.f
 has scene.name= render one.toml --set ''
 has filter.kind= check --set=f --set f
 expect 'map.wrap=' run --set map.wrap
