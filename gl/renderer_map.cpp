@@ -145,7 +145,8 @@ ShadowMap Renderer::render_maps(std::span<const Technique> techniques, double* t
   std::unique_ptr<ShadowMap::Impl> made;
   if (!cube) {
     made = r.make_flat(r.drawn, gl_format(settings.format), sizes, settings.wrap);
-    for (TiledMaps& array : made->arrays) array.known.assign(array.known.size(), {});  // it may have been uploaded
+    // The texture may have held an uploaded map before. What this pass draws into it is not known on the host.
+    for (TiledMaps& array : made->arrays) array.known.assign(array.known.size(), {});
   }
   const std::optional<Bias::PolygonOffset> offset = first.bias.polygon_offset();
   glDepthMask(GL_TRUE);

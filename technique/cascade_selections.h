@@ -29,7 +29,8 @@ std::span<const CascadeSelection> cascade_selections();
 // Throws std::logic_error if no row has that name.
 const CascadeSelection& find_cascade_selection(std::string_view name);
 
-// The weight of the next cascade at a place, with the bound of the shader's error. Of a CascadePlace that blends.
+// The weight of the next cascade at a place, and the most that the shader's float arithmetic can be off. The CascadePlace must
+// have a blend band.
 double weight_of_next(const CascadePlace&, double place);
 Bounded weight_of_next(const CascadePlace&, Bounded place);
 

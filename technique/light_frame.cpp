@@ -294,7 +294,7 @@ std::string narrow_fit_note(const Scene& scene, const Settings& settings) {
 // map.fit = view has nothing to fit the map to where a slice holds no part of the scene.
 std::string empty_slices_note(const Scene& scene, const Settings& settings) {
   if (settings.cascades.count == 1 || settings.map.fit != MapFit::view ||
-      settings.cascades.depths == CascadeDepths::visible)  // which nothing but the picture knows
+      settings.cascades.depths == CascadeDepths::visible)  // these slices are known only when the picture is drawn
     return "";
   const Light light = effective_light(scene, settings);
   const LightFrame axes = kind_of_light(light.kind).axes(light);

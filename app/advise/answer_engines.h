@@ -18,7 +18,8 @@ std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer
 // An engine in which settings must hold.
 struct WantedEngine {
   std::string engine;  // EngineAdvice::engine
-  // Its own frames are judged after the search: lines that cannot be measured before do not rule settings out.
+  // The engine draws frames after the search, and these are judged. So settings stay in the search if Noonmark cannot
+  // measure what the engine does with their lines.
   bool is_run = false;
 };
 

@@ -81,8 +81,8 @@ TEST(VisibleDepths, EndAtTheReach) {
       Error);
 }
 
-// A camera that walks on sees other depths in each frame, so that the sizes change and snapping does not help (law 33 (a)). All
-// of the change is that of the grids, and of receivers that go to another cascade.
+// A camera that walks on sees other depths in each frame, so that the sizes change and snapping does not help (law 33 (a)). The
+// whole flicker has two causes: the grids change, and receivers go to another cascade.
 TEST(VisibleDepths, FlickerByTheirSizes) {
   Workbench bench(gl::DebugMode::fatal);
   const Settings s = across_the_street({{"map.snap", "true"},

@@ -174,7 +174,7 @@ TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
   }
 }
 
-// Brackets are a TOML file's. The refusal says what to type.
+// Lists have brackets in TOML files and none on the command line. The error message says what to type.
 TEST(SettingsTable, SaysHowToWriteNumbersWithoutBrackets) {
   EXPECT_TRUE(contains(refusal("cascades.bounds_m", "[10,20]"), "; write cascades.bounds_m = 10,20, without brackets"));
   EXPECT_TRUE(contains(refusal("view.eye_m", "(0, 1, 2)"), "; write view.eye_m = 0, 1, 2, without brackets"));

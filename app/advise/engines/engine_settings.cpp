@@ -188,7 +188,8 @@ bool is_of_each(const Engine& engine, const std::string& line, size_t maps) {
   return maps > 1 && !engine.cascades->each.empty() && line.starts_with(engine.cascades->each_begins);
 }
 
-// The line with the numbers of each cascade; of one map there is one. A field that is there once has the same number in all.
+// The line to type. typed: the number of each cascade, or of the one map. If the engine has the field once for all cascades, the
+// numbers are equal and the first is written.
 std::string knob_line(const Engine& engine, const EngineKnob& knob, const std::vector<double>& typed) {
   const auto literal = engine.literal ? engine.literal : number;
   if (!is_of_each(engine, knob.line, typed.size())) return fmt::format(fmt::runtime(knob.line), literal(typed.front()));

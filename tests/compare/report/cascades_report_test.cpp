@@ -93,7 +93,8 @@ TEST(CascadesSection, ABiasInMetresHasOneColumn) {
   EXPECT_EQ(html.find("is needed against acne"), std::string::npos);
 }
 
-// By map or sphere a receiver need not be looked up in the cascade of its slice, so the slice says nothing about it.
+// With cascades.select = map or sphere a receiver can be looked up in another cascade than that of its slice. So the table shows
+// the depths of the receivers, not those of the slice.
 TEST(CascadesSection, ShowsTheReceiversWhereTheDepthDoesNotChoose) {
   PointRecord point = two_cascades();
   point.settings["cascades.select"] = "depth";
