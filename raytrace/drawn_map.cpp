@@ -1,6 +1,7 @@
 #include "raytrace/drawn_map.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "technique/casters.h"
@@ -93,7 +94,26 @@ float DrawnMap::depth_of(uint32_t hit, glm::dvec3 place) const {
     if (!behind) return 1;
     depth = *behind;
   }
-  return static_cast<float>(std::clamp(view_.window_depth(depth, place), 0.0, 1.0));
+  return window_depth(depth, place);
+}
+
+bool DrawnMap::draws_plane_of(uint32_t hit, glm::ivec2 low, glm::ivec2 high) const {
+  if (own_tree_ || nothing_kept_ || offset_) return false;
+  const LightFrame& frame = view_.frame();
+  if (frame.kind != LightKind::directional) return false;
+  if (depth_clamp_ || view_.nearest_m(hit) >= frame.near_m) return true;
+  // A plane is nearest at a corner of the rectangle. The float error of a ray is far more than double's rounding.
+  const double after_near = frame.near_m + view_.ray_error_m();
+  return std::ranges::all_of(
+      std::array{low, high, glm::ivec2(low.x, high.y), glm::ivec2(high.x, low.y)},
+      [&](glm::ivec2 texel) { return view_.hit_depth(hit, view_.texel_place(texel)) >= after_near; });
+}
+
+void DrawnMap::depths_on_plane(uint32_t hit, glm::ivec2 first, int count, float* depths) const {
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 place = view_.texel_place({first.x + i, first.y});
+    depths[i] = window_depth(view_.hit_depth(hit, place), place);
+  }
 }
 
 }  // namespace noonmark::raytrace

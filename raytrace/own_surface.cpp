@@ -270,17 +270,31 @@ template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes::Nearby>(const Surfa
 // gap_m. A silhouette nearby changes nothing: it belongs to a surface behind `front`.
 std::optional<bool> OwnSurface::known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
                                          LightCells::Reader& reader, Pair& last) const {
-  if (view_.scene().mask_error_m > 0) return std::nullopt;  // a verdict beside the border of a mask is not sure
-  if (p.on_silhouette || !reader.covers(p.primitive, low, high)) return std::nullopt;
+  if (!may_be_known_in(p, low, high, reader)) return std::nullopt;
   const std::optional<uint32_t> front = reader.front_in(low, high);
-  if (!front) return std::nullopt;
-  if (*front == p.primitive) return true;
+  return front ? known_below(*front, p, low, reader, last) : std::nullopt;
+}
+
+std::optional<bool> OwnSurface::known_under(uint32_t front, const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
+                                            LightCells::Reader& reader, Pair& last) const {
+  return may_be_known_in(p, low, high, reader) ? known_below(front, p, low, reader, last) : std::nullopt;
+}
+
+bool OwnSurface::may_be_known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
+                                 LightCells::Reader& reader) const {
+  if (view_.scene().mask_error_m > 0) return false;  // a verdict beside the border of a mask is not sure
+  return !p.on_silhouette && reader.covers(p.primitive, low, high);
+}
+
+std::optional<bool> OwnSurface::known_below(uint32_t front, const SurfacePoint& p, glm::dvec2 at,
+                                            const LightCells::Reader& reader, Pair& last) const {
+  if (front == p.primitive) return true;
   if (p.lit) return std::nullopt;
-  if (last.own != p.primitive || last.front != *front) {
+  if (last.own != p.primitive || last.front != front) {
     // Of parallel rays it is the same at all places. Half of the gap leaves room for double's rounding.
-    const double error = depth_error(*front, p.primitive, glm::dvec3(low, 1));
-    last = {p.primitive, *front,
-            error < reader.cells().gap_m() / 2 && !may_be_one_plane(view_.scene(), *front, p.primitive)};
+    const double error = depth_error(front, p.primitive, glm::dvec3(at, 1));
+    last = {p.primitive, front,
+            error < reader.cells().gap_m() / 2 && !may_be_one_plane(view_.scene(), front, p.primitive)};
   }
   return last.apart ? std::optional(false) : std::nullopt;
 }

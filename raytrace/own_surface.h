@@ -64,6 +64,9 @@ class OwnSurface {
   // a ray without tracing it.
   std::optional<bool> known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
                                Pair& last) const;
+  // The same, if this triangle is known to be before everything else in the rectangle (LightCells::Reader::front_in).
+  std::optional<bool> known_under(uint32_t front, const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
+                                  LightCells::Reader& reader, Pair& last) const;
 
   // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
   // to 2^-8 of the way.
@@ -89,6 +92,10 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams = true) const;
 
  private:
+  // The two halves of known_under(): what the receiver's own triangle decides, and what the triangle before it does.
+  bool may_be_known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader) const;
+  std::optional<bool> known_below(uint32_t front, const SurfacePoint& p, glm::dvec2 at,
+                                  const LightCells::Reader& reader, Pair& last) const;
   template <class Edges>  // Silhouettes, or those nearby
   Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes) const;
   uint32_t first_hit(glm::dvec3 x) const;

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "raytrace/drawn_map.h"
@@ -41,6 +42,9 @@ struct PlacementTracer::Impl {
   bool by_rays;
   std::optional<TexelLattice> lattice;
   PixelRange at_all_placements;  // the pixels whose taps the lattice holds at all placements; empty if there are none
+  // Of each pixel of the strip that was traced: front_of() its taps.
+  std::vector<uint32_t> fronts;
+  size_t first_pixel = 0;
   // The light's own frame, whose squares are certified; empty if there are none, or if rays shall answer.
   std::shared_ptr<LightSide> light;
   LightCells* cells = nullptr;
@@ -72,17 +76,52 @@ struct PlacementTracer::Impl {
     if (cells) in_cells.emplace(traced.embree, traced.adjacency, light->view(), light->silhouettes(), cells);
   }
 
-  // V of a receiver at all points that these taps read, if it is the same for sure.
-  std::optional<bool> known_in(const SurfacePoint& p, const PlacedTaps& taps) const {
-    if (!in_cells) return std::nullopt;
-    // The lattice has another origin than the light's own frame. The difference is rounded far finer than the reach of
-    // the squares.
+  // The rectangle of the light's plane that holds these taps' points. The lattice has another origin than the light's own
+  // frame. The difference is rounded far finer than the reach of the squares.
+  struct Rectangle {
+    glm::dvec2 low, high;
+  };
+  Rectangle rectangle(const PlacedTaps& taps) const {
     const auto place = [&](glm::ivec2 point) {
       return glm::dvec2(light->view().frame().to_light(view.frame().to_world(view.texel_place(point))));
     };
     const glm::dvec2 a = place(taps.low), b = place(taps.high);
+    return {glm::min(a, b), glm::max(a, b)};
+  }
+
+  // The triangle that rays meet first at all points that these taps read, by the certified squares; no_primitive if they
+  // know none.
+  uint32_t front_of(const PlacedTaps& taps) const {
+    if (!in_cells || taps.low.x > taps.high.x) return no_primitive;
+    const Rectangle box = rectangle(taps);
+    return asking.local().reader.front_in(box.low, box.high).value_or(no_primitive);
+  }
+
+  // Whether the depths that these taps read follow from the plane of their front alone. Then no lattice is traced for them.
+  bool by_plane(uint32_t front, const PlacedTaps& taps) const {
+    return front != no_primitive && lattice->reach_of(taps) != TexelLattice::Reach::both &&
+           drawn.draws_plane_of(front, taps.low, taps.high);
+  }
+
+  // V of a receiver at all points that these taps read, if it is the same for sure.
+  std::optional<bool> known_under(uint32_t front, const SurfacePoint& p, const PlacedTaps& taps) const {
+    if (front == no_primitive) return std::nullopt;
+    const Rectangle box = rectangle(taps);
     Asking& of_thread = asking.local();
-    return in_cells->known_in(p, glm::min(a, b), glm::max(a, b), of_thread.reader, of_thread.pair);
+    return in_cells->known_under(front, p, box.low, box.high, of_thread.reader, of_thread.pair);
+  }
+
+  // As TexelLattice::read_depths() gives them.
+  void plane_depths(uint32_t front, const PlacedTaps& taps, std::vector<float>& depths) const {
+    const bool in_map = lattice->reach_of(taps) == TexelLattice::Reach::inside;
+    const glm::ivec2 size = taps.size();
+    depths.assign(static_cast<size_t>(size.x) * static_cast<size_t>(size.y),
+                  in_map ? std::numeric_limits<float>::infinity() : border_depth);
+    if (!in_map) return;
+    taps.each_square([&](glm::ivec2 low, glm::ivec2 high) {
+      for (int y = low.y; y <= high.y; ++y)
+        drawn.depths_on_plane(front, {low.x, y}, high.x - low.x + 1, &depths[taps.index(low.x, y)]);
+    });
   }
 };
 
@@ -110,8 +149,12 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
   if (placement && held.first <= strip.first && strip.end <= held.end && strip.size() > 0) return;
   const StageWatch watch(stage, l.traced.device);
   l.at_all_placements = {};
-  l.lattice.reset();  // freed before the next is made, because it is large
-  l.lattice.emplace(l.raster, l.view, l.drawn, l.placements, l.map);
+  if (l.lattice)
+    l.lattice->clear();
+  else
+    l.lattice.emplace(l.raster, l.view, l.drawn, l.placements, l.map);
+  l.first_pixel = strip.first;
+  l.fronts.assign(strip.size(), no_primitive);
   // Each thread asks a lattice of its own; what all of them ask for is traced.
   tbb::combinable<TexelLattice> asked([&] { return TexelLattice(l.raster, l.view, l.drawn, l.placements, l.map); });
   tbb::parallel_for(tbb::blocked_range<size_t>(strip.first, strip.end, 1024), [&](const auto& range) {
@@ -123,7 +166,9 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
         probe.taps_of(i, *placement, taps);
       else
         probe.taps_of(i, taps);
-      of_thread.want(taps);
+      uint32_t& front = l.fronts[i - strip.first];
+      front = l.front_of(taps);
+      if (!l.by_plane(front, taps)) of_thread.want(taps);
     }
   });
   asked.combine_each([&](const TexelLattice& of_thread) { l.lattice->want(of_thread); });
@@ -164,20 +209,23 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
   l.silhouettes.list_nearby(places, nearby);
   // Without a silhouette in the box, a lit receiver's surface is lit all over it (the rule of OwnSurface).
   const bool none_near = p.lit && !l.by_rays && nearby.none();
-  const std::optional<bool> known = none_near ? true : l.known_in(p, taps);
+  const uint32_t front = l.fronts[pixel - l.first_pixel];
+  const std::optional<bool> known = none_near ? true : l.known_under(front, p, taps);
 
   const OwnSurface::Verdict everywhere{known.value_or(false), !p.on_silhouette};
   const auto bits_of = [](OwnSurface::Verdict v, bool clipped) {
     return static_cast<uint8_t>((v.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                 (v.sure ? 0 : tap_texel_unsure));
   };
-  box.alike = known && l.lattice->read_depths(taps, box.depth);
+  const bool by_plane = l.by_plane(front, taps);
+  if (by_plane) l.plane_depths(front, taps, box.depth);
+  box.alike = known && (by_plane || l.lattice->read_depths(taps, box.depth));
   if (box.alike) {
     box.bits.assign(points, bits_of(everywhere, false));
     return;
   }
   thread_local std::vector<TexelLattice::Point> found;
-  l.lattice->read(taps, found);
+  if (!by_plane) l.lattice->read(taps, found);
   box.bits.assign(points, lattice_unknown);
   box.depth.resize(points);
   for (size_t tap = 0; tap < taps.column.size(); tap += side)
@@ -186,7 +234,7 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
         const glm::ivec2 k(taps.column[tap + i], taps.row[tap + j]);
         const size_t n = taps.index(k.x, k.y);
         if (box.bits[n] != lattice_unknown) continue;
-        const TexelLattice::Point& at = found[n];
+        const TexelLattice::Point at = by_plane ? TexelLattice::Point{front, false, box.depth[n]} : found[n];
         box.bits[n] =
             bits_of(known ? everywhere : l.surface.lit_at(p, l.view.texel_place(k), at.hit, nearby), at.clipped);
         box.depth[n] = at.depth;

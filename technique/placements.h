@@ -17,6 +17,7 @@
 //                                                            // the lattice point of its texel (12, 7)
 //   glm::dvec3 x = placements.lattice(frame).texel_place(k); // the place of that texel's centre
 #pragma once
+#include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
 
@@ -70,6 +71,16 @@ struct PlacedTaps {
   glm::ivec2 low{0}, high{-1};     // all lattice points that the taps read; empty if the lookup asks nothing
 
   glm::ivec2 size() const { return high - low + 1; }
+  // Calls visit(low, high) with the lattice points of each tap: its columns are whole numbers in a row, and so are its rows.
+  template <class Visit>
+  void each_square(const Visit& visit) const {
+    const auto s = static_cast<size_t>(side);
+    for (size_t tap = 0; tap < column.size(); tap += s) {
+      const auto [left, right] = std::minmax_element(&column[tap], &column[tap] + s);
+      const auto [bottom, top] = std::minmax_element(&row[tap], &row[tap] + s);
+      visit(glm::ivec2(*left, *bottom), glm::ivec2(*right, *top));
+    }
+  }
   // The index of a lattice point in the lists of the box's points (LatticeBox).
   size_t index(int k_x, int k_y) const {
     return static_cast<size_t>(k_y - low.y) * static_cast<size_t>(size().x) + static_cast<size_t>(k_x - low.x);

@@ -27,6 +27,34 @@ float stored_depth(float depth, DepthFormat format) {
 
 constexpr uint8_t of_texel = tap_texel_lit | tap_near_clipped | tap_texel_unsure;
 
+// The weights of a sampler's taps at all placements: a tap's weight is that of its column times that of its row
+// (TapPattern::weight), and these depend on the placement's column and row alone.
+class AxisWeights {
+ public:
+  void list(const TapPattern& pattern, const PlacedTaps& taps) {
+    texels_ = static_cast<size_t>(pattern.blended_side);
+    side_ = static_cast<size_t>(taps.side);
+    of_column_.resize(texels_ * side_);
+    of_row_.resize(texels_ * side_);
+    for (size_t i = 0; i < side_; ++i) {
+      const glm::dvec2 fraction = pattern.fetch_fraction({taps.x[i], taps.y[i]});
+      for (size_t texel = 0; texel < texels_; ++texel) {
+        of_column_[texel * side_ + i] = pattern.along_axis(0, static_cast<int>(texel), fraction.x);
+        of_row_[texel * side_ + i] = pattern.along_axis(1, static_cast<int>(texel), fraction.y);
+      }
+    }
+  }
+  // LookupProbe::weight_at of tap t at the placement in column i and row j.
+  double of(int t, size_t i, size_t j) const {
+    const auto tap = static_cast<size_t>(t);
+    return of_column_[tap % texels_ * side_ + i] * of_row_[tap / texels_ * side_ + j];
+  }
+
+ private:
+  size_t texels_ = 1, side_ = 1;
+  std::vector<double> of_column_, of_row_;
+};
+
 bool within_one_float(float a, float b) { return a == b || std::nextafter(a, b) == b; }
 
 }  // namespace
@@ -184,7 +212,7 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
   const float reference = e.probe.reference[pixel], biased = reference - bias;
   const DepthFormat format = e.map.format;
   const float without_bias = threshold ? reference - threshold->bias_at(0) : 0;
-  std::optional<BinsByDepth> of_exact, of_shown;
+  std::optional<BinsByDepth> bin_of;
   float least = infinity_f;  // of the depths that should be lit
   const float* const depth = box.depth.data();
   const bool same_bits = box.alike && box.bits.front() == texel_bits;
@@ -192,6 +220,8 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
   if (lit && same_bits && (e.taps.bits(pixel, 0) & ~of_texel) == exact_bits && alike(e.taps, pixel) &&
       std::all_of(box.depth.begin(), box.depth.end(), [&](float at) { return at >= lit_from; }))
     return;
+  thread_local AxisWeights weights;
+  if constexpr (weighted) weights.list(e.probe.pattern, taps);
   for (int t = 0; t < e.probe.taps(); ++t) {
     const bool as_receiver = (e.taps.bits(pixel, t) & ~of_texel) == exact_bits;
     const int* const column = &taps.column[static_cast<size_t>(t) * side];
@@ -213,7 +243,7 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
             other(t, i, j);
             continue;
           }
-          weight = e.probe.weight_at({taps.x[i], taps.y[j]}, t);
+          weight = weights.of(t, i, j);
           if (weight == 0) continue;
         }
         if ((biased > exact) == lit) own_[cause][placement] += weight;
@@ -222,15 +252,12 @@ void PlacementCounts::book_by_depth(const PlacementEvidence& e, size_t pixel, co
           receivers[placement].wrong_weight += weight;
         }
         if (!threshold) continue;
+        if (!bin_of) bin_of.emplace(*threshold, bins_, reference);
         if (!lit || without_bias > exact) {
-          if (!of_exact) of_exact.emplace(*threshold, bins_, reference, bins_.of(threshold->at(reference, exact)));
-          cell(cause, placement, of_exact->of(exact)) += weight;
+          cell(cause, placement, bin_of->of(exact)) += weight;
           least = std::min(least, exact);
         }
-        if (!lit || without_bias > shown) {
-          if (!of_shown) of_shown.emplace(*threshold, bins_, reference, bins_.of(threshold->at(reference, shown)));
-          cell(error, placement, of_shown->of(shown)) += weight;
-        }
+        if (!lit || without_bias > shown) cell(error, placement, bin_of->of(shown)) += weight;
       }
     }
   }

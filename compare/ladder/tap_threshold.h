@@ -54,6 +54,13 @@ class TapThreshold {
     return varied_.floor >= held ? 0.0f : factor_threshold(held, factor_);
   }
 
+  // About at(): without the rounding of each operation, and without floors and caps. Not finite where the part does nothing.
+  float about(float reference, float depth) const {
+    float sum = (reference - depth) / unit_ - before_;
+    for (const float part : after_) sum -= part;
+    return sum / factor_;
+  }
+
  private:
   float unit_, factor_ = 1;
   ActivePart varied_{};  // its floor and cap

@@ -3,7 +3,7 @@
 //
 //   const ThresholdBins bins(placement_edges(bias_depth, depth_per_unit));
 //   size_t bin = bins.of(threshold);
-//   BinsByDepth by_depth(threshold, bins, reference, bin);     // of one receiver
+//   BinsByDepth by_depth(threshold, bins, reference);          // of one receiver
 //   bin = by_depth.of(depth);
 #pragma once
 #include <cstddef>
@@ -29,17 +29,18 @@ class ThresholdBins {
 };
 
 // The bins of the thresholds of one receiver's taps, from their depths alone: the bin is the first edge at which the tap is
-// lit. The search begins at the last answer, because neighbouring taps have neighbouring depths.
+// lit. The search begins at the last answer, or else where the threshold is about.
 class BinsByDepth {
  public:
-  // threshold: of the receiver. reference: of its taps. bin: that of any depth, to begin with. threshold and bins must outlive this.
-  BinsByDepth(const TapThreshold& threshold, const ThresholdBins& bins, float reference, size_t bin)
-      : threshold_(threshold), edges_(bins.edges()), reference_(reference), at_(bin) {
-    before_ = at_ == 0 ? -infinity_f : compared_at(at_ - 1);
-    here_ = compared_at(at_);
+  // threshold: of the receiver. reference: of its taps. threshold and bins must outlive this.
+  BinsByDepth(const TapThreshold& threshold, const ThresholdBins& bins, float reference)
+      : threshold_(threshold), bins_(bins), edges_(bins.edges()), reference_(reference) {
+    move_to(0);
   }
   // ThresholdBins::of(TapThreshold::at(reference, depth)).
   size_t of(float depth) {
+    if (!(here_ > depth) && (at_ == 0 || before_ > depth)) return at_;
+    if (const float amount = threshold_.about(reference_, depth); amount >= 0) move_to(bins_.of(amount));
     while (here_ > depth) {
       before_ = here_;
       here_ = compared_at(++at_);
@@ -52,11 +53,17 @@ class BinsByDepth {
   }
 
  private:
+  void move_to(size_t bin) {
+    at_ = bin;
+    before_ = at_ == 0 ? -infinity_f : compared_at(at_ - 1);
+    here_ = compared_at(at_);
+  }
   // What is compared with a depth at this edge. Beyond the last edge every tap counts as lit.
   float compared_at(size_t edge) const {
     return edge < edges_.size() ? reference_ - threshold_.bias_at(edges_[edge]) : -infinity_f;
   }
   const TapThreshold& threshold_;
+  const ThresholdBins& bins_;
   const std::vector<float>& edges_;
   float reference_;
   size_t at_ = 0;

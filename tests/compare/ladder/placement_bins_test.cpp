@@ -35,7 +35,7 @@ RC_GTEST_PROP(BinsByDepth, AreThoseOfTheThresholds, (uint64_t seed)) {
       const float d = s.exact[random() % s.exact.size()];
       return random() % 2 ? d : reference - d / 1024;
     };
-    BinsByDepth by_depth(threshold, bins, reference, bins.of(threshold.at(reference, depth())));
+    BinsByDepth by_depth(threshold, bins, reference);
     for (int k = 0; k < 200; ++k) {
       const float d = depth(), needed = threshold.at(reference, d);
       wrong += by_depth.of(d) != bins.of(needed);
