@@ -144,10 +144,8 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   const bool beyond_far = probe.reference[pixel] > 1.0f;
   const glm::ivec2 low = placements_.texel_of(taps.low), high = placements_.texel_of(taps.high);
   const bool depth_is_known = beyond_far ? e.map.lit_beyond_far : beside_map(low, high, size);
-  if (flat && !blended && box.alike && depth_is_known && alike(e.taps, pixel)) {
-    book_beside(e, pixel, box, truth, bias, threshold);
+  if (flat && box.alike && depth_is_known && alike(e.taps, pixel) && book_beside(e, pixel, box, truth, bias, threshold))
     return;
-  }
   const bool by_depth = share == 1 && flat && !beyond_far && inside_map(low, size) && inside_map(high, size);
   if (!by_depth) {
     for (size_t j = 0; j < side; ++j)
@@ -186,18 +184,20 @@ bool PlacementCounts::alike(const TapTruth& taps, size_t pixel) {
   return true;
 }
 
-void PlacementCounts::book_beside(const PlacementEvidence& e, size_t pixel, const LatticeBox& box, bool truth,
+bool PlacementCounts::book_beside(const PlacementEvidence& e, size_t pixel, const LatticeBox& box, bool truth,
                                   float bias, const std::optional<TapThreshold>& threshold) {
   const auto bits = static_cast<uint8_t>((e.taps.bits(pixel, 0) & ~of_texel) | box.bits.front());
   Tap tap = tap_of(e.probe, bits, e.map, e.map_size, pixel, 0, {.texel = {-1, -1}, .depth = border_depth});
   // The border is lit at any bias that is not negative. A tap that should be lit is never wrong then.
-  if (truth && tap.moved_sure && tap.moved_lit && tap.lit(0) && tap.lit(bias)) return;
+  if (truth && tap.moved_sure && tap.moved_lit && tap.lit(0) && tap.lit(bias)) return true;
+  if (e.probe.pattern.bilinear()) return false;  // its weights are summed tap by tap
   tap.weight = e.probe.taps() * e.truth.share_of(pixel);
   for (size_t placement = 0; placement < count_; ++placement) {
     OfReceiver receiver;
     book(placement, truth, bias, threshold, tap, tap, false, receiver);
     book(placement, receiver);
   }
+  return true;
 }
 
 // A tap that should be lit is acne where it is dark, and one that should be dark is Peter Panning where it is lit.

@@ -106,8 +106,9 @@ class PlacementCounts {
   void book(size_t placement, bool truth, float bias, const std::optional<TapThreshold>& threshold, const Tap& exact,
             const Tap& shown, bool rounded, OfReceiver& receiver);
   static bool alike(const TapTruth& taps, size_t pixel);
-  // Books a receiver whose taps all have the same truth, and read the border or lie beyond far, at every placement.
-  void book_beside(const PlacementEvidence& evidence, size_t pixel, const LatticeBox& box, bool truth, float bias,
+  // Books a receiver whose taps all have the same truth, and read the border or lie beyond far, at every placement. False if
+  // its taps must be booked one by one.
+  bool book_beside(const PlacementEvidence& evidence, size_t pixel, const LatticeBox& box, bool truth, float bias,
                    const std::optional<TapThreshold>& threshold);
   // Books the taps of a receiver whose truth is `lit`, if nothing but their depth decides whether they are. Calls
   // other(tap, column, row) for each tap whose own truth differs from the receiver's, or is not sure, and for one whose depth
