@@ -264,12 +264,10 @@ LightCells::Judged LightCells::judge(const std::vector<Part>& parts, double othe
 
 // The triangles come in the order of their nearest points. Once one covers the place, those that begin deeper by gap_m
 // are not looked at.
-LightCells::Judged LightCells::judge_place(const Cell& cell, glm::dvec2 at) const {
-  if (!cell.ends_here()) return {};  // memory is used up
-  const Square place{at, reach_m_};
-  const glm::dvec2 low = place.middle - place.half, high = place.middle + place.half;
-  thread_local std::vector<Part> parts;
+std::optional<double> LightCells::list_parts(const Cell& cell, const Square& place, std::vector<Part>& parts) const {
   parts.clear();
+  if (!cell.ends_here()) return std::nullopt;  // memory is used up
+  const glm::dvec2 low = place.middle - place.half, high = place.middle + place.half;
   double covered_m = infinity, others_m = infinity;
   for (uint32_t t : cell.triangles) {
     if (view_.nearest_m(t) - covered_m > gap_m_) {
@@ -282,11 +280,35 @@ LightCells::Judged LightCells::judge_place(const Cell& cell, glm::dvec2 at) cons
       continue;
     const Outline seen = outline(t);
     if (!touches(seen, place)) continue;
-    if (parts.size() == largest_sheet) return {};
+    if (parts.size() == largest_sheet) return std::nullopt;
     parts.push_back(part(t, seen, place));
     if (parts.back().covers) covered_m = std::min(covered_m, parts.back().most);
   }
-  return judge(parts, others_m, place);
+  return others_m;
+}
+
+LightCells::Judged LightCells::judge_place(const Cell& cell, glm::dvec2 at) const {
+  const Square place{at, reach_m_};
+  thread_local std::vector<Part> parts;
+  const std::optional<double> others_m = list_parts(cell, place, parts);
+  return others_m ? judge(parts, *others_m, place) : Judged();
+}
+
+std::optional<uint32_t> LightCells::front_of_part(const Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low,
+                                                  glm::dvec2 high) const {
+  // A square that holds the rectangle and lies in the cell, so that the cell lists all that touches it.
+  const Square whole = square_at(x, y, cell.divisions);
+  const double half_cell = whole.half - reach_m_;
+  low = glm::max(low, whole.middle - half_cell);
+  high = glm::min(high, whole.middle + half_cell);
+  const double half = std::min(std::max(high.x - low.x, high.y - low.y) / 2, half_cell);
+  const glm::dvec2 middle =
+      glm::clamp((low + high) / 2.0, whole.middle - half_cell + half, whole.middle + half_cell - half);
+  const Square square{middle, half + reach_m_};
+  thread_local std::vector<Part> parts;
+  Judged judged;
+  if (!list_parts(cell, square, parts) || !judge_triangle(parts, square, judged)) return std::nullopt;
+  return judged.front;
 }
 
 bool LightCells::judge_triangle(const std::vector<Part>& parts, const Square& square, Judged& judged) const {
@@ -408,8 +430,13 @@ std::optional<uint32_t> LightCells::Reader::front_in(glm::dvec2 low, glm::dvec2 
   uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return std::nullopt;
   find(glm::dvec3(low, 0));
-  if (cell_->kind != Kind::triangle) return std::nullopt;
-  const uint32_t front = cell_->front;
+  uint32_t front = cell_->front;
+  if (cell_->kind == Kind::nothing) return std::nullopt;
+  if (cell_->kind != Kind::triangle) {
+    const std::optional<uint32_t> of_part = cells_.front_of_part(*cell_, x0, y0, low, high);
+    if (!of_part) return std::nullopt;
+    front = *of_part;
+  }
   if (!(((x0 ^ x1) | (y0 ^ y1)) >> shift_)) return front;  // all in one square
   const int divisions = cells_.divisions_;
   for (uint32_t y = y0 >> divisions; y <= y1 >> divisions; ++y)
@@ -425,9 +452,13 @@ bool LightCells::is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triang
   if (square.middle.x - square.half > high.x || square.middle.x + square.half < low.x ||
       square.middle.y - square.half > high.y || square.middle.y + square.half < low.y)
     return true;
-  if (cell.kind != Kind::mixed) return cell.kind == Kind::triangle && cell.front == triangle;
-  return all_parts_hold(
-      cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return is_front_in(part, px, py, triangle, low, high); });
+  if (cell.kind == Kind::triangle || cell.kind == Kind::nothing) return cell.front == triangle;
+  if (!cell.ends_here())
+    return all_parts_hold(cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) {
+      return is_front_in(part, px, py, triangle, low, high);
+    });
+  const glm::dvec2 beside = glm::max(low - square.middle, square.middle - high) + reach_m_ - square.half;
+  return std::max(beside.x, beside.y) > 0 || front_of_part(cell, x, y, low, high) == triangle;
 }
 
 void LightCells::Reader::find(uint32_t x, uint32_t y) {

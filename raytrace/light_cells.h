@@ -64,7 +64,8 @@
 //
 // If one triangle F is the front of all good squares that hold the rectangle, it is the first hit at each place in it,
 // and all else lies deeper by gap_m. If the triangle of the receiver covers the rectangle too, by more than reach_m, it is
-// the receiver's sheet at each place: V compares these two planes only (OwnSurface::known_in).
+// the receiver's sheet at each place: V compares these two planes only (OwnSurface::known_in). In a finest square that is not
+// good, or whose front is a sheet, the same is asked of a square around what it holds of the rectangle.
 //
 // Only parallel rays have cells so far.
 #pragma once
@@ -193,14 +194,19 @@ class LightCells {
   Judged judge(const std::vector<Part>& parts, double others_m, const Square& square) const;
   bool judge_triangle(const std::vector<Part>& parts, const Square& square, Judged& judged) const;
   bool judge_sheet(const std::vector<Part>& parts, double others_m, const Square& square, Judged& judged) const;
+  // Lists the triangles in a square of an undivided cell, for judge(); no value if that is not known, or if they are too many.
+  std::optional<double> list_parts(const Cell& cell, const Square& square, std::vector<Part>& parts) const;
   // The square without extent at this place of a cell.
   Judged judge_place(const Cell& cell, glm::dvec2 at) const;
+  // The same of the cell's part of a rectangle: the triangle that is its front, if one is.
+  std::optional<uint32_t> front_of_part(const Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low,
+                                        glm::dvec2 high) const;
   // Whether holds(part, x, y) is true of the cell's four parts, each with its first finest square; false if it is not divided.
   template <class Holds>
   bool all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds);
   // Whether the cell is out of reach of the disc as `at` sees it, or good, or divided into such cells.
   bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
-  // Whether this triangle is the front of the cell, or of all its parts that touch the rectangle.
+  // Whether this triangle is the front of what the cell holds of the rectangle.
   bool is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high);
   void free_below(Cell& cell);
 
