@@ -189,6 +189,8 @@ class Renderer {
   // The numbers that lookup computes before it compares. They do not depend on the contents of the map. Of the bias,
   // they depend only on the parts that move the lookup.
   LookupProbe probe(const Technique& technique, ProbeTaps taps = ProbeTaps::all);
+  // Of a flat map: the map_texels of probe() alone.
+  Image<glm::vec2> map_positions(const Technique& technique);
 
   // Replaces the taps that the probe holds by those of these pixels, which are whole rows of the picture. This is
   // needed for a cube only, because there the sampler chooses the texel of each tap. For a flat map every tap is known,

@@ -114,6 +114,9 @@ struct Renderer::Impl {
   void draw_into_colour_layer(GLuint colour, int layer, glm::ivec2 size);
   // Ends draw_into. It detaches all textures, because an attached texture stays in memory after it is deleted.
   void detach(size_t colours);
+  // renderer_probe.cpp has it and its callers.
+  template <class Read>
+  void each_probed_band(const Technique& technique, const Read& read);
 
   void draw_scene(const Program& program);
   // depth_test: GL_NONE means no test.

@@ -39,20 +39,50 @@ void read_band(const Target& target, GLenum format, int rows, size_t first, std:
 
 }  // namespace
 
+// Draws probe_scalars, probe_texels and probe_radius band by band: calls read(rows, first) while they hold `rows` rows of the
+// picture, whose first pixel is number `first`.
+template <class Read>
+void Renderer::Impl::each_probed_band(const Technique& technique, const Read& read) {
+  const LightFrame& frame = technique.frame;
+  check_map_size(frame.tile_size(), frame.map_shape() == MapShape::cube);
+  Program& program =
+      programs.get({"shaders/screen.vert", "shaders/probe.frag"}, receiver_slots(programs, frame, technique.bias));
+  set_receiver_uniforms(program, technique);
+  const int width = position_image.width, height = position_image.height;
+  const int band = std::clamp(most_probed_pixels / width, 1, height);
+  require(probe_scalars, GL_RGBA32F, width, band);
+  require(probe_texels, GL_RGBA32F, width, band);
+  require(probe_radius, GL_R32F, width, band);
+  for (int row = 0; row < height; row += band) {
+    const int rows = std::min(band, height - row);
+    draw_into({probe_scalars.texture.id(), probe_texels.texture.id(), probe_radius.texture.id()}, 0, width, rows);
+    program.set("first_row", row);
+    draw_screen(program);
+    detach(3);
+    read(rows, static_cast<size_t>(row) * static_cast<size_t>(width));
+  }
+}
+
+Image<glm::vec2> Renderer::map_positions(const Technique& technique) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  if (technique.frame.map_shape() == MapShape::cube)
+    throw std::logic_error("map_positions: a cube has no flat positions");
+  Image<glm::vec2> positions(r.position_image.width, r.position_image.height);
+  std::vector<glm::vec4> numbers;
+  r.each_probed_band(technique, [&](int rows, size_t first) {
+    read_band(r.probe_texels, GL_RGBA, rows, first, numbers, [&](glm::vec4 t, size_t i) { positions[i] = {t.x, t.y}; });
+  });
+  r.context->check("map_positions");
+  return positions;
+}
+
 LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
   Impl& r = *impl_;
   r.context->make_current();
   const LightFrame& frame = technique.frame;
   const bool cube = frame.map_shape() == MapShape::cube;
-  r.check_map_size(frame.tile_size(), cube);
-  Program& program =
-      r.programs.get({"shaders/screen.vert", "shaders/probe.frag"}, receiver_slots(r.programs, frame, technique.bias));
-  r.set_receiver_uniforms(program, technique);
   const int width = r.position_image.width, height = r.position_image.height;
-  const int band = std::clamp(most_probed_pixels / width, 1, height);
-  r.require(r.probe_scalars, GL_RGBA32F, width, band);
-  r.require(r.probe_texels, GL_RGBA32F, width, band);
-  r.require(r.probe_radius, GL_R32F, width, band);
 
   LookupProbe probe;
   probe.pattern = technique.taps;
@@ -66,14 +96,7 @@ LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
   if (by_view) probe.radius = Image<float>(width, height);
   std::vector<glm::vec4> numbers;
   std::vector<float> radii;
-  for (int row = 0; row < height; row += band) {
-    const int rows = std::min(band, height - row);
-    const size_t first = static_cast<size_t>(row) * static_cast<size_t>(width);
-    r.draw_into({r.probe_scalars.texture.id(), r.probe_texels.texture.id(), r.probe_radius.texture.id()}, 0, width,
-                rows);
-    program.set("first_row", row);
-    r.draw_screen(program);
-    r.detach(3);
+  r.each_probed_band(technique, [&](int rows, size_t first) {
     read_band(r.probe_scalars, GL_RGBA, rows, first, numbers, [&](glm::vec4 s, size_t i) {
       probe.reference[i] = s.x;
       probe.n_dot_l[i] = s.y;
@@ -87,7 +110,7 @@ LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
       });
     if (by_view)
       read_band(r.probe_radius, GL_RED, rows, first, radii, [&](float radius, size_t i) { probe.radius[i] = radius; });
-  }
+  });
   if (cube) {
     probe.cube_resolution = frame.resolution;
     const int middle = probe.middle_tap();

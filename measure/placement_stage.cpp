@@ -18,7 +18,7 @@ std::vector<Image<glm::vec2>> positions_of(gl::Renderer& renderer, const Placeme
   std::vector<Image<glm::vec2>> positions = {probe.map_texels};
   for (int i = 1; i < placements.side(); ++i)
     positions.push_back(
-        renderer.probe(technique.at(placements.frame(technique.frame, i * placements.side() + i))).map_texels);
+        renderer.map_positions(technique.at(placements.frame(technique.frame, i * placements.side() + i))));
   return positions;
 }
 

@@ -94,7 +94,7 @@ float DrawnMap::depth_of(uint32_t hit, glm::dvec3 place) const {
     if (!behind) return 1;
     depth = *behind;
   }
-  return window_depth(depth, place);
+  return LightView::stored(view_.window_depth(depth, place));
 }
 
 bool DrawnMap::draws_plane_of(uint32_t hit, glm::ivec2 low, glm::ivec2 high) const {
@@ -107,13 +107,6 @@ bool DrawnMap::draws_plane_of(uint32_t hit, glm::ivec2 low, glm::ivec2 high) con
   return std::ranges::all_of(
       std::array{low, high, glm::ivec2(low.x, high.y), glm::ivec2(high.x, low.y)},
       [&](glm::ivec2 texel) { return view_.hit_depth(hit, view_.texel_place(texel)) >= after_near; });
-}
-
-void DrawnMap::depths_on_plane(uint32_t hit, glm::ivec2 first, int count, float* depths) const {
-  for (int i = 0; i < count; ++i) {
-    const glm::dvec3 place = view_.texel_place({first.x + i, first.y});
-    depths[i] = window_depth(view_.hit_depth(hit, place), place);
-  }
 }
 
 }  // namespace noonmark::raytrace

@@ -4,7 +4,6 @@
 //   const DrawnMap drawn(traced, view, surface, silhouettes, view.frame(), settings.map, bias, offset);
 //   float depth = drawn.depth_at(x, hit);      // window depth at place x; hit: the scene's first hit there
 #pragma once
-#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -39,7 +38,9 @@ class DrawnMap {
   // are those of the triangle's plane. Parallel rays only.
   bool draws_plane_of(uint32_t hit, glm::ivec2 low, glm::ivec2 high) const;
   // Those depths, at `count` texels from `first` on along its row.
-  void depths_on_plane(uint32_t hit, glm::ivec2 first, int count, float* depths) const;
+  void depths_on_plane(uint32_t hit, glm::ivec2 first, int count, float* depths) const {
+    view_.window_depths(hit, first, count, depths);
+  }
   bool no_silhouettes_between(std::span<const glm::dvec3> corners) const { return silhouettes_.none_between(corners); }
 
   // Whether the pass draws other surfaces than the scene's (moved casters, culled faces). They have no first hits in
@@ -48,9 +49,6 @@ class DrawnMap {
 
  private:
   float depth_of(uint32_t hit, glm::dvec3 place) const;
-  float window_depth(double depth_m, glm::dvec3 place) const {
-    return static_cast<float>(std::clamp(view_.window_depth(depth_m, place), 0.0, 1.0));
-  }
 
   std::optional<Scene> moved_;
   LightView view_;

@@ -56,6 +56,19 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
   }
 }
 
+void LightView::window_depths(uint32_t triangle, glm::ivec2 first, int count, float* depths) const {
+  // Copies, which no write to depths can change: so the compiler takes the tile's and the light's kinds out of the loop.
+  const MapTile tile = only_tile_.value();
+  const Plane plane = planes_[triangle];
+  const LightRays rays = rays_;
+  const glm::dvec3 at_corner = corner(triangle, 0);
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 place = tile.place_of({first.x + i, first.y});
+    const double depth = plane.within(rays.plane_depth(plane.normal, plane.gradient, at_corner, place));
+    depths[i] = stored(tile.window_depth(depth));
+  }
+}
+
 bool LightView::same_light(const LightFrame& frame) const {
   return frame.kind == frame_.kind && frame.origin_m == frame_.origin_m && frame.right == frame_.right &&
          frame.up == frame_.up && frame.forward == frame_.forward && frame.ray_direction == frame_.ray_direction;

@@ -75,11 +75,10 @@ class LightView {
 
   // Depth at which the light ray through x meets the triangle. A ray that hits the triangle in Embree's float
   // arithmetic may miss it in double; the depth is clamped to the triangle's own range.
-  double hit_depth(uint32_t triangle, glm::dvec3 x) const {
-    const Plane& plane = planes_[triangle];
-    const double depth = plane_depth(triangle, x);
-    return std::isnan(depth) ? plane.low : std::clamp(depth, plane.low, plane.high);
-  }
+  double hit_depth(uint32_t triangle, glm::dvec3 x) const { return planes_[triangle].within(plane_depth(triangle, x)); }
+  // The window depths of hit_depth() at the centres of `count` texels of a map with one tile, from `first` on along its row.
+  // The same arithmetic for each, as one loop without branches.
+  void window_depths(uint32_t triangle, glm::ivec2 first, int count, float* depths) const;
 
   // Metres across the light's rays for a step of 1 between normal places, at this depth.
   double metres_across(double depth_m) const { return rays_.metres_across(depth_m); }
@@ -111,6 +110,8 @@ class LightView {
   double window_depth(double depth_m, glm::dvec3 x) const {
     return only_tile_ ? only_tile_->window_depth(depth_m) : frame_.tile_at(x).window_depth(depth_m);
   }
+  // What a depth map holds of it.
+  static float stored(double window_depth) { return static_cast<float>(std::clamp(window_depth, 0.0, 1.0)); }
 
   // Whether this first hit at x, or no_primitive, lies before the map's near plane.
   bool clipped(uint32_t hit, glm::dvec3 x) const {
@@ -144,6 +145,7 @@ class LightView {
     double low = 0, high = 0;  // the triangle's range of depths
     glm::dvec2 gradient{0};    // parallel rays: dz/d(u, v); not finite when it is edge-on
     double slope = 0;          // and its length
+    double within(double depth) const { return std::isnan(depth) ? low : std::clamp(depth, low, high); }
   };
   struct Geometry {
     std::vector<glm::dvec3> vertices;
