@@ -254,6 +254,91 @@ TEST(LightCells, FarFromTheOrigin) {
     expect_same(moved(scene, {far, -far / 3, far / 2}), 4000, 12, std::to_string(far));
 }
 
+// Rectangles of the light's plane, from much smaller than the finest square to several of them.
+class Rectangles {
+ public:
+  explicit Rectangles(const Scene& scene)
+      : scene_(scene), adjacency_(scene), view_(scene, frame_of(scene, 128)), cells_(adjacency_, view_, near_m, 256) {}
+
+  std::optional<uint32_t> front(glm::dvec2 low, glm::dvec2 high) {
+    return LightCells::Reader(cells_).front_in(low, high);
+  }
+  // Of a place that no edge is near: the nearest triangle that covers it, by its corners alone.
+  std::optional<uint32_t> first_at(glm::dvec2 place) const {
+    std::optional<uint32_t> first;
+    for (uint32_t t = 0; t < scene_.triangles.size(); ++t) {
+      const glm::dvec3 at(place, 1);
+      const auto side = [&](int e) {
+        return view_.orientation(at, view_.corner(t, e), view_.corner(t, (e + 1) % 3)) * view_.orientation(t);
+      };
+      if (view_.edge_on(t) || side(0) < 0 || side(1) < 0 || side(2) < 0) continue;
+      if (!first || view_.plane_depth(t, at) < view_.plane_depth(*first, at)) first = t;
+    }
+    return first;
+  }
+  const LightView& view() const { return view_; }
+  static constexpr double near_m = 1e-4;
+
+ private:
+  const Scene& scene_;
+  Adjacency adjacency_;
+  LightView view_;
+  LightCells cells_;
+};
+
+// Whatever triangle is said to be the front of a rectangle is the first at each place of it.
+TEST(LightCells, FrontsAreFirstAllOverTheirRectangles) {
+  std::mt19937 random(15);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int known = 0, wrong = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Scene scene = under_a_light(oblique, [&](Scene& s) {
+      add_floor(s, 2, -1.1);
+      for (int i = 0; i < 30; ++i) {
+        const auto vector = [&] { return glm::dvec3(uniform(random), uniform(random), uniform(random)); };
+        const glm::dvec3 a = vector(), u = vector(), v = vector();
+        add_quad(s, "", a, u, (i % 3 ? 1 : 0.01) * v);
+      }
+    });
+    Rectangles all(scene);
+    for (int k = 0; k < 2000; ++k) {
+      const glm::dvec2 middle(uniform(random), uniform(random));
+      const glm::dvec2 half = glm::exp2(glm::dvec2(-9 + 3 * uniform(random), -9 + 3 * uniform(random)));
+      const std::optional<uint32_t> front = all.front(middle - half, middle + half);
+      if (!front) continue;
+      ++known;
+      for (int i = 0; i < 8; ++i)
+        wrong += all.first_at(middle + half * glm::dvec2(uniform(random), uniform(random))) != front;
+      for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)})
+        wrong += all.first_at(middle + half * corner) != front;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(known, 20 * 2000 / 4);
+}
+
+// A small rectangle has a front also where the finest square around it has none, because an edge crosses the square.
+TEST(LightCells, KnowFrontsBesideEdges) {
+  const Scene scene = under_a_light(above, [](Scene& s) {
+    add_floor(s);
+    add_quad(s, "", {-0.37, 0.5, -0.41}, {0.1, 0, 1}, {1, 0, -0.2});
+  });
+  Rectangles all(scene);
+  const uint32_t caster = 2;  // the first triangle after the floor's two
+  int beside = 0;
+  for (int i = 1; i < 200; ++i) {
+    const glm::dvec2 a(all.view().corner(caster, 0)), way = glm::dvec2(all.view().corner(caster, 1)) - a;
+    const glm::dvec2 across = glm::normalize(glm::dvec2(-way.y, way.x));
+    for (const double side : {-1.0, 1.0}) {
+      const glm::dvec2 middle = a + way * (i / 200.0) + side * 0.003 * across;  // the finest squares are 0.016 m wide
+      const std::optional<uint32_t> front = all.front(middle - 0.001, middle + 0.001);
+      beside += front && front == all.first_at(middle);
+    }
+  }
+  // All but those that an edge of the floor's or the caster's triangles crosses.
+  EXPECT_GT(beside, 2 * 199 * 9 / 10);
+}
+
 TEST(LightCells, FlightHelmet) {
   if (!std::filesystem::exists(shared_model("FlightHelmet"))) GTEST_SKIP() << "no FlightHelmet";
   expect_same(builtin(shared_model("FlightHelmet")), 4000, 13);
