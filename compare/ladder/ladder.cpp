@@ -1,5 +1,7 @@
 #include "compare/ladder/ladder.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,12 +50,15 @@ Ladder climb(const LookupEvidence& e) {
 
 Ladder empty_ladder(int width, int height, int causes) {
   Ladder ladder;
-  const Image<float> zero(width, height, 0);
-  for (std::string_view name : rung_names) ladder.rungs.push_back({std::string(name), zero});
-  for (int c = 0; c < causes; ++c) ladder.causes.push_back({std::string(cause_name(static_cast<Cause>(c))), zero});
+  for (std::string_view name : rung_names) ladder.rungs.push_back({std::string(name), {}});
+  for (int c = 0; c < causes; ++c) ladder.causes.push_back({std::string(cause_name(static_cast<Cause>(c))), {}});
+  std::vector<Image<float>*> images = {&ladder.doubt};
+  for (Ladder::RungImage& rung : ladder.rungs) images.push_back(&rung.lit);
+  for (Ladder::CauseImage& cause : ladder.causes) images.push_back(&cause.step);
+  // Of a large picture they are some 60 MB, and the kernel gives them page by page.
+  tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) { *images[i] = Image<float>(width, height, 0); });
   ladder.cause = Image<uint8_t>(width, height, 0);
   ladder.flags = Image<uint8_t>(width, height, 0);
-  ladder.doubt = Image<float>(width, height, 0);
   return ladder;
 }
 
