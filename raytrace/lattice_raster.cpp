@@ -204,8 +204,13 @@ void LatticeRaster::hits(glm::ivec2 tile, std::span<const uint32_t> candidates,
 
   thread_local std::vector<double> nearest;
   thread_local std::vector<uint32_t> first;
-  nearest.assign(side * side, -infinity);
-  first.assign(side * side, no_primitive);
+  nearest.resize(side * side);
+  first.resize(side * side);
+  for (size_t row = 0; row < side; ++row)
+    if (wanted[row]) {
+      std::fill_n(&nearest[row * side], side, -infinity);
+      std::fill_n(&first[row * side], side, no_primitive);
+    }
   for (const Kept& k : kept) {
     const Triangle& t = triangles_[k.triangle];
     const int from_row = std::max(0, t.low.y - base.y), to_row = std::min(side - 1, t.high.y - base.y);

@@ -214,13 +214,8 @@ LightCells::Four* LightCells::divide(Cell& cell, uint32_t x, uint32_t y) {
 void LightCells::judge(Cell& cell, const Square& square) const {
   std::vector<uint32_t>& triangles = cell.triangles;
   // Among many triangles only one that covers the square can make it good.
-  const auto may_cover = [&](uint32_t t) {
-    const Outline o = outline(t);
-    return o.low.x < square.middle.x - square.half && o.high.x > square.middle.x + square.half &&
-           o.low.y < square.middle.y - square.half && o.high.y > square.middle.y + square.half;
-  };
   const bool many = triangles.size() > largest_sheet;
-  if (many && cell.divisions > 0 && std::none_of(triangles.begin(), triangles.end(), may_cover)) {
+  if (many && cell.divisions > 0 && !any_may_cover(triangles, square)) {
     for (uint32_t t : triangles) cell.nearest_m = std::min(cell.nearest_m, view_.nearest_m(t));
     return;
   }
@@ -233,6 +228,15 @@ void LightCells::judge(Cell& cell, const Square& square) const {
   else if (cell.ends_here())
     std::sort(triangles.begin(), triangles.end(),
               [&](uint32_t a, uint32_t b) { return view_.nearest_m(a) < view_.nearest_m(b); });
+}
+
+bool LightCells::any_may_cover(std::span<const uint32_t> triangles, const Square& square) const {
+  const glm::dvec2 low = square.middle - square.half, high = square.middle + square.half;
+  return std::any_of(triangles.begin(), triangles.end(), [&](uint32_t t) {
+    const glm::dvec2 a(view_.corner(t, 0)), b(view_.corner(t, 1)), c(view_.corner(t, 2));
+    return std::min({a.x, b.x, c.x}) < low.x && std::max({a.x, b.x, c.x}) > high.x &&
+           std::min({a.y, b.y, c.y}) < low.y && std::max({a.y, b.y, c.y}) > high.y;
+  });
 }
 
 LightCells::Part LightCells::part(uint32_t t, const Outline& outline, const Square& square) const {
@@ -305,6 +309,7 @@ std::optional<uint32_t> LightCells::front_of_part(const Cell& cell, uint32_t x, 
   const glm::dvec2 middle =
       glm::clamp((low + high) / 2.0, whole.middle - half_cell + half, whole.middle + half_cell - half);
   const Square square{middle, half + reach_m_};
+  if (!any_may_cover(cell.triangles, square)) return std::nullopt;  // soon known in a fine mesh
   thread_local std::vector<Part> parts;
   Judged judged;
   if (!list_parts(cell, square, parts) || !judge_triangle(parts, square, judged)) return std::nullopt;

@@ -188,6 +188,8 @@ class LightCells {
   }
   const Cell& cell_at(uint32_t x, uint32_t y);  // the smallest one
   void judge(Cell& cell, const Square& square) const;
+  // Whether the rectangle around any of the triangles holds the square: no other can cover it.
+  bool any_may_cover(std::span<const uint32_t> triangles, const Square& square) const;
   Part part(uint32_t triangle, const Outline& outline, const Square& square) const;
   // parts: of all triangles that touch the square, but perhaps without some that come no nearer to the light than
   // others_m and lie deeper than a triangle that covers the square, by more than gap_m.

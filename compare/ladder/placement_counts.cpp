@@ -73,7 +73,6 @@ PlacementCounts::PlacementCounts(const Placements& placements, const BiasPart* v
       whole_(whole),
       wrong_receivers_(count_),
       aliasing_squares_(count_) {
-  if (varied) histogram_.resize(kinds * count_ * (bins_.edges().size() + 1));
   for (std::vector<double>& weights : own_) weights.resize(count_);
 }
 
@@ -324,7 +323,12 @@ void PlacementCounts::add(const PlacementCounts& other) {
   const auto sum = [](std::vector<double>& to, const std::vector<double>& from) {
     std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
   };
-  sum(histogram_, other.histogram_);
+  for (size_t kind = 0; kind < kinds; ++kind) {
+    if (histogram_[kind].empty())
+      histogram_[kind] = other.histogram_[kind];
+    else if (!other.histogram_[kind].empty())
+      sum(histogram_[kind], other.histogram_[kind]);
+  }
   for (size_t kind = 0; kind < own_.size(); ++kind) sum(own_[kind], other.own_[kind]);
   sum(wrong_receivers_, other.wrong_receivers_);
   sum(aliasing_squares_, other.aliasing_squares_);
@@ -334,9 +338,12 @@ void PlacementCounts::put(int placement, const PlacementCounts& one) {
   receivers_ = one.receivers_;  // the same at every placement
   acne_free_from_ = std::max(acne_free_from_, one.acne_free_from_);
   const auto p = static_cast<size_t>(placement);
-  const size_t row = edges().size() + 1;
-  if (varied_)
-    for (size_t at = 0; at < kinds * row; ++at) histogram_[at * count_ + p] = one.histogram_[at];
+  for (size_t kind = 0; kind < kinds; ++kind) {
+    const std::vector<double>& weights = one.histogram_[kind];
+    if (weights.empty() && histogram_[kind].empty()) continue;
+    for (size_t bin = 0; bin <= edges().size(); ++bin)
+      cell(static_cast<Kind>(kind), p, bin) = weights.empty() ? 0 : weights[bin];
+  }
   for (size_t kind = 0; kind < own_.size(); ++kind) own_[kind][p] = one.own_[kind][0];
   wrong_receivers_[p] = one.wrong_receivers_[0];
   aliasing_squares_[p] = one.aliasing_squares_[0];
@@ -352,9 +359,11 @@ uint64_t PlacementCounts::disagreements(int placement, const PlacementCounts& on
 // A tap that should be lit is wrong while the amount is below its threshold, and a tap that should be dark from its
 // threshold on.
 double PlacementCounts::wrong(Kind kind, int placement, size_t edge) const {
+  const std::vector<double>& weights = histogram_[kind];
+  if (weights.empty()) return 0;
   const size_t bins = edges().size() + 1, from = darkens(kind) ? edge + 1 : 0, to = darkens(kind) ? bins : edge + 1;
   double sum = 0;
-  for (size_t bin = from; bin < to; ++bin) sum += histogram_[cell_of(kind, static_cast<size_t>(placement), bin)];
+  for (size_t bin = from; bin < to; ++bin) sum += weights[bin * count_ + static_cast<size_t>(placement)];
   return sum;
 }
 

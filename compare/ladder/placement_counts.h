@@ -120,10 +120,11 @@ class PlacementCounts {
   void book(size_t placement, const OfReceiver& receiver);
   static Kind kind_of(Cause cause, bool darkens);
   static bool darkens(Kind kind);
-  size_t cell_of(Kind kind, size_t placement, size_t bin) const {
-    return (static_cast<size_t>(kind) * (edges().size() + 1) + bin) * count_ + placement;
+  double& cell(Kind kind, size_t placement, size_t bin) {
+    std::vector<double>& weights = histogram_[kind];
+    if (weights.empty()) weights.resize((edges().size() + 1) * count_);
+    return weights[bin * count_ + placement];
   }
-  double& cell(Kind kind, size_t placement, size_t bin) { return histogram_[cell_of(kind, placement, bin)]; }
   double wrong(Kind kind, int placement, size_t edge) const;
 
   Placements placements_;
@@ -133,8 +134,9 @@ class PlacementCounts {
   double whole_ = 1;
   double receivers_ = 0;
   float acne_free_from_ = 0;
-  // [kind][bin][placement]: weight of the thresholds. The taps of a receiver have neighbouring bins at all placements.
-  std::vector<double> histogram_;
+  // [kind][bin][placement]: weight of the thresholds. The taps of a receiver have neighbouring bins at all placements. Of a
+  // kind that no tap is of it is empty: most are, and each has some hundred kB.
+  std::array<std::vector<double>, kinds> histogram_;
   std::array<std::vector<double>, kinds> own_;              // [placement]: weight at the point's own bias
   std::vector<double> wrong_receivers_, aliasing_squares_;  // [placement]
 };
