@@ -322,9 +322,15 @@ double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const 
   return rounding_share * depth_error(hit, p.primitive, x) * (1 + (std::isfinite(growth) ? growth : 0));
 }
 
-double OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const {
+float OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
+                                       float known_texels) const {
+  // A normal place is a point of the light's frame at depth 1, or of its plane.
+  const double length = glm::length(to - from), texel_m = view_.frame().texel_m(from);
   double same = 0, other = 1;
+  // `other` only becomes less, and the roundings keep the order: what is not greater now is not greater at the end.
+  const auto distance = [&] { return static_cast<float>(other * length / texel_m); };
   for (int halving = 0; halving < 8; ++halving) {
+    if (!(distance() > known_texels)) return known_texels;
     const double middle = (same + other) / 2;
     const glm::dvec3 x = view_.normal_place(from + middle * (to - from));
     const std::vector<Silhouettes::Crossing> crossed =
@@ -332,8 +338,7 @@ double OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, 
     SheetAt own(*this, p, x);
     (verdict(p, x, first_hit(x), own, crossed).lit == lit_from ? same : other) = middle;
   }
-  // A normal place is a point of the light's frame at depth 1, or of its plane.
-  return other * glm::length(to - from) / view_.frame().texel_m(from);
+  return std::max(known_texels, distance());
 }
 
 double OwnSurface::length_m(const SurfacePoint& p, glm::dvec3 x) const {

@@ -66,8 +66,10 @@ class OwnSurface {
                                Pair& last) const;
 
   // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
-  // to 2^-8 of the way.
-  double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const;
+  // to 2^-8 of the way. Of a distance that is not greater than known_texels only this is found out: then it returns
+  // known_texels.
+  float edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
+                             float known_texels) const;
 
   // Whether the light ray through x passes through the triangle, in double.
   bool covers(uint32_t triangle, glm::dvec3 x) const;
