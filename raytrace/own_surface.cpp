@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <type_traits>
 
 #include "raytrace/vertex_rounding.h"
 
@@ -211,8 +212,13 @@ double OwnSurface::tie_m() const {
 }
 
 SurfacePoint OwnSurface::point(glm::dvec3 light, uint32_t primitive, bool lit) const {
-  const glm::dvec3 at = view_.place_of(light);
-  return {at, primitive, lit, lit && silhouettes_.near(at, tie_m())};
+  SurfacePoint p{.at = view_.place_of(light), .primitive = primitive, .lit = lit};
+  const bool near = silhouettes_.near(p.at);
+  p.on_silhouette = lit && near && silhouettes_.near(p.at, tie_m());
+  // A tie is far less than the reach, except far from the scene.
+  p.beside = near || !(2 * tie_m() < beside_m());
+  p.on_surface = walk(p, p.at).triangle != no_primitive;
+  return p;
 }
 
 template <class Edges>
@@ -223,8 +229,6 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   // the two surfaces: the sheet of a dark receiver comes out from under the other, or the sheet of a lit one goes
   // under.
   const bool beside = silhouettes.near(x);
-  std::vector<Silhouettes::Crossing> crossed;
-  if (p.lit) crossed = silhouettes.crossings(p.at, x);
   // The silhouette may be the border of a cut mask, which lies on the other side of x in the texture.
   const double mask_error_m = view_.scene().mask_error_m;
   const bool on_border = beside && mask_error_m > 0 && silhouettes.near(x, mask_error_m);
@@ -233,6 +237,7 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   // verdict is sure only if it is the same for every triangle that may be the first.
   bool sure = !p.on_silhouette && !on_border;
   SheetAt own(*this, p, x);
+  CrossedBy<Edges> crossed(silhouettes, p, x);
   const bool tie = beside && silhouettes.near(x, tie_m());
   const auto exact = [&] {
     const uint32_t first = exact_first(x);
@@ -247,12 +252,23 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
            });
   };
   const auto maybe_lit = [&](uint32_t first) { return may_be_lit(p, x, first, own); };
-  if (p.lit && crossed.empty()) {  // no jump: lit, whatever the first hit is
+  // The ways to places of nearby silhouettes mostly cross one, and mostly one that the light does not see. P's own sheet, or a
+  // deeper surface, is lit whatever is crossed.
+  const bool often_crossed = std::is_same_v<Edges, Silhouettes::Nearby>;
+  std::optional<uint32_t> first;
+  if (often_crossed && p.lit && !beside && maybe_lit(hit)) {
+    const bool sure_before = sure;
+    first = exact();
+    const std::optional<Verdict> known = whatever_is_crossed(p, x, *first, own);
+    if (known && known->sure && sure == sure_before) return {true, sure};
+    if ((*crossed).empty()) return {true, sure_before};
+  }
+  if (p.lit && (*crossed).empty()) {  // no jump: lit, whatever the first hit is
     if (beside) exact();
     return {true, sure && (!tie || same_for_every_first(maybe_lit))};
   }
-  const uint32_t first = beside || may_be_lit(p, x, hit, own) ? exact() : hit;
-  Verdict v = verdict(p, x, first, own, crossed);
+  if (!first) first = beside || maybe_lit(hit) ? exact() : hit;
+  Verdict v = verdict(p, x, *first, own, crossed);
   if (tie && sure && v.sure)
     sure = p.lit && v.lit
                ? same_for_every_first(maybe_lit)
@@ -293,22 +309,34 @@ bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, S
   return view_.hit_depth(hit, x) >= sheet.depth_m - error;
 }
 
-OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& at_x,
-                                        const std::vector<Silhouettes::Crossing>& crossed) const {
-  if (hit == no_primitive || hit == p.primitive) return {true, true};
+std::optional<OwnSurface::Verdict> OwnSurface::whatever_is_crossed(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
+                                                                   SheetAt& at_x) const {
+  if (hit == no_primitive || hit == p.primitive) return Verdict{true, true};
   const Sheet& sheet = *at_x;
-  if (sheet.triangle == hit) return {true, true};
+  if (sheet.triangle == hit) return Verdict{true, true};
+  const bool ended = sheet.triangle == no_primitive;
+  const double behind = sheet.depth_m - view_.hit_depth(hit, x);
+  if (behind <= rounding_of_sheet(p, x, sheet, hit)) {
+    if (!ended) return Verdict{true, true};
+    return p.lit && p.beside ? std::nullopt : std::optional(Verdict{true, p.on_surface});
+  }
+  if (may_be_one_plane(view_.scene(), hit, ended ? p.primitive : sheet.triangle)) return Verdict{true, true};
+  return p.lit ? std::nullopt : std::optional(Verdict{false, !ended || p.on_surface});
+}
+
+template <class Crossed>
+OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& at_x,
+                                        Crossed& crossed_by) const {
+  if (const std::optional<Verdict> known = whatever_is_crossed(p, x, hit, at_x)) return *known;
+  const std::vector<Silhouettes::Crossing>& crossed = *crossed_by;
   // If the rounding of P has put it beside its surface or onto its edge, the way from P may cross an edge that the way
   // from the exact P does not cross, or the reverse. Then it may leave the sheet at another place.
   const bool on_edge = !crossed.empty() && crossed.front().t * length_m(p, x) <= tie_m();
-  const auto on_surface = [&] { return !on_edge && walk(p, p.at).triangle != no_primitive; };
-  const double behind = sheet.depth_m - view_.hit_depth(hit, x);
-  if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, sheet.triangle != no_primitive || on_surface()};
-  const uint32_t own = sheet.triangle == no_primitive ? p.primitive : sheet.triangle;
-  if (may_be_one_plane(view_.scene(), hit, own)) return {true, true};
-  if (!p.lit) return {false, sheet.triangle != no_primitive || on_surface()};
+  const bool on_surface = !on_edge && p.on_surface;
+  const Sheet& sheet = *at_x;
+  if (sheet.depth_m - view_.hit_depth(hit, x) <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface};
   Verdict v = continuous(p, x, hit, crossed);
-  v.sure = v.sure && (on_surface() || (v.lit && (on_edge || goes_on_at(p))));
+  v.sure = v.sure && (on_surface || (v.lit && (on_edge || goes_on_at(p))));
   return v;
 }
 
@@ -333,9 +361,8 @@ float OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, g
     if (!(distance() > known_texels)) return known_texels;
     const double middle = (same + other) / 2;
     const glm::dvec3 x = view_.normal_place(from + middle * (to - from));
-    const std::vector<Silhouettes::Crossing> crossed =
-        p.lit ? silhouettes_.crossings(p.at, x) : std::vector<Silhouettes::Crossing>();
     SheetAt own(*this, p, x);
+    CrossedBy<Silhouettes> crossed(silhouettes_, p, x);
     (verdict(p, x, first_hit(x), own, crossed).lit == lit_from ? same : other) = middle;
   }
   return std::max(known_texels, distance());

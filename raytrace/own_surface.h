@@ -29,6 +29,8 @@ struct SurfacePoint {
   uint32_t primitive = 0;      // the triangle it lies on
   bool lit = false;            // R1
   bool on_silhouette = false;  // lit, and on a silhouette within double's rounding, such as its own surface's border
+  bool beside = true;          // a silhouette is so near that P may lie on it; false only if none is
+  bool on_surface = false;     // the rounding of P has not put it beside its surface
 };
 
 class OwnSurface {
@@ -111,9 +113,30 @@ class OwnSurface {
     std::optional<Sheet> sheet_;
   };
 
-  // The verdict for this first hit. own: of P at x. crossed: the silhouettes between P and x.
-  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own,
-                  const std::vector<Silhouettes::Crossing>& crossed) const;
+  // The silhouettes between P and x, where a jump of the first hit matters: not of a dark P. Searched for when they are first
+  // asked for.
+  template <class Edges>
+  class CrossedBy {
+   public:
+    CrossedBy(const Edges& silhouettes, const SurfacePoint& p, glm::dvec3 x)
+        : silhouettes_(silhouettes), p_(p), x_(x) {}
+    const std::vector<Silhouettes::Crossing>& operator*() {
+      if (!crossed_) crossed_ = p_.lit ? silhouettes_.crossings(p_.at, x_) : std::vector<Silhouettes::Crossing>();
+      return *crossed_;
+    }
+
+   private:
+    const Edges& silhouettes_;
+    const SurfacePoint& p_;
+    glm::dvec3 x_;
+    std::optional<std::vector<Silhouettes::Crossing>> crossed_;
+  };
+
+  // The verdict for this first hit, if it needs no silhouette that is crossed.
+  std::optional<Verdict> whatever_is_crossed(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own) const;
+  // The verdict for this first hit. own: of P at x. crossed: a CrossedBy of P and x.
+  template <class Crossed>
+  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own, Crossed& crossed) const;
   // The ray that was cast may lie on the other side of a silhouette than the exact ray only if the silhouette is nearer
   // to x than this.
   double beside_m() const { return Silhouettes::reach_of(view_); }
