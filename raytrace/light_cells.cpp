@@ -420,11 +420,28 @@ std::optional<uint32_t> LightCells::Reader::front_in(glm::dvec2 low, glm::dvec2 
   return front;
 }
 
+bool LightCells::Reader::all_deeper(double depth_m, glm::dvec2 low, glm::dvec2 high) {
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return false;
+  const int divisions = cells_.divisions_;
+  for (uint32_t y = y0 >> divisions; y <= y1 >> divisions; ++y)
+    for (uint32_t x = x0 >> divisions; x <= x1 >> divisions; ++x)
+      if (!cells_.all_deeper(*cells_.base_cell(x << divisions, y << divisions), x << divisions, y << divisions, depth_m,
+                             low, high))
+        return false;
+  return true;
+}
+
+bool LightCells::all_deeper(Cell& cell, uint32_t x, uint32_t y, double depth_m, glm::dvec2 low, glm::dvec2 high) {
+  if (cell.nearest_m > depth_m || !square_at(x, y, cell.divisions).touches(low, high)) return true;
+  if (cell.kind != Kind::mixed) return false;
+  return all_parts_hold(
+      cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return all_deeper(part, px, py, depth_m, low, high); });
+}
+
 bool LightCells::is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high) {
-  const Square square = square_at(x, y, cell.divisions);  // widened: squares beside the rectangle may be asked too
-  if (square.middle.x - square.half > high.x || square.middle.x + square.half < low.x ||
-      square.middle.y - square.half > high.y || square.middle.y + square.half < low.y)
-    return true;
+  // Widened: squares beside the rectangle may be asked too.
+  if (!square_at(x, y, cell.divisions).touches(low, high)) return true;
   if (cell.kind != Kind::mixed) return cell.kind == Kind::triangle && cell.front == triangle;
   return all_parts_hold(
       cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return is_front_in(part, px, py, triangle, low, high); });

@@ -133,6 +133,10 @@ class LightCells {
   struct Square {
     glm::dvec2 middle;
     double half;  // of its side; widened
+    bool touches(glm::dvec2 low, glm::dvec2 high) const {
+      return middle.x - half <= high.x && middle.x + half >= low.x && middle.y - half <= high.y &&
+             middle.y + half >= low.y;
+    }
   };
   // A triangle as the light sees it.
   struct Outline {
@@ -202,6 +206,8 @@ class LightCells {
   bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
   // Whether this triangle is the front of the cell, or of all its parts that touch the rectangle.
   bool is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high);
+  // Whether all in the parts of the cell that touch the rectangle is deeper than this.
+  bool all_deeper(Cell& cell, uint32_t x, uint32_t y, double depth_m, glm::dvec2 low, glm::dvec2 high);
   void free_below(Cell& cell);
 
   int finest_;
@@ -252,6 +258,8 @@ class LightCells::Reader {
   // The triangle that covers a rectangle of the light's plane before everything else, by gap_m() or more; no value if no
   // triangle is known to.
   std::optional<uint32_t> front_in(glm::dvec2 low, glm::dvec2 high);
+  // Whether all that lies in the rectangle, for sure, is deeper than this.
+  bool all_deeper(double depth_m, glm::dvec2 low, glm::dvec2 high);
   // Whether the triangle covers the rectangle, and reach_m around it.
   bool covers(uint32_t triangle, glm::dvec2 low, glm::dvec2 high) {
     if (inner_.triangle != triangle) inner_ = Inner(cells_, triangle);

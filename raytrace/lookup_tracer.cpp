@@ -316,7 +316,8 @@ std::optional<bool> TapTracing::known_in(const Packet& packet, int k, const Bloc
   const glm::dvec2 place = among_taps_.place(position);
   if (p.lit && packet.nearby[k].none_in({0, glm::min(taps.low, place), glm::max(taps.high, place)})) return true;
   if (!packet.reader) return std::nullopt;
-  const std::optional<bool> known = surface_.known_in(p, taps.low, taps.high, *packet.reader, pair);
+  std::optional<bool> known = surface_.known_in(p, taps.low, taps.high, *packet.reader, pair);
+  if (!known) known = surface_.known_on_sheet(p, taps.low, taps.high, *packet.reader, pair);
   // The tap at P itself has the verdict R1, which the ray of float gave.
   if (known && *known != p.lit && block.holds(square_ / 2, square_ / 2)) return std::nullopt;
   return known;

@@ -281,26 +281,6 @@ template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes>(const SurfacePoint&
 template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes::Nearby>(const SurfacePoint&, glm::dvec3, uint32_t,
                                                                      const Silhouettes::Nearby&) const;
 
-// At each place the first hit is `front`, and P's sheet is its own triangle. If the two are one, V is lit whatever lies between
-// P and the place (verdict()). If not, and P is dark, lit_at() compares these two planes only, and they lie further apart than
-// gap_m. A silhouette nearby changes nothing: it belongs to a surface behind `front`.
-std::optional<bool> OwnSurface::known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
-                                         LightCells::Reader& reader, Pair& last) const {
-  if (view_.scene().mask_error_m > 0) return std::nullopt;  // a verdict beside the border of a mask is not sure
-  if (p.on_silhouette || !reader.covers(p.primitive, low, high)) return std::nullopt;
-  const std::optional<uint32_t> front = reader.front_in(low, high);
-  if (!front) return std::nullopt;
-  if (*front == p.primitive) return true;
-  if (p.lit) return std::nullopt;
-  if (last.own != p.primitive || last.front != *front) {
-    // Of parallel rays it is the same at all places. Half of the gap leaves room for double's rounding.
-    const double error = depth_error(*front, p.primitive, glm::dvec3(low, 1));
-    last = {p.primitive, *front,
-            error < reader.cells().gap_m() / 2 && !may_be_one_plane(view_.scene(), *front, p.primitive)};
-  }
-  return last.apart ? std::optional(false) : std::nullopt;
-}
-
 bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own) const {
   if (hit == no_primitive || hit == p.primitive) return true;
   const Sheet& sheet = *own;

@@ -12,6 +12,7 @@
 // - A step that the rounding of vertices can have made is not a jump. A hit that may lie in one plane with P's sheet
 //   belongs to the sheet (raytrace/vertex_rounding.h).
 #pragma once
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -66,6 +67,10 @@ class OwnSurface {
   // a ray without tracing it.
   std::optional<bool> known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
                                Pair& last) const;
+  // The same where the walk from P to each place of the rectangle leaves P's triangle: if it arrives in one triangle, or ends on
+  // one edge. p: in the frame of the cells.
+  std::optional<bool> known_on_sheet(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
+                                     Pair& last) const;
 
   // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
   // to 2^-8 of the way. Of a distance that is not greater than known_texels only this is found out: then it returns
@@ -148,6 +153,17 @@ class OwnSurface {
   void list_covering(glm::dvec3 x, std::vector<uint32_t>& covering) const;
   // On a silhouette (within tie_m()): every triangle, or no_primitive, that may be the first hit, by rounding.
   void firsts_of_tie(glm::dvec3 x, std::vector<uint32_t>& firsts) const;
+  // Where the walks to all places of a rectangle of the light's plane arrive.
+  struct SheetIn {
+    uint32_t triangle = no_primitive;  // or no_primitive, when they all end early, on one edge
+    double end_m = 0;                  // where they end no point has less depth
+  };
+  // No value if they go different ways, or rounding may decide which. x: the rectangle's corners. Of parallel rays. What is asked
+  // of a place changes linearly over the rectangle, so it holds in the rectangle if it holds at its corners.
+  std::optional<SheetIn> walk_in(const SurfacePoint& p, const std::array<glm::dvec3, 4>& x) const;
+  // V where P's sheet is the triangle `own` and `front` is before everything else by gap_m; no value if it is not known.
+  std::optional<bool> as_seen(const SurfacePoint& p, uint32_t own, uint32_t front, LightCells::Reader& reader,
+                              Pair& last) const;
   uint32_t next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const;
   // end: of the sheet, in the light's frame.
   uint32_t across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const;

@@ -125,6 +125,23 @@ class Silhouettes {
     const std::optional<Rectangle> around = rectangle(corners);
     return around && none_in(*around);
   }
+  // Whether of(triangle) is true of a triangle that has a silhouette which comes, or may come, within reach_m of a place of the
+  // rectangle.
+  bool any_near(const Rectangle& rectangle, const auto& of) const {
+    const Grid& grid = grids_[static_cast<size_t>(rectangle.chart)];
+    if (none_in(rectangle)) return false;
+    const size_t first = grid.cell_of(rectangle.low), last = grid.cell_of(rectangle.high);
+    const size_t row = static_cast<size_t>(grid.size), columns = (last - first) % row;
+    for (size_t cell = first; cell <= last; cell += row)
+      for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + columns + 1]; ++i) {
+        const Edge& edge = edges_[grid.listed[i]];
+        const auto segment = view_.rays().in_chart(rectangle.chart, edge.a, edge.b, reach_m_);
+        if (segment && !beside(rectangle.low, rectangle.high, segment->a, segment->b, segment->reach) &&
+            of(edge.triangle))
+          return true;
+      }
+    return false;
+  }
   // nearby: its memory is used again.
   void list_in(const Rectangle& rectangle, Nearby& nearby) const;
   // The same around these places.
