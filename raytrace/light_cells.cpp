@@ -384,16 +384,6 @@ LightCells::Answer LightCells::Reader::disc_at(glm::dvec3 at, uint32_t primitive
   return centre;
 }
 
-template <class Holds>
-bool LightCells::all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds) {
-  Four* const four = cell.divisions > 0 ? parts_of(cell, x, y) : nullptr;
-  if (!four) return false;
-  const uint32_t half = 1u << (cell.divisions - 1);
-  for (uint32_t i = 0; i < 4; ++i)
-    if (!holds(four->cell[i], x + i % 2 * half, y + i / 2 * half)) return false;
-  return true;
-}
-
 bool LightCells::disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent) {
   if (cell.kind == Kind::nothing) return true;
   const Square square = square_at(x, y, cell.divisions);
@@ -405,19 +395,13 @@ bool LightCells::disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 
 }
 
 std::optional<uint32_t> LightCells::Reader::front_in(glm::dvec2 low, glm::dvec2 high) {
-  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return std::nullopt;
-  find(glm::dvec3(low, 0));
-  if (cell_->kind != Kind::triangle) return std::nullopt;
-  const uint32_t front = cell_->front;
-  if (!(((x0 ^ x1) | (y0 ^ y1)) >> shift_)) return front;  // all in one square
-  const int divisions = cells_.divisions_;
-  for (uint32_t y = y0 >> divisions; y <= y1 >> divisions; ++y)
-    for (uint32_t x = x0 >> divisions; x <= x1 >> divisions; ++x)
-      if (!cells_.is_front_in(*cells_.base_cell(x << divisions, y << divisions), x << divisions, y << divisions, front,
-                              low, high))
-        return std::nullopt;
-  return front;
+  std::optional<uint32_t> front;
+  const bool one = each_front_in(low, high, [&](const Front& of_square) {
+    if (of_square.triangle == no_primitive || (front && *front != of_square.triangle)) return false;
+    front = of_square.triangle;
+    return true;
+  });
+  return one ? front : std::nullopt;
 }
 
 bool LightCells::Reader::all_deeper(double depth_m, glm::dvec2 low, glm::dvec2 high) {
@@ -437,14 +421,6 @@ bool LightCells::all_deeper(Cell& cell, uint32_t x, uint32_t y, double depth_m, 
   if (cell.kind != Kind::mixed) return false;
   return all_parts_hold(
       cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return all_deeper(part, px, py, depth_m, low, high); });
-}
-
-bool LightCells::is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high) {
-  // Widened: squares beside the rectangle may be asked too.
-  if (!square_at(x, y, cell.divisions).touches(low, high)) return true;
-  if (cell.kind != Kind::mixed) return cell.kind == Kind::triangle && cell.front == triangle;
-  return all_parts_hold(
-      cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return is_front_in(part, px, py, triangle, low, high); });
 }
 
 void LightCells::Reader::find(uint32_t x, uint32_t y) {

@@ -103,6 +103,28 @@ class LightCells {
   enum class Answer : uint8_t { unknown, lit, dark };
   class Reader;
 
+  // A square of the light's plane; widened.
+  struct Square {
+    glm::dvec2 middle;
+    double half;  // of its side
+    bool touches(glm::dvec2 low, glm::dvec2 high) const {
+      return middle.x - half <= high.x && middle.x + half >= low.x && middle.y - half <= high.y &&
+             middle.y + half >= low.y;
+    }
+  };
+  // The front of a good square.
+  struct Front {
+    uint32_t triangle = no_primitive;     // or no_primitive, if it is a sheet of several triangles
+    double split_m = 0;                   // of a sheet: it ends before this depth, and everything else lies behind it
+    double nearest_m = 0;                 // nothing is nearer to the light
+    std::span<const uint32_t> triangles;  // of a sheet: all that touch the square, those of the sheet among them
+    Square square;
+  };
+  // Whether one of `triangles` belongs to the sheet.
+  bool in_sheet(const Front& front, uint32_t triangle) const {
+    return part(triangle, outline(triangle), front.square).least < front.split_m;
+  }
+
   // The triangles among which the exact ray through a place meets its first one, in the order of
   // LightView::nearest_m(); no value if they are not known.
   std::optional<std::span<const uint32_t>> candidates(glm::dvec3 at);
@@ -129,14 +151,6 @@ class LightCells {
   // The triangles of the undivided squares: those of square i are listed[begin[i]] to listed[begin[i + 1] - 1].
   struct Lists {
     std::vector<uint32_t> begin, listed;
-  };
-  struct Square {
-    glm::dvec2 middle;
-    double half;  // of its side; widened
-    bool touches(glm::dvec2 low, glm::dvec2 high) const {
-      return middle.x - half <= high.x && middle.x + half >= low.x && middle.y - half <= high.y &&
-             middle.y + half >= low.y;
-    }
   };
   // A triangle as the light sees it.
   struct Outline {
@@ -204,8 +218,13 @@ class LightCells {
   bool all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds);
   // Whether the cell is out of reach of the disc as `at` sees it, or good, or divided into such cells.
   bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
-  // Whether this triangle is the front of the cell, or of all its parts that touch the rectangle.
-  bool is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high);
+  // Whether visit(front) is true of the cell, or of all its parts that touch the rectangle.
+  template <class Visit>
+  bool each_front_in(Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low, glm::dvec2 high, const Visit& visit);
+  bool visit_front(const Cell& cell, uint32_t x, uint32_t y, const auto& visit) const {
+    if (cell.kind != Kind::triangle && cell.kind != Kind::sheet) return false;
+    return visit(Front{cell.front, cell.split_m, cell.nearest_m, cell.triangles, square_at(x, y, cell.divisions)});
+  }
   // Whether all in the parts of the cell that touch the rectangle is deeper than this.
   bool all_deeper(Cell& cell, uint32_t x, uint32_t y, double depth_m, glm::dvec2 low, glm::dvec2 high);
   void free_below(Cell& cell);
@@ -230,6 +249,26 @@ class LightCells {
 struct LightCells::Four {
   Cell cell[4];
 };
+
+template <class Holds>
+bool LightCells::all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds) {
+  Four* const four = cell.divisions > 0 ? parts_of(cell, x, y) : nullptr;
+  if (!four) return false;
+  const uint32_t half = 1u << (cell.divisions - 1);
+  for (uint32_t i = 0; i < 4; ++i)
+    if (!holds(four->cell[i], x + i % 2 * half, y + i / 2 * half)) return false;
+  return true;
+}
+
+template <class Visit>
+bool LightCells::each_front_in(Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low, glm::dvec2 high,
+                               const Visit& visit) {
+  // Widened: squares beside the rectangle may be asked too.
+  if (!square_at(x, y, cell.divisions).touches(low, high)) return true;
+  if (cell.kind != Kind::mixed) return visit_front(cell, x, y, visit);
+  return all_parts_hold(
+      cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return each_front_in(part, px, py, low, high, visit); });
+}
 
 // Remembers the square of the last question, because neighbouring pixels mostly lie in one square.
 class LightCells::Reader {
@@ -258,6 +297,10 @@ class LightCells::Reader {
   // The triangle that covers a rectangle of the light's plane before everything else, by gap_m() or more; no value if no
   // triangle is known to.
   std::optional<uint32_t> front_in(glm::dvec2 low, glm::dvec2 high);
+  // Calls visit(front) for the squares that hold the rectangle. False if one of them is not good or is empty, or if visit
+  // returns false.
+  template <class Visit>
+  bool each_front_in(glm::dvec2 low, glm::dvec2 high, const Visit& visit);
   // Whether all that lies in the rectangle, for sure, is deeper than this.
   bool all_deeper(double depth_m, glm::dvec2 low, glm::dvec2 high);
   // Whether the triangle covers the rectangle, and reach_m around it.
@@ -313,5 +356,21 @@ class LightCells::Reader {
   uint32_t x_ = ~0u, y_ = ~0u;  // a finest square in it
   int shift_ = 0;               // its side is 2^shift finest squares
 };
+
+template <class Visit>
+bool LightCells::Reader::each_front_in(glm::dvec2 low, glm::dvec2 high, const Visit& visit) {
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return false;
+  find(glm::dvec3(low, 0));
+  if (cell_->kind == Kind::mixed) return false;
+  if (!(((x0 ^ x1) | (y0 ^ y1)) >> shift_)) return cells_.visit_front(*cell_, x0, y0, visit);  // all in one square
+  const int divisions = cells_.divisions_;
+  for (uint32_t y = y0 >> divisions; y <= y1 >> divisions; ++y)
+    for (uint32_t x = x0 >> divisions; x <= x1 >> divisions; ++x)
+      if (!cells_.each_front_in(*cells_.base_cell(x << divisions, y << divisions), x << divisions, y << divisions, low,
+                                high, visit))
+        return false;
+  return true;
+}
 
 }  // namespace noonmark

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 
 #include "raytrace/adjacency.h"
@@ -57,12 +58,13 @@ class OwnSurface {
     return lit_at<Silhouettes::Nearby>(p, x, hit, nearby);
   }
 
-  // Remembers the last pair of triangles that known_in() compared.
+  // Remembers the last triangles that known_in() compared: P's with one, or with those of a sheet.
   struct Pair {
     uint32_t own = no_primitive, front = no_primitive;
+    const uint32_t* sheet = nullptr;  // the first one in its list
     bool apart = false;
   };
-  // V(P, x) if it is the same at every place x of a rectangle of the light's plane, for sure, because one certified triangle is
+  // V(P, x) if it is the same at every place x of a rectangle of the light's plane, for sure, because certified surfaces are
   // before everything else there; no value if that is not known. reader: reads this surface's cells, which know the first hit of
   // a ray without tracing it.
   std::optional<bool> known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
@@ -161,9 +163,17 @@ class OwnSurface {
   // No value if they go different ways, or rounding may decide which. x: the rectangle's corners. Of parallel rays. What is asked
   // of a place changes linearly over the rectangle, so it holds in the rectangle if it holds at its corners.
   std::optional<SheetIn> walk_in(const SurfacePoint& p, const std::array<glm::dvec3, 4>& x) const;
-  // V where P's sheet is the triangle `own` and `front` is before everything else by gap_m; no value if it is not known.
-  std::optional<bool> as_seen(const SurfacePoint& p, uint32_t own, uint32_t front, LightCells::Reader& reader,
-                              Pair& last) const;
+  static std::array<glm::dvec3, 4> corners_of(glm::dvec2 low, glm::dvec2 high) {
+    return {{{low.x, low.y, 1}, {high.x, low.y, 1}, {low.x, high.y, 1}, {high.x, high.y, 1}}};
+  }
+  // The depths of a triangle's plane in a rectangle.
+  struct DepthsIn {
+    double nearest_m = std::numeric_limits<double>::infinity(), deepest_m = -nearest_m;
+  };
+  DepthsIn depths_in(uint32_t triangle, const std::array<glm::dvec3, 4>& corners) const;
+  // V in a rectangle where P's sheet is the triangle `own`, which covers it; no value if it is not known.
+  std::optional<bool> as_seen(const SurfacePoint& p, uint32_t own, glm::dvec2 low, glm::dvec2 high,
+                              LightCells::Reader& reader, Pair& last) const;
   uint32_t next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const;
   // end: of the sheet, in the light's frame.
   uint32_t across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const;

@@ -8,28 +8,60 @@
 
 namespace noonmark {
 
-// At each place the first hit is `front`, and P's sheet is its own triangle. If the two are one, V is lit whatever lies between
-// P and the place (verdict()). If not, and P is dark, lit_at() compares these two planes only, and they lie further apart than
-// gap_m. A silhouette nearby changes nothing: it belongs to a surface behind `front`.
 std::optional<bool> OwnSurface::known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
                                          LightCells::Reader& reader, Pair& last) const {
   if (view_.scene().mask_error_m > 0) return std::nullopt;  // a verdict beside the border of a mask is not sure
   if (p.on_silhouette || !reader.covers(p.primitive, low, high)) return std::nullopt;
-  const std::optional<uint32_t> front = reader.front_in(low, high);
-  if (!front) return std::nullopt;
-  return as_seen(p, p.primitive, *front, reader, last);
+  return as_seen(p, p.primitive, low, high, reader, last);
 }
 
-std::optional<bool> OwnSurface::as_seen(const SurfacePoint& p, uint32_t own, uint32_t front, LightCells::Reader& reader,
-                                        Pair& last) const {
-  if (front == own) return true;
-  if (p.lit) return std::nullopt;
-  if (last.own != own || last.front != front) {
-    // Of parallel rays it is the same at all places. Half of the gap leaves room for double's rounding.
-    const double error = depth_error(front, own, glm::dvec3(0, 0, 1));
-    last = {own, front, error < reader.cells().gap_m() / 2 && !may_be_one_plane(view_.scene(), front, own)};
+// At each place the first hit is the front of a good square. If it is P's sheet, V is lit whatever lies between P and the place
+// (verdict()). If not, and P is dark, lit_at() compares these two only, and they lie further apart than gap_m. A silhouette
+// nearby changes nothing: it belongs to a surface behind the front.
+std::optional<bool> OwnSurface::as_seen(const SurfacePoint& p, uint32_t own, glm::dvec2 low, glm::dvec2 high,
+                                        LightCells::Reader& reader, Pair& last) const {
+  // Of parallel rays it is the same at all places. Half of the gap leaves room for double's rounding.
+  const auto apart = [&](uint32_t front) {
+    return depth_error(front, own, glm::dvec3(low, 1)) < reader.cells().gap_m() / 2 &&
+           !may_be_one_plane(view_.scene(), front, own);
+  };
+  std::optional<bool> seen;
+  const auto take = [&](bool lit) {
+    if ((!lit && p.lit) || (seen && *seen != lit)) return false;
+    seen = lit;
+    return true;
+  };
+  std::optional<DepthsIn> depths;  // of P's sheet
+  const bool all = reader.each_front_in(low, high, [&](const LightCells::Front& front) {
+    if (front.triangle == own) return take(true);
+    if (front.triangle != no_primitive) {
+      if (!take(false)) return false;
+      if (last.own != own || last.front != front.triangle) last = {own, front.triangle, nullptr, apart(front.triangle)};
+      return last.apart;
+    }
+    // A sheet of several triangles. Within the rectangle P's triangle is one of them, or lies behind all of them.
+    if (!depths) depths = depths_in(own, corners_of(low, high));
+    if (depths->deepest_m < front.split_m) return take(true);
+    if (!(depths->nearest_m > front.split_m) || !take(false)) return false;
+    if (!(front.nearest_m > view_.near_depth(glm::dvec3(low, 1)))) return false;  // which of them is met may matter
+    if (last.own != own || last.sheet != front.triangles.data())
+      last = {own, no_primitive, front.triangles.data(),
+              std::all_of(front.triangles.begin(), front.triangles.end(), [&](uint32_t triangle) {
+                return !reader.cells().in_sheet(front, triangle) || apart(triangle);
+              })};
+    return last.apart;
+  });
+  return all ? seen : std::nullopt;
+}
+
+OwnSurface::DepthsIn OwnSurface::depths_in(uint32_t triangle, const std::array<glm::dvec3, 4>& corners) const {
+  DepthsIn depths;
+  for (const glm::dvec3 x : corners) {
+    const double depth = view_.plane_depth(triangle, x);
+    depths.nearest_m = std::min(depths.nearest_m, depth);
+    depths.deepest_m = std::max(depths.deepest_m, depth);
   }
-  return last.apart ? std::optional(false) : std::nullopt;
+  return depths;
 }
 
 std::optional<OwnSurface::SheetIn> OwnSurface::walk_in(const SurfacePoint& p,
@@ -106,24 +138,19 @@ std::optional<OwnSurface::SheetIn> OwnSurface::walk_in(const SurfacePoint& p,
 std::optional<bool> OwnSurface::known_on_sheet(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
                                                LightCells::Reader& reader, Pair& last) const {
   if (view_.scene().mask_error_m > 0 || p.on_silhouette) return std::nullopt;
-  const std::array<glm::dvec3, 4> corners{
-      {{low.x, low.y, 1}, {high.x, low.y, 1}, {low.x, high.y, 1}, {high.x, high.y, 1}}};
+  const std::array<glm::dvec3, 4> corners = corners_of(low, high);
   const std::optional<SheetIn> sheet = walk_in(p, corners);
   if (!sheet) return std::nullopt;
   if (sheet->triangle != no_primitive) {
     if (sheet->triangle == p.primitive) return std::nullopt;  // known_in() has asked
-    const std::optional<uint32_t> front = reader.front_in(low, high);
-    return front ? as_seen(p, sheet->triangle, *front, reader, last) : std::nullopt;
+    return as_seen(p, sheet->triangle, low, high, reader, last);
   }
   if (!p.on_surface) return std::nullopt;
   const double gap = reader.cells().gap_m();
-  double nearest = std::numeric_limits<double>::infinity(), deepest = -nearest;
-  for (const glm::dvec3 x : corners) {
-    const double depth = view_.plane_depth(p.primitive, x);
-    nearest = std::min(nearest, depth), deepest = std::max(deepest, depth);
-  }
+  const DepthsIn depths = depths_in(p.primitive, corners);
   // S is at most the plane's depth.
-  if ((!p.lit || !p.beside) && reader.all_deeper(std::max(deepest, view_.near_depth(corners[0])) + gap, low, high))
+  if ((!p.lit || !p.beside) &&
+      reader.all_deeper(std::max(depths.deepest_m, view_.near_depth(corners[0])) + gap, low, high))
     return true;
   if (p.lit) return std::nullopt;
   const std::optional<uint32_t> front = reader.front_in(low, high);
@@ -134,7 +161,7 @@ std::optional<bool> OwnSurface::known_on_sheet(const SurfacePoint& p, glm::dvec2
     error = std::max({error, depth_error(*front, p.primitive, x),
                       rounding_of_sheet(p, x, {std::numeric_limits<double>::infinity(), no_primitive}, *front)});
   }
-  const bool apart = in_front + gap < std::min(nearest, sheet->end_m) && error < gap / 2 &&
+  const bool apart = in_front + gap < std::min(depths.nearest_m, sheet->end_m) && error < gap / 2 &&
                      !may_be_one_plane(view_.scene(), *front, p.primitive);
   return apart ? std::optional(false) : std::nullopt;
 }
