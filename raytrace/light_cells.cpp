@@ -407,6 +407,10 @@ std::optional<uint32_t> LightCells::Reader::front_in(glm::dvec2 low, glm::dvec2 
 bool LightCells::Reader::all_deeper(double depth_m, glm::dvec2 low, glm::dvec2 high) {
   uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return false;
+  for (const glm::dvec2 corner : {low, high}) {  // most rectangles have something less deep there already
+    find(glm::dvec3(corner, 0));
+    if (!(cell_->nearest_m > depth_m)) return false;
+  }
   const int divisions = cells_.divisions_;
   for (uint32_t y = y0 >> divisions; y <= y1 >> divisions; ++y)
     for (uint32_t x = x0 >> divisions; x <= x1 >> divisions; ++x)

@@ -185,9 +185,9 @@ class TapTracing {
   }
 
  private:
-  // What is known of a tap before rays are asked for it: that it is lit, for sure, at its exact place and at the centre of its
-  // texel; or that it is answered.
-  enum Known : uint8_t { exact_lit = 1, texel_lit = 2, answered = 4 };
+  // What is known of a tap before rays are asked for it: that it is lit, for sure, or that no silhouette is near, at its exact
+  // place and at the centre of its texel; or that it is answered.
+  enum Known : uint8_t { exact_lit = 1, texel_lit = 2, answered = 4, exact_away = 8, texel_away = 16 };
   // Up to packet_size receivers.
   struct Packet {
     std::span<const size_t> pixels;
@@ -210,8 +210,9 @@ class TapTracing {
     return parallel_ ? glm::dvec3(from.x + offset.x * texel_m_, from.y + offset.y * texel_m_, 1)
                      : l_.view.normal_place(frame().tap_place(from, offset));
   }
-  OwnSurface::Verdict lit_at(const Packet& packet, int k, glm::dvec3 x, uint32_t hit) const {
-    return listed_ ? surface_.lit_at(packet.points[k], x, hit, packet.nearby[k])
+  // away: no silhouette is near x, for sure.
+  OwnSurface::Verdict lit_at(const Packet& packet, int k, glm::dvec3 x, uint32_t hit, bool away) const {
+    return listed_ ? surface_.lit_at(packet.points[k], x, hit, packet.nearby[k], away)
                    : surface_.lit_at(packet.points[k], x, hit);
   }
 
@@ -226,7 +227,8 @@ class TapTracing {
   };
   // Answers blocks of a receiver's taps that are certain, and divides the others.
   void answer_blocks(const Packet& packet, int k, const Block& block, OwnSurface::Pair& pair);
-  // Of a lit receiver: answers the taps to whose place, or whose texel's centre, no silhouette comes in the way.
+  // Finds the taps beside whose place, or whose texel's centre, no silhouette is, and of a lit receiver those to which none comes
+  // in the way: they are lit.
   void answer_clear_ways(const Packet& packet, int k);
   bool clipped(glm::ivec2 texel) const {
     return may_clip() && l_.texels.may_be_clipped(texel, texel) && l_.texels.clipped(texel);
@@ -235,8 +237,8 @@ class TapTracing {
   void trace_packet(std::span<const size_t> pixels);
   // ks: the receivers of the packet that are asked.
   void first_hits(const Packet& packet, std::span<const int> ks, const glm::dvec3* x, uint32_t* hits) const;
-  void verdicts_at(const Packet& packet, std::span<const int> ks, const glm::dvec3* from, const glm::dvec3* offsets,
-                   OwnSurface::Verdict* verdicts) const;
+  void verdicts_at(const Packet& packet, int tap, std::span<const int> ks, const glm::dvec3* from,
+                   const glm::dvec3* offsets, OwnSurface::Verdict* verdicts) const;
   void trace_tap(const Packet& packet, int tap);
   // The verdict at the centre of the texel that the tap reads. moved_lit: D of the tap.
   void add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset, bool moved_lit, uint8_t& bits);
@@ -349,7 +351,7 @@ void TapTracing::answer_blocks(const Packet& packet, int k, const Block& block, 
 
 // OwnSurface::lit_at() of such a place: nothing jumps on the way, and nothing is beside it.
 void TapTracing::answer_clear_ways(const Packet& packet, int k) {
-  if (!packet.points[k].lit || packet.points[k].on_silhouette) return;
+  const bool may_be_lit = packet.points[k].lit && !packet.points[k].on_silhouette;
   thread_local Silhouettes::Ways ways;
   const size_t pixel = packet.pixels[static_cast<size_t>(k)];
   std::vector<uint8_t>& known = packet.known[k];
@@ -360,12 +362,16 @@ void TapTracing::answer_clear_ways(const Packet& packet, int k) {
     if (edge_distance_texels_) among_taps_.push_centre(probe_.texel(pixel, tap), ways);
   }
   packet.nearby[k].answer(ways);
-  const int32_t* open = ways.open.data();
+  const int32_t *open = ways.open.data(), *beside = ways.beside.data();
   for (int tap = 0; tap < probe_.taps(); ++tap) {
     uint8_t& of_tap = known[static_cast<size_t>(tap)];
     if (of_tap == answered) continue;
-    if (!*open++) of_tap |= exact_lit;
-    if (edge_distance_texels_ && !*open++) of_tap |= texel_lit;
+    const auto take = [&](Known lit, Known away) {
+      if (!*beside++) of_tap |= away;
+      if (!*open++ && may_be_lit) of_tap |= lit;
+    };
+    take(exact_lit, exact_away);
+    if (edge_distance_texels_) take(texel_lit, texel_away);
   }
 }
 
@@ -414,13 +420,14 @@ void TapTracing::first_hits(const Packet& packet, std::span<const int> ks, const
   for (int i = 0; i < rays; ++i) hits[unknown[i]] = found[i];
 }
 
-void TapTracing::verdicts_at(const Packet& packet, std::span<const int> ks, const glm::dvec3* from,
+void TapTracing::verdicts_at(const Packet& packet, int tap, std::span<const int> ks, const glm::dvec3* from,
                              const glm::dvec3* offsets, OwnSurface::Verdict* verdicts) const {
   glm::dvec3 x[packet_size]{};
   uint32_t hits[packet_size];
   for (const int k : ks) x[k] = tap_place(from[k], offsets[k]);
   first_hits(packet, ks, x, hits);
-  for (const int k : ks) verdicts[k] = lit_at(packet, k, x[k], hits[k]);
+  for (const int k : ks)
+    verdicts[k] = lit_at(packet, k, x[k], hits[k], (packet.known[k][static_cast<size_t>(tap)] & exact_away) != 0);
 }
 
 void TapTracing::trace_tap(const Packet& packet, int tap) {
@@ -443,14 +450,14 @@ void TapTracing::trace_tap(const Packet& packet, int tap) {
   if (std::all_of(ks.begin(), ks.end(), [&](int k) { return offsets[k] == glm::dvec3(0); }))
     for (const int k : ks) exact[k] = {packet.points[k].lit, true};  // V(P, P) is R1
   else
-    verdicts_at(packet, {of_rays, asked}, packet.at, offsets, exact);
+    verdicts_at(packet, tap, {of_rays, asked}, packet.at, offsets, exact);
   for (const int k : ks)
     if (known(k, exact_lit)) {
       exact[k] = {true, true};
       packet.answers.cells += offsets[k] != glm::dvec3(0);
     }
   if (l_.bias.moves_lookup())
-    verdicts_at(packet, ks, packet.looked_up, offsets, moved);
+    verdicts_at(packet, tap, ks, packet.looked_up, offsets, moved);
   else
     std::copy_n(exact, packet.active(), moved);
   for (const int k : ks) {
@@ -467,9 +474,10 @@ void TapTracing::add_texel(const Packet& packet, int k, int tap, glm::dvec3 offs
   const size_t pixel = packet.pixels[static_cast<size_t>(k)];
   const glm::ivec2 texel = probe_.texel(pixel, tap);
   const glm::dvec3 centre = l_.view.texel_place(texel);
-  const OwnSurface::Verdict at_texel = packet.known[k][static_cast<size_t>(tap)] & texel_lit
+  const uint8_t known = packet.known[k][static_cast<size_t>(tap)];
+  const OwnSurface::Verdict at_texel = known & texel_lit
                                            ? OwnSurface::Verdict{true, true}
-                                           : lit_at(packet, k, centre, l_.texels.hit(texel));
+                                           : lit_at(packet, k, centre, l_.texels.hit(texel), (known & texel_away) != 0);
   bits = static_cast<uint8_t>(bits | (at_texel.lit ? tap_texel_lit : 0) | (clipped(texel) ? tap_near_clipped : 0) |
                               (at_texel.sure ? 0 : tap_texel_unsure));
   if (moved_lit == at_texel.lit || packet.behind[k]) return;

@@ -222,13 +222,12 @@ SurfacePoint OwnSurface::point(glm::dvec3 light, uint32_t primitive, bool lit) c
 }
 
 template <class Edges>
-OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
-                                       const Edges& silhouettes) const {
+OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes,
+                                       bool beside) const {
   // The first hit is determined exactly, in double, where the ray may have met another surface than the first: beside a
   // silhouette, and where two surfaces intersect. An intersection can change a verdict only if P's own sheet is one of
   // the two surfaces: the sheet of a dark receiver comes out from under the other, or the sheet of a lit one goes
   // under.
-  const bool beside = silhouettes.near(x);
   // The silhouette may be the border of a cut mask, which lies on the other side of x in the texture.
   const double mask_error_m = view_.scene().mask_error_m;
   const bool on_border = beside && mask_error_m > 0 && silhouettes.near(x, mask_error_m);
@@ -277,9 +276,9 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   return v;
 }
 template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes>(const SurfacePoint&, glm::dvec3, uint32_t,
-                                                             const Silhouettes&) const;
+                                                             const Silhouettes&, bool) const;
 template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes::Nearby>(const SurfacePoint&, glm::dvec3, uint32_t,
-                                                                     const Silhouettes::Nearby&) const;
+                                                                     const Silhouettes::Nearby&, bool) const;
 
 bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own) const {
   if (hit == no_primitive || hit == p.primitive) return true;

@@ -52,17 +52,36 @@ class OwnSurface {
   };
 
   // V(P, x). hit: the triangle of the first hit on the light ray through x, or no_primitive.
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const { return lit_at(p, x, hit, silhouettes_); }
-  // The same, if these silhouettes were listed around P and x.
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Silhouettes::Nearby& nearby) const {
-    return lit_at<Silhouettes::Nearby>(p, x, hit, nearby);
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
+    return lit_at<Silhouettes>(p, x, hit, silhouettes_, silhouettes_.near(x));
+  }
+  // The same, if these silhouettes were listed around P and x. away: none is near x, for sure.
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Silhouettes::Nearby& nearby,
+                 bool away = false) const {
+    return lit_at<Silhouettes::Nearby>(p, x, hit, nearby, !away && nearby.near(x));
   }
 
-  // Remembers the last triangles that known_in() compared: P's with one, or with those of a sheet.
-  struct Pair {
-    uint32_t own = no_primitive, front = no_primitive;
-    const uint32_t* sheet = nullptr;  // the first one in its list
-    bool apart = false;
+  // Remembers which triangles known_in() compared: P's with one, or with those of a sheet.
+  class Pair {
+   public:
+    struct Of {
+      uint32_t own = no_primitive, front = no_primitive;
+      const uint32_t* sheet = nullptr;  // the first one in its list
+      bool operator==(const Of&) const = default;
+    };
+    bool apart(const Of& pair, const auto& compare) {
+      const uintptr_t sheet = reinterpret_cast<uintptr_t>(pair.sheet) / sizeof(uint32_t);
+      Entry& entry = entries_[(pair.own * 7 + pair.front + sheet + sheet / entries_.size()) % entries_.size()];
+      if (!(entry.pair == pair)) entry = {pair, compare()};
+      return entry.apart;
+    }
+
+   private:
+    struct Entry {
+      Of pair;
+      bool apart = false;
+    };
+    std::array<Entry, 64> entries_;  // those of different places replace one another
   };
   // V(P, x) if it is the same at every place x of a rectangle of the light's plane, for sure, because certified surfaces are
   // before everything else there; no value if that is not known. reader: reads this surface's cells, which know the first hit of
@@ -100,8 +119,9 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams = true) const;
 
  private:
-  template <class Edges>  // Silhouettes, or those nearby
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes) const;
+  // Edges: Silhouettes, or those nearby. beside: one of them is near x.
+  template <class Edges>
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes, bool beside) const;
   uint32_t first_hit(glm::dvec3 x) const;
 
   // S at x, walked to when it is first asked for: several steps of a verdict need it.

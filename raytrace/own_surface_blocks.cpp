@@ -36,20 +36,19 @@ std::optional<bool> OwnSurface::as_seen(const SurfacePoint& p, uint32_t own, glm
     if (front.triangle == own) return take(true);
     if (front.triangle != no_primitive) {
       if (!take(false)) return false;
-      if (last.own != own || last.front != front.triangle) last = {own, front.triangle, nullptr, apart(front.triangle)};
-      return last.apart;
+      return last.apart({own, front.triangle, nullptr}, [&] { return apart(front.triangle); });
     }
     // A sheet of several triangles. Within the rectangle P's triangle is one of them, or lies behind all of them.
     if (!depths) depths = depths_in(own, corners_of(low, high));
     if (depths->deepest_m < front.split_m) return take(true);
     if (!(depths->nearest_m > front.split_m) || !take(false)) return false;
     if (!(front.nearest_m > view_.near_depth(glm::dvec3(low, 1)))) return false;  // which of them is met may matter
-    if (last.own != own || last.sheet != front.triangles.data())
-      last = {own, no_primitive, front.triangles.data(),
-              std::all_of(front.triangles.begin(), front.triangles.end(), [&](uint32_t triangle) {
-                return !reader.cells().in_sheet(front, triangle) || apart(triangle);
-              })};
-    return last.apart;
+    return last.apart({own, no_primitive, front.triangles.data()}, [&] {
+      return std::all_of(front.triangles.begin(), front.triangles.end(), [&](uint32_t triangle) {
+        return view_.nearest_m(triangle) > front.split_m || !reader.cells().in_sheet(front, triangle) ||
+               apart(triangle);
+      });
+    });
   });
   return all ? seen : std::nullopt;
 }
@@ -138,21 +137,20 @@ std::optional<OwnSurface::SheetIn> OwnSurface::walk_in(const SurfacePoint& p,
 std::optional<bool> OwnSurface::known_on_sheet(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
                                                LightCells::Reader& reader, Pair& last) const {
   if (view_.scene().mask_error_m > 0 || p.on_silhouette) return std::nullopt;
+  if (reader.covers(p.primitive, low, high)) return std::nullopt;  // known_in() has asked
   const std::array<glm::dvec3, 4> corners = corners_of(low, high);
+  // Where neither can help, the walk is not worth its time.
+  const DepthsIn depths = depths_in(p.primitive, corners);
+  const double gap = reader.cells().gap_m();
+  const bool all_deeper = p.on_surface && (!p.lit || !p.beside) &&
+                          reader.all_deeper(std::max(depths.deepest_m, view_.near_depth(corners[0])) + gap, low, high);
+  if (!all_deeper && !reader.each_front_in(low, high, [](const LightCells::Front&) { return true; }))
+    return std::nullopt;
   const std::optional<SheetIn> sheet = walk_in(p, corners);
   if (!sheet) return std::nullopt;
-  if (sheet->triangle != no_primitive) {
-    if (sheet->triangle == p.primitive) return std::nullopt;  // known_in() has asked
-    return as_seen(p, sheet->triangle, low, high, reader, last);
-  }
-  if (!p.on_surface) return std::nullopt;
-  const double gap = reader.cells().gap_m();
-  const DepthsIn depths = depths_in(p.primitive, corners);
-  // S is at most the plane's depth.
-  if ((!p.lit || !p.beside) &&
-      reader.all_deeper(std::max(depths.deepest_m, view_.near_depth(corners[0])) + gap, low, high))
-    return true;
-  if (p.lit) return std::nullopt;
+  if (sheet->triangle != no_primitive) return as_seen(p, sheet->triangle, low, high, reader, last);
+  if (all_deeper) return true;  // S is at most the plane's depth
+  if (p.lit || !p.on_surface) return std::nullopt;
   const std::optional<uint32_t> front = reader.front_in(low, high);
   if (!front) return std::nullopt;
   double in_front = -std::numeric_limits<double>::infinity(), error = 0;

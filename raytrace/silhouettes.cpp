@@ -229,6 +229,7 @@ bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {
 void Silhouettes::Nearby::answer(Ways& ways) const {
   const size_t count = ways.x.size();
   ways.open.assign(count, 0);
+  ways.beside.assign(count, 0);
   float largest = 0;
   for (size_t i = 0; i < count; ++i) largest = std::max({largest, std::abs(ways.x[i]), std::abs(ways.y[i])});
   const double per_m = 1 / ways.unit_m, r = static_cast<double>(largest);
@@ -240,6 +241,7 @@ void Silhouettes::Nearby::answer(Ways& ways) const {
     const double length = glm::length(way);
     if (!(length > 0)) {  // it is a point: the light sees it from its end
       ways.open.assign(count, 1);
+      ways.beside.assign(count, 1);
       return;
     }
     // The edge's line: n . x = d, and `from` lies on the side of n . x < d, or on it. Along the line the edge goes from
@@ -261,6 +263,7 @@ void Silhouettes::Nearby::answer(Ways& ways) const {
     const float* const xs = ways.x.data();
     const float* const ys = ways.y.data();
     int32_t* const open = ways.open.data();
+    int32_t* const beside_edge = ways.beside.data();
     for (size_t i = 0; i < count; ++i) {
       const float x = xs[i], y = ys[i];
       const float beyond = normal.x * x + normal.y * y - distance, at = u.x * x + u.y * y;
@@ -268,6 +271,7 @@ void Silhouettes::Nearby::answer(Ways& ways) const {
       const int32_t before = beyond < -far, away = before | (beyond > far) | (at < begin) | (at > end);
       const int32_t left = (of_a > m) & (of_b > m), right = (of_a < -m) & (of_b < -m);
       open[i] |= !(away & ((before & on_one_side) | left | right));
+      beside_edge[i] |= !away;
     }
   }
 }

@@ -77,10 +77,12 @@ class Silhouettes {
   // Straight ways of the light's plane from one place, as flat arrays, so that many of them are asked at once.
   struct Ways {
     glm::dvec2 from{0};
-    double unit_m = 1;          // of x and y
-    double most_m = 0;          // the largest coordinate from which `from` and the ends were computed
-    std::vector<float> x, y;    // from `from` to the end of each way
-    std::vector<int32_t> open;  // the answer of Nearby::answer(): 0 only if the way is clear
+    double unit_m = 1;        // of x and y
+    double most_m = 0;        // the largest coordinate from which `from` and the ends were computed
+    std::vector<float> x, y;  // from `from` to the end of each way
+    // The answers of Nearby::answer().
+    std::vector<int32_t> open;    // 0 only if the way is clear
+    std::vector<int32_t> beside;  // 0 only if near(end) is false
     void clear() { x.clear(), y.clear(); }
     void push(glm::dvec2 way) {
       x.push_back(static_cast<float>(way.x));
@@ -99,7 +101,7 @@ class Silhouettes {
     // True only if none of them comes within reach_m of a place of the rectangle, so that none crosses a way inside it. Of
     // parallel rays.
     bool none_in(const Rectangle& rectangle) const;
-    // Which ways are clear: crossings(from, end) is empty and near(end) is false. Of parallel rays; the ways must lie inside
+    // Which ways are clear: crossings(from, end) is empty and near(end) is false; and of which only the second is known. Of parallel rays; the ways must lie inside
     // the rectangle around which the silhouettes were listed.
     void answer(Ways& ways) const;
 
