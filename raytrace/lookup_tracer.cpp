@@ -240,8 +240,10 @@ class TapTracing {
   void verdicts_at(const Packet& packet, int tap, std::span<const int> ks, const glm::dvec3* from,
                    const glm::dvec3* offsets, OwnSurface::Verdict* verdicts) const;
   void trace_tap(const Packet& packet, int tap);
-  // The verdict at the centre of the texel that the tap reads. moved_lit: D of the tap.
-  void add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset, bool moved_lit, uint8_t& bits);
+  // The verdict at the centre of the texel that the tap reads. moved_lit: D of the tap. Where the two differ, returns the search
+  // for the edge between them.
+  std::optional<OwnSurface::EdgeSearch> add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset,
+                                                  bool moved_lit, uint8_t& bits);
 
   LookupTracer::Impl& l_;
   const LookupProbe& probe_;
@@ -460,17 +462,29 @@ void TapTracing::trace_tap(const Packet& packet, int tap) {
     verdicts_at(packet, tap, ks, packet.looked_up, offsets, moved);
   else
     std::copy_n(exact, packet.active(), moved);
+  OwnSurface::EdgeSearch edges[packet_size];
+  int searched[packet_size];
+  size_t searches = 0;
   for (const int k : ks) {
     if (packet.behind[k]) moved[k] = exact[k];
     const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit;
     uint8_t& bits = bits_of(packet.pixels[static_cast<size_t>(k)])[tap];
     bits = static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
                                 (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure));
-    if (edge_distance_texels_) add_texel(packet, k, tap, offsets[k], moved_lit, bits);
+    if (!edge_distance_texels_) continue;
+    if (const auto search = add_texel(packet, k, tap, offsets[k], moved_lit, bits)) {
+      searched[searches] = k;
+      edges[searches++] = *search;
+    }
   }
+  if (searches == 0) return;
+  surface_.find_edges({edges, searches});
+  for (size_t i = 0; i < searches; ++i)
+    (*edge_distance_texels_)[packet.pixels[static_cast<size_t>(searched[i])]] = edges[i].distance_texels;
 }
 
-void TapTracing::add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset, bool moved_lit, uint8_t& bits) {
+std::optional<OwnSurface::EdgeSearch> TapTracing::add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset,
+                                                            bool moved_lit, uint8_t& bits) {
   const size_t pixel = packet.pixels[static_cast<size_t>(k)];
   const glm::ivec2 texel = probe_.texel(pixel, tap);
   const glm::dvec3 centre = l_.view.texel_place(texel);
@@ -480,10 +494,9 @@ void TapTracing::add_texel(const Packet& packet, int k, int tap, glm::dvec3 offs
                                            : lit_at(packet, k, centre, l_.texels.hit(texel), (known & texel_away) != 0);
   bits = static_cast<uint8_t>(bits | (at_texel.lit ? tap_texel_lit : 0) | (clipped(texel) ? tap_near_clipped : 0) |
                               (at_texel.sure ? 0 : tap_texel_unsure));
-  if (moved_lit == at_texel.lit || packet.behind[k]) return;
+  if (moved_lit == at_texel.lit || packet.behind[k]) return std::nullopt;
   const glm::dvec3 from = tap_place(packet.looked_up[k], offset);
-  float& farthest = (*edge_distance_texels_)[pixel];
-  farthest = surface_.edge_distance_texels(packet.points[k], from, centre, moved_lit, farthest);
+  return OwnSurface::EdgeSearch{&packet.points[k], from, centre, moved_lit, (*edge_distance_texels_)[pixel]};
 }
 
 TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels,

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <type_traits>
 
+#include "raytrace/packets.h"
 #include "raytrace/vertex_rounding.h"
 
 namespace noonmark {
@@ -106,14 +107,6 @@ uint32_t OwnSurface::across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x
     }
   }
   return next;
-}
-
-uint32_t OwnSurface::first_hit(glm::dvec3 x) const {
-  if (cells_)
-    if (const std::optional<uint32_t> hit = LightCells::Reader(*cells_).first_hit(x)) return *hit;
-  uint32_t hit = no_primitive;
-  view_.first_hits(embree_, 1, &x, &hit);
-  return hit;
 }
 
 bool OwnSurface::covers(uint32_t triangle, glm::dvec3 x) const {
@@ -329,22 +322,51 @@ double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const 
   return rounding_share * depth_error(hit, p.primitive, x) * (1 + (std::isfinite(growth) ? growth : 0));
 }
 
-float OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
-                                       float known_texels) const {
-  // A normal place is a point of the light's frame at depth 1, or of its plane.
-  const double length = glm::length(to - from), texel_m = view_.frame().texel_m(from);
-  double same = 0, other = 1;
-  // `other` only becomes less, and the roundings keep the order: what is not greater now is not greater at the end.
-  const auto distance = [&] { return static_cast<float>(other * length / texel_m); };
-  for (int halving = 0; halving < 8; ++halving) {
-    if (!(distance() > known_texels)) return known_texels;
-    const double middle = (same + other) / 2;
-    const glm::dvec3 x = view_.normal_place(from + middle * (to - from));
-    SheetAt own(*this, p, x);
-    CrossedBy<Silhouettes> crossed(silhouettes_, p, x);
-    (verdict(p, x, first_hit(x), own, crossed).lit == lit_from ? same : other) = middle;
+void OwnSurface::find_edges(std::span<EdgeSearch> searches) const {
+  struct Way {
+    double length = 0, texel_m = 0;
+    double same = 0, other = 1;
+    float distance() const { return static_cast<float>(other * length / texel_m); }
+  } ways[packet_size];
+  for (size_t i = 0; i < searches.size(); ++i) {
+    const EdgeSearch& s = searches[i];
+    // A normal place is a point of the light's frame at depth 1, or of its plane.
+    ways[i] = {.length = glm::length(s.to - s.from), .texel_m = view_.frame().texel_m(s.from)};
   }
-  return std::max(known_texels, distance());
+  std::optional<LightCells::Reader> reader;
+  if (cells_) reader.emplace(*cells_);
+  for (int halving = 0; halving < 8; ++halving) {
+    size_t asked[packet_size], count = 0, of_rays[packet_size];
+    glm::dvec3 x[packet_size], places[packet_size];
+    uint32_t hits[packet_size], found[packet_size];
+    int rays = 0;
+    for (size_t i = 0; i < searches.size(); ++i) {
+      // `other` only becomes less, and the roundings keep the order: what is not greater now is not greater at the end.
+      if (!(ways[i].distance() > searches[i].distance_texels)) continue;
+      const EdgeSearch& s = searches[i];
+      x[i] = view_.normal_place(s.from + (ways[i].same + ways[i].other) / 2 * (s.to - s.from));
+      asked[count++] = i;
+      if (const auto hit = reader ? reader->first_hit(x[i]) : std::nullopt) {
+        hits[i] = *hit;
+      } else {
+        places[rays] = x[i];
+        of_rays[rays++] = i;
+      }
+    }
+    if (rays > 0) view_.first_hits(embree_, rays, places, found);
+    for (int ray = 0; ray < rays; ++ray) hits[of_rays[ray]] = found[ray];
+    for (size_t n = 0; n < count; ++n) {
+      const size_t i = asked[n];
+      const EdgeSearch& s = searches[i];
+      SheetAt own(*this, *s.p, x[i]);
+      CrossedBy<Silhouettes> crossed(silhouettes_, *s.p, x[i]);
+      Way& way = ways[i];
+      const double middle = (way.same + way.other) / 2;
+      (verdict(*s.p, x[i], hits[i], own, crossed).lit == s.lit_from ? way.same : way.other) = middle;
+    }
+  }
+  for (size_t i = 0; i < searches.size(); ++i)
+    searches[i].distance_texels = std::max(searches[i].distance_texels, ways[i].distance());
 }
 
 double OwnSurface::length_m(const SurfacePoint& p, glm::dvec3 x) const {

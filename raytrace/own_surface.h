@@ -17,6 +17,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "raytrace/adjacency.h"
 #include "raytrace/embree_scene.h"
@@ -93,11 +94,16 @@ class OwnSurface {
   std::optional<bool> known_on_sheet(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
                                      Pair& last) const;
 
-  // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
-  // to 2^-8 of the way. Of a distance that is not greater than known_texels only this is found out: then it returns
-  // known_texels.
-  float edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
-                             float known_texels) const;
+  // V differs at `from` and `to`, so it changes between them.
+  struct EdgeSearch {
+    const SurfacePoint* p = nullptr;
+    glm::dvec3 from{0}, to{0};
+    bool lit_from = false;
+    float distance_texels = 0;
+  };
+  // Raises distance_texels of each to the distance from `from` to the change, in texels, found to 2^-8 of the way. Of a distance
+  // that is less only this is found out. At most packet_size searches, because they share the packets of rays.
+  void find_edges(std::span<EdgeSearch> searches) const;
 
   // Whether the light ray through x passes through the triangle, in double.
   bool covers(uint32_t triangle, glm::dvec3 x) const;
@@ -122,7 +128,6 @@ class OwnSurface {
   // Edges: Silhouettes, or those nearby. beside: one of them is near x.
   template <class Edges>
   Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes, bool beside) const;
-  uint32_t first_hit(glm::dvec3 x) const;
 
   // S at x, walked to when it is first asked for: several steps of a verdict need it.
   class SheetAt {
