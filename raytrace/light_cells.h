@@ -62,9 +62,12 @@
 //
 // ---- Why V is one verdict in a rectangle
 //
-// If one triangle F is the front of all good squares that hold the rectangle, it is the first hit at each place in it,
-// and all else lies deeper by gap_m. If the triangle of the receiver covers the rectangle too, by more than reach_m, it is
-// the receiver's sheet at each place: V compares these two planes only (OwnSurface::known_in).
+// If the rectangle lies in good squares, the first hit at each place in it belongs to the F of that square, and all else lies
+// deeper by gap_m. If the triangle of the receiver covers the rectangle too, by more than reach_m, it is the receiver's sheet
+// at each place: V compares F and this triangle only (OwnSurface::known_in). If F is several triangles, the receiver's is one of
+// them where its plane is before split_m in all the rectangle, and lies behind them where it is behind split_m. The same holds
+// of a triangle to which the walk from P to each place of the rectangle leads (OwnSurface::known_on_sheet). If the walks end, S is
+// at most the depth of P's plane: V is lit where everything in the squares is deeper than that.
 //
 // Only parallel rays have cells so far.
 #pragma once

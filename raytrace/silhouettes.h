@@ -132,9 +132,9 @@ class Silhouettes {
   bool any_near(const Rectangle& rectangle, const auto& of) const {
     const Grid& grid = grids_[static_cast<size_t>(rectangle.chart)];
     if (none_in(rectangle)) return false;
-    const size_t first = grid.cell_of(rectangle.low), last = grid.cell_of(rectangle.high);
-    const size_t row = static_cast<size_t>(grid.size), columns = (last - first) % row;
-    for (size_t cell = first; cell <= last; cell += row)
+    const size_t begin = grid.cell_of(rectangle.low), end = grid.cell_of(rectangle.high);
+    const size_t row = static_cast<size_t>(grid.size), columns = (end - begin) % row;
+    for (size_t cell = begin; cell <= end; cell += row)
       for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + columns + 1]; ++i) {
         const Edge& edge = edges_[grid.listed[i]];
         const auto segment = view_.rays().in_chart(rectangle.chart, edge.a, edge.b, reach_m_);

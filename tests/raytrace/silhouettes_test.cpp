@@ -84,6 +84,7 @@ TEST_P(Nearby, AnswersManyWaysAtOnce) {
   Silhouettes::Nearby listed;
   Silhouettes::Ways ways;
   std::uniform_real_distribution<double> part(-1, 1);
+  constexpr int on_an_edge = 50;
   uint64_t clear = 0, open = 0, away = 0, beside = 0, asked = 0;
   for (int trial = 0; trial < 400; ++trial) {
     // Around a corner of a triangle, so that the ways cross edges, pass beside their ends, and end beside them. The first
@@ -91,7 +92,7 @@ TEST_P(Nearby, AnswersManyWaysAtOnce) {
     const auto t = static_cast<uint32_t>(random() % scene.triangles.size());
     const glm::dvec3 corner = view.corner(t, 0), along = view.corner(t, 1) - corner;
     glm::dvec2 from = glm::dvec2(corner) + glm::dvec2(along) * std::abs(part(random));
-    if (trial >= 50) from += 4 * unit * glm::dvec2(part(random), part(random));
+    if (trial >= on_an_edge) from += 4 * unit * glm::dvec2(part(random), part(random));
     ways.clear();
     ways.from = from, ways.unit_m = unit, ways.most_m = glm::length(from);
     std::vector<glm::dvec3> ends;
@@ -106,10 +107,12 @@ TEST_P(Nearby, AnswersManyWaysAtOnce) {
     for (const glm::dvec3 end : ends) low = glm::min(low, glm::dvec2(end)), high = glm::max(high, glm::dvec2(end));
     all.list_in({0, low, high}, listed);
     listed.answer(ways);
-    for (size_t i = 0; i < ends.size(); ++i, ++asked) {
+    for (size_t i = 0; i < ends.size(); ++i) {
       const bool near = all.near(ends[i]), crosses = !all.crossings(glm::dvec3(from, 1), ends[i]).empty();
-      if (!ways.open[i]) ASSERT_FALSE(near || crosses) << trial << ", way " << i;
-      if (!ways.beside[i]) ASSERT_FALSE(near) << trial << ", way " << i;
+      ASSERT_TRUE(ways.open[i] || (!near && !crosses)) << trial << ", way " << i;
+      ASSERT_TRUE(ways.beside[i] || !near) << trial << ", way " << i;
+      if (trial < on_an_edge) continue;  // nothing is known of a way that begins on an edge
+      ++asked;
       clear += !near && !crosses, open += ways.open[i] != 0;
       away += !near, beside += ways.beside[i] != 0;
     }
