@@ -268,12 +268,12 @@ LightCells::Judged LightCells::judge(const std::vector<Part>& parts, double othe
 
 // The triangles come in the order of their nearest points. Once one covers the place, those that begin deeper by gap_m
 // are not looked at.
-std::optional<double> LightCells::list_parts(const Cell& cell, const Square& place, std::vector<Part>& parts) const {
+std::optional<double> LightCells::list_parts(std::span<const uint32_t> triangles, const Square& place,
+                                             std::vector<Part>& parts) const {
   parts.clear();
-  if (!cell.ends_here()) return std::nullopt;  // memory is used up
   const glm::dvec2 low = place.middle - place.half, high = place.middle + place.half;
   double covered_m = infinity, others_m = infinity;
-  for (uint32_t t : cell.triangles) {
+  for (uint32_t t : triangles) {
     if (view_.nearest_m(t) - covered_m > gap_m_) {
       others_m = view_.nearest_m(t);
       break;
@@ -294,25 +294,25 @@ std::optional<double> LightCells::list_parts(const Cell& cell, const Square& pla
 LightCells::Judged LightCells::judge_place(const Cell& cell, glm::dvec2 at) const {
   const Square place{at, reach_m_};
   thread_local std::vector<Part> parts;
-  const std::optional<double> others_m = list_parts(cell, place, parts);
+  if (!cell.ends_here()) return {};  // memory is used up
+  const std::optional<double> others_m = list_parts(cell.triangles, place, parts);
   return others_m ? judge(parts, *others_m, place) : Judged();
 }
 
-std::optional<uint32_t> LightCells::front_of_part(const Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low,
-                                                  glm::dvec2 high) const {
+std::optional<uint32_t> LightCells::front_of_part(std::span<const uint32_t> triangles, const Square& cell,
+                                                  glm::dvec2 low, glm::dvec2 high) const {
   // A square that holds the rectangle and lies in the cell, so that the cell lists all that touches it.
-  const Square whole = square_at(x, y, cell.divisions);
-  const double half_cell = whole.half - reach_m_;
-  low = glm::max(low, whole.middle - half_cell);
-  high = glm::min(high, whole.middle + half_cell);
+  const double half_cell = cell.half - reach_m_;
+  low = glm::max(low, cell.middle - half_cell);
+  high = glm::min(high, cell.middle + half_cell);
   const double half = std::min(std::max(high.x - low.x, high.y - low.y) / 2, half_cell);
   const glm::dvec2 middle =
-      glm::clamp((low + high) / 2.0, whole.middle - half_cell + half, whole.middle + half_cell - half);
+      glm::clamp((low + high) / 2.0, cell.middle - half_cell + half, cell.middle + half_cell - half);
   const Square square{middle, half + reach_m_};
-  if (!any_may_cover(cell.triangles, square)) return std::nullopt;  // soon known in a fine mesh
+  if (!any_may_cover(triangles, square)) return std::nullopt;  // soon known in a fine mesh
   thread_local std::vector<Part> parts;
   Judged judged;
-  if (!list_parts(cell, square, parts) || !judge_triangle(parts, square, judged)) return std::nullopt;
+  if (!list_parts(triangles, square, parts) || !judge_triangle(parts, square, judged)) return std::nullopt;
   return judged.front;
 }
 
@@ -411,16 +411,6 @@ LightCells::Answer LightCells::Reader::disc_at(glm::dvec3 at, uint32_t primitive
   return centre;
 }
 
-template <class Holds>
-bool LightCells::all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds) {
-  Four* const four = cell.divisions > 0 ? parts_of(cell, x, y) : nullptr;
-  if (!four) return false;
-  const uint32_t half = 1u << (cell.divisions - 1);
-  for (uint32_t i = 0; i < 4; ++i)
-    if (!holds(four->cell[i], x + i % 2 * half, y + i / 2 * half)) return false;
-  return true;
-}
-
 bool LightCells::disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent) {
   if (cell.kind == Kind::nothing) return true;
   const Square square = square_at(x, y, cell.divisions);
@@ -432,38 +422,40 @@ bool LightCells::disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 
 }
 
 std::optional<uint32_t> LightCells::Reader::front_in(glm::dvec2 low, glm::dvec2 high) {
+  std::optional<uint32_t> front;
+  const bool one = each_front_in(low, high, [&](const Front& of_square) {
+    // In a sheet's square too, the rectangle may lie under one triangle.
+    const std::optional<uint32_t> found = of_square.triangle != no_primitive
+                                              ? of_square.triangle
+                                              : cells_.front_of_part(of_square.triangles, of_square.square, low, high);
+    if (!found || (front && *front != *found)) return false;
+    front = *found;
+    return true;
+  });
+  return one ? front : std::nullopt;
+}
+
+bool LightCells::Reader::all_deeper(double depth_m, glm::dvec2 low, glm::dvec2 high) {
   uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return std::nullopt;
-  find(glm::dvec3(low, 0));
-  uint32_t front = cell_->front;
-  if (cell_->kind == Kind::nothing) return std::nullopt;
-  if (cell_->kind != Kind::triangle) {
-    const std::optional<uint32_t> of_part = cells_.front_of_part(*cell_, x0, y0, low, high);
-    if (!of_part) return std::nullopt;
-    front = *of_part;
+  if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return false;
+  for (const glm::dvec2 corner : {low, high}) {  // most rectangles have something less deep there already
+    find(glm::dvec3(corner, 0));
+    if (!(cell_->nearest_m > depth_m)) return false;
   }
-  if (!(((x0 ^ x1) | (y0 ^ y1)) >> shift_)) return front;  // all in one square
   const int divisions = cells_.divisions_;
   for (uint32_t y = y0 >> divisions; y <= y1 >> divisions; ++y)
     for (uint32_t x = x0 >> divisions; x <= x1 >> divisions; ++x)
-      if (!cells_.is_front_in(*cells_.base_cell(x << divisions, y << divisions), x << divisions, y << divisions, front,
-                              low, high))
-        return std::nullopt;
-  return front;
+      if (!cells_.all_deeper(*cells_.base_cell(x << divisions, y << divisions), x << divisions, y << divisions, depth_m,
+                             low, high))
+        return false;
+  return true;
 }
 
-bool LightCells::is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high) {
-  const Square square = square_at(x, y, cell.divisions);  // widened: squares beside the rectangle may be asked too
-  if (square.middle.x - square.half > high.x || square.middle.x + square.half < low.x ||
-      square.middle.y - square.half > high.y || square.middle.y + square.half < low.y)
-    return true;
-  if (cell.kind == Kind::triangle || cell.kind == Kind::nothing) return cell.front == triangle;
-  if (!cell.ends_here())
-    return all_parts_hold(cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) {
-      return is_front_in(part, px, py, triangle, low, high);
-    });
-  const glm::dvec2 beside = glm::max(low - square.middle, square.middle - high) + reach_m_ - square.half;
-  return std::max(beside.x, beside.y) > 0 || front_of_part(cell, x, y, low, high) == triangle;
+bool LightCells::all_deeper(Cell& cell, uint32_t x, uint32_t y, double depth_m, glm::dvec2 low, glm::dvec2 high) {
+  if (cell.nearest_m > depth_m || !square_at(x, y, cell.divisions).touches(low, high)) return true;
+  if (cell.kind != Kind::mixed) return false;
+  return all_parts_hold(
+      cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return all_deeper(part, px, py, depth_m, low, high); });
 }
 
 void LightCells::Reader::find(uint32_t x, uint32_t y) {

@@ -62,10 +62,14 @@
 //
 // ---- Why V is one verdict in a rectangle
 //
-// If one triangle F is the front of all good squares that hold the rectangle, it is the first hit at each place in it,
-// and all else lies deeper by gap_m. If the triangle of the receiver covers the rectangle too, by more than reach_m, it is
-// the receiver's sheet at each place: V compares these two planes only (OwnSurface::known_in). In a finest square that is not
-// good, or whose front is a sheet, the same is asked of a square around what it holds of the rectangle.
+// If the rectangle lies in good squares, the first hit at each place in it belongs to the F of that square, and all else lies
+// deeper by gap_m. If the triangle of the receiver covers the rectangle too, by more than reach_m, it is the receiver's sheet
+// at each place: V compares F and this triangle only (OwnSurface::known_in). If F is several triangles, the receiver's is one of
+// them where its plane is before split_m in all the rectangle, and lies behind them where it is behind split_m. The same holds
+// of a triangle to which the walk from P to each place of the rectangle leads (OwnSurface::known_on_sheet). If the walks end, S is
+// at most the depth of P's plane: V is lit where everything in the squares is deeper than that.
+// In a finest square that is not good, or whose front is a sheet, the first of this is asked of a square around what it holds of the
+// rectangle.
 //
 // Only parallel rays have cells so far.
 #pragma once
@@ -104,6 +108,28 @@ class LightCells {
   enum class Answer : uint8_t { unknown, lit, dark };
   class Reader;
 
+  // A square of the light's plane; widened.
+  struct Square {
+    glm::dvec2 middle;
+    double half;  // of its side
+    bool touches(glm::dvec2 low, glm::dvec2 high) const {
+      return middle.x - half <= high.x && middle.x + half >= low.x && middle.y - half <= high.y &&
+             middle.y + half >= low.y;
+    }
+  };
+  // The front of a good square.
+  struct Front {
+    uint32_t triangle = no_primitive;     // or no_primitive, if it is a sheet of several triangles
+    double split_m = 0;                   // of a sheet: it ends before this depth, and everything else lies behind it
+    double nearest_m = 0;                 // nothing is nearer to the light
+    std::span<const uint32_t> triangles;  // of a sheet: all that touch the square, those of the sheet among them
+    Square square;
+  };
+  // Whether one of `triangles` belongs to the sheet.
+  bool in_sheet(const Front& front, uint32_t triangle) const {
+    return part(triangle, outline(triangle), front.square).least < front.split_m;
+  }
+
   // The triangles among which the exact ray through a place meets its first one, in the order of
   // LightView::nearest_m(); no value if they are not known.
   std::optional<std::span<const uint32_t>> candidates(glm::dvec3 at);
@@ -130,10 +156,6 @@ class LightCells {
   // The triangles of the undivided squares: those of square i are listed[begin[i]] to listed[begin[i + 1] - 1].
   struct Lists {
     std::vector<uint32_t> begin, listed;
-  };
-  struct Square {
-    glm::dvec2 middle;
-    double half;  // of its side; widened
   };
   // A triangle as the light sees it.
   struct Outline {
@@ -196,20 +218,36 @@ class LightCells {
   Judged judge(const std::vector<Part>& parts, double others_m, const Square& square) const;
   bool judge_triangle(const std::vector<Part>& parts, const Square& square, Judged& judged) const;
   bool judge_sheet(const std::vector<Part>& parts, double others_m, const Square& square, Judged& judged) const;
-  // Lists the triangles in a square of an undivided cell, for judge(); no value if that is not known, or if they are too many.
-  std::optional<double> list_parts(const Cell& cell, const Square& square, std::vector<Part>& parts) const;
+  // Lists those of a cell's triangles that touch a square in it, for judge(): what is before others_m. No value if they are too
+  // many.
+  std::optional<double> list_parts(std::span<const uint32_t> triangles, const Square& square,
+                                   std::vector<Part>& parts) const;
   // The square without extent at this place of a cell.
   Judged judge_place(const Cell& cell, glm::dvec2 at) const;
-  // The same of the cell's part of a rectangle: the triangle that is its front, if one is.
-  std::optional<uint32_t> front_of_part(const Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low,
+  // The triangle that is the front of a cell's part of a rectangle, if one is. triangles, cell: its own.
+  std::optional<uint32_t> front_of_part(std::span<const uint32_t> triangles, const Square& cell, glm::dvec2 low,
                                         glm::dvec2 high) const;
   // Whether holds(part, x, y) is true of the cell's four parts, each with its first finest square; false if it is not divided.
   template <class Holds>
   bool all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds);
   // Whether the cell is out of reach of the disc as `at` sees it, or good, or divided into such cells.
   bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
-  // Whether this triangle is the front of what the cell holds of the rectangle.
-  bool is_front_in(Cell& cell, uint32_t x, uint32_t y, uint32_t triangle, glm::dvec2 low, glm::dvec2 high);
+  // Whether visit(front) is true of the cell, or of all its parts that touch the rectangle.
+  template <class Visit>
+  bool each_front_in(Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low, glm::dvec2 high, const Visit& visit);
+  // Of a cell that is not divided.
+  bool visit_front(const Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low, glm::dvec2 high, const auto& visit) const {
+    const Square square = square_at(x, y, cell.divisions);
+    if (cell.kind == Kind::triangle || cell.kind == Kind::sheet)
+      return visit(Front{cell.front, cell.split_m, cell.nearest_m, cell.triangles, square});
+    if (cell.kind == Kind::nothing || !cell.ends_here()) return false;
+    if (!Square{square.middle, square.half - reach_m_}.touches(low, high))
+      return true;  // it holds nothing of the rectangle
+    const std::optional<uint32_t> front = front_of_part(cell.triangles, square, low, high);
+    return front && visit(Front{*front, 0, cell.nearest_m, {}, square});
+  }
+  // Whether all in the parts of the cell that touch the rectangle is deeper than this.
+  bool all_deeper(Cell& cell, uint32_t x, uint32_t y, double depth_m, glm::dvec2 low, glm::dvec2 high);
   void free_below(Cell& cell);
 
   int finest_;
@@ -232,6 +270,26 @@ class LightCells {
 struct LightCells::Four {
   Cell cell[4];
 };
+
+template <class Holds>
+bool LightCells::all_parts_hold(Cell& cell, uint32_t x, uint32_t y, const Holds& holds) {
+  Four* const four = cell.divisions > 0 ? parts_of(cell, x, y) : nullptr;
+  if (!four) return false;
+  const uint32_t half = 1u << (cell.divisions - 1);
+  for (uint32_t i = 0; i < 4; ++i)
+    if (!holds(four->cell[i], x + i % 2 * half, y + i / 2 * half)) return false;
+  return true;
+}
+
+template <class Visit>
+bool LightCells::each_front_in(Cell& cell, uint32_t x, uint32_t y, glm::dvec2 low, glm::dvec2 high,
+                               const Visit& visit) {
+  // Widened: squares beside the rectangle may be asked too.
+  if (!square_at(x, y, cell.divisions).touches(low, high)) return true;
+  if (cell.ends_here()) return visit_front(cell, x, y, low, high, visit);
+  return all_parts_hold(
+      cell, x, y, [&](Cell& part, uint32_t px, uint32_t py) { return each_front_in(part, px, py, low, high, visit); });
+}
 
 // Remembers the square of the last question, because neighbouring pixels mostly lie in one square.
 class LightCells::Reader {
@@ -260,6 +318,12 @@ class LightCells::Reader {
   // The triangle that covers a rectangle of the light's plane before everything else, by gap_m() or more; no value if no
   // triangle is known to.
   std::optional<uint32_t> front_in(glm::dvec2 low, glm::dvec2 high);
+  // Calls visit(front) for the squares that hold the rectangle. False if one of them is empty, or not good also in what it
+  // holds of the rectangle, or if visit returns false.
+  template <class Visit>
+  bool each_front_in(glm::dvec2 low, glm::dvec2 high, const Visit& visit);
+  // Whether all that lies in the rectangle, for sure, is deeper than this.
+  bool all_deeper(double depth_m, glm::dvec2 low, glm::dvec2 high);
   // Whether the triangle covers the rectangle, and reach_m around it.
   bool covers(uint32_t triangle, glm::dvec2 low, glm::dvec2 high) {
     if (inner_.triangle != triangle) inner_ = Inner(cells_, triangle);
@@ -313,5 +377,21 @@ class LightCells::Reader {
   uint32_t x_ = ~0u, y_ = ~0u;  // a finest square in it
   int shift_ = 0;               // its side is 2^shift finest squares
 };
+
+template <class Visit>
+bool LightCells::Reader::each_front_in(glm::dvec2 low, glm::dvec2 high, const Visit& visit) {
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  if (!cells_.fine_at(low, x0, y0) || !cells_.fine_at(high, x1, y1)) return false;
+  find(glm::dvec3(low, 0));
+  if (!(((x0 ^ x1) | (y0 ^ y1)) >> shift_))  // all in one square
+    return cells_.visit_front(*cell_, x0, y0, low, high, visit);
+  const int divisions = cells_.divisions_;
+  for (uint32_t y = y0 >> divisions; y <= y1 >> divisions; ++y)
+    for (uint32_t x = x0 >> divisions; x <= x1 >> divisions; ++x)
+      if (!cells_.each_front_in(*cells_.base_cell(x << divisions, y << divisions), x << divisions, y << divisions, low,
+                                high, visit))
+        return false;
+  return true;
+}
 
 }  // namespace noonmark

@@ -71,6 +71,18 @@ class AmongTaps {
     return rectangle(place(p), offset(first), offset(last), probe_.texel(pixel, first), probe_.texel(pixel, last));
   }
   glm::dvec2 place(glm::dvec3 p) const { return {glm::dot(p - origin_m_, right_), glm::dot(p - origin_m_, up_)}; }
+  // The ways from the receiver, in texels: none yet, one to a tap's exact place, and one to the centre of its texel.
+  void begin(glm::dvec3 p, Silhouettes::Ways& ways) const {
+    ways.from = place(p);
+    ways.unit_m = texel_m_;
+    const auto most = [](glm::dvec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+    ways.most_m = most(p) + most(origin_m_) + most(glm::dvec3(first_texel_, 0));
+    ways.clear();
+  }
+  static void push_exact(glm::dvec3 offset, Silhouettes::Ways& ways) { ways.push(glm::dvec2(offset)); }
+  void push_centre(glm::ivec2 texel, Silhouettes::Ways& ways) const {
+    ways.push((first_texel_ - ways.from) / texel_m_ + glm::dvec2(texel));
+  }
 
  private:
   Silhouettes::Rectangle rectangle(glm::dvec2 place, glm::dvec2 low, glm::dvec2 high, glm::ivec2 low_texel,
@@ -173,6 +185,9 @@ class TapTracing {
   }
 
  private:
+  // What is known of a tap before rays are asked for it: that it is lit, for sure, or that no silhouette is near, at its exact
+  // place and at the centre of its texel; or that it is answered.
+  enum Known : uint8_t { exact_lit = 1, texel_lit = 2, answered = 4, exact_away = 8, texel_away = 16 };
   // Up to packet_size receivers.
   struct Packet {
     std::span<const size_t> pixels;
@@ -181,7 +196,7 @@ class TapTracing {
     glm::dvec3 looked_up[packet_size];                 // P' there; P unless a part moves the lookup
     bool behind[packet_size];                          // P' has no place in the map: behind a spot light
     Silhouettes::Nearby* nearby;                       // of each receiver, if the silhouettes are listed
-    std::vector<uint8_t>* decided;                     // [tap] of each receiver: 1 if a block decided it
+    std::vector<uint8_t>* known;                       // [tap] of each receiver: which verdicts are known, of Known
     mutable std::optional<LightCells::Reader> reader;  // remembers where it looked last
     mutable TruthAnswers answers;                      // counted here, and added to the thread's once
     int active() const { return static_cast<int>(pixels.size()); }
@@ -195,8 +210,9 @@ class TapTracing {
     return parallel_ ? glm::dvec3(from.x + offset.x * texel_m_, from.y + offset.y * texel_m_, 1)
                      : l_.view.normal_place(frame().tap_place(from, offset));
   }
-  OwnSurface::Verdict lit_at(const Packet& packet, int k, glm::dvec3 x, uint32_t hit) const {
-    return listed_ ? surface_.lit_at(packet.points[k], x, hit, packet.nearby[k])
+  // away: no silhouette is near x, for sure.
+  OwnSurface::Verdict lit_at(const Packet& packet, int k, glm::dvec3 x, uint32_t hit, bool away) const {
+    return listed_ ? surface_.lit_at(packet.points[k], x, hit, packet.nearby[k], away)
                    : surface_.lit_at(packet.points[k], x, hit);
   }
 
@@ -211,15 +227,23 @@ class TapTracing {
   };
   // Answers blocks of a receiver's taps that are certain, and divides the others.
   void answer_blocks(const Packet& packet, int k, const Block& block, OwnSurface::Pair& pair);
+  // Finds the taps beside whose place, or whose texel's centre, no silhouette is, and of a lit receiver those to which none comes
+  // in the way: they are lit.
+  void answer_clear_ways(const Packet& packet, int k);
+  bool clipped(glm::ivec2 texel) const {
+    return may_clip() && l_.texels.may_be_clipped(texel, texel) && l_.texels.clipped(texel);
+  }
   std::optional<bool> known_in(const Packet& packet, int k, const Block& block, OwnSurface::Pair& pair) const;
   void trace_packet(std::span<const size_t> pixels);
   // ks: the receivers of the packet that are asked.
   void first_hits(const Packet& packet, std::span<const int> ks, const glm::dvec3* x, uint32_t* hits) const;
-  void verdicts_at(const Packet& packet, std::span<const int> ks, const glm::dvec3* from, const glm::dvec3* offsets,
-                   OwnSurface::Verdict* verdicts) const;
+  void verdicts_at(const Packet& packet, int tap, std::span<const int> ks, const glm::dvec3* from,
+                   const glm::dvec3* offsets, OwnSurface::Verdict* verdicts) const;
   void trace_tap(const Packet& packet, int tap);
-  // The verdict at the centre of the texel that the tap reads. moved_lit: D of the tap.
-  void add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset, bool moved_lit, uint8_t& bits);
+  // The verdict at the centre of the texel that the tap reads. moved_lit: D of the tap. Where the two differ, returns the search
+  // for the edge between them.
+  std::optional<OwnSurface::EdgeSearch> add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset,
+                                                  bool moved_lit, uint8_t& bits);
 
   LookupTracer::Impl& l_;
   const LookupProbe& probe_;
@@ -296,7 +320,8 @@ std::optional<bool> TapTracing::known_in(const Packet& packet, int k, const Bloc
   const glm::dvec2 place = among_taps_.place(position);
   if (p.lit && packet.nearby[k].none_in({0, glm::min(taps.low, place), glm::max(taps.high, place)})) return true;
   if (!packet.reader) return std::nullopt;
-  const std::optional<bool> known = surface_.known_in(p, taps.low, taps.high, *packet.reader, pair);
+  std::optional<bool> known = surface_.known_in(p, taps.low, taps.high, *packet.reader, pair);
+  if (!known) known = surface_.known_on_sheet(p, taps.low, taps.high, *packet.reader, pair);
   // The tap at P itself has the verdict R1, which the ray of float gave.
   if (known && *known != p.lit && block.holds(square_ / 2, square_ / 2)) return std::nullopt;
   return known;
@@ -310,11 +335,10 @@ void TapTracing::answer_blocks(const Packet& packet, int k, const Block& block, 
       for (int column = block.left; column <= block.right; ++column) {
         const int tap = row * square_ + column;
         const glm::ivec2 texel = probe_.texel(pixel, tap);
-        const bool clipped = may_clip() && l_.texels.may_be_clipped(texel, texel) && l_.texels.clipped(texel);
         bits_of(pixel)[tap] =
             static_cast<uint8_t>((*lit ? tap_exact_lit | (edge_distance_texels_ ? tap_texel_lit : 0) : 0) |
-                                 (clipped ? tap_near_clipped : 0));
-        packet.decided[k][static_cast<size_t>(tap)] = 1;
+                                 (clipped(texel) ? tap_near_clipped : 0));
+        packet.known[k][static_cast<size_t>(tap)] = answered;
         packet.answers.cells += glm::dvec3(probe_.pattern.offset(0, tap)) != glm::dvec3(0);
       }
     return;
@@ -327,13 +351,39 @@ void TapTracing::answer_blocks(const Packet& packet, int k, const Block& block, 
   answer_blocks(packet, k, {column + 1, row + 1, block.right, block.top}, pair);
 }
 
+// OwnSurface::lit_at() of such a place: nothing jumps on the way, and nothing is beside it.
+void TapTracing::answer_clear_ways(const Packet& packet, int k) {
+  const bool may_be_lit = packet.points[k].lit && !packet.points[k].on_silhouette;
+  thread_local Silhouettes::Ways ways;
+  const size_t pixel = packet.pixels[static_cast<size_t>(k)];
+  std::vector<uint8_t>& known = packet.known[k];
+  among_taps_.begin(l_.receivers.position[pixel], ways);
+  for (int tap = 0; tap < probe_.taps(); ++tap) {
+    if (known[static_cast<size_t>(tap)] == answered) continue;
+    AmongTaps::push_exact(probe_.pattern.offset(0, tap), ways);
+    if (edge_distance_texels_) among_taps_.push_centre(probe_.texel(pixel, tap), ways);
+  }
+  packet.nearby[k].answer(ways);
+  const int32_t *open = ways.open.data(), *beside = ways.beside.data();
+  for (int tap = 0; tap < probe_.taps(); ++tap) {
+    uint8_t& of_tap = known[static_cast<size_t>(tap)];
+    if (of_tap == answered) continue;
+    const auto take = [&](Known lit, Known away) {
+      if (!*beside++) of_tap |= away;
+      if (!*open++ && may_be_lit) of_tap |= lit;
+    };
+    take(exact_lit, exact_away);
+    if (edge_distance_texels_) take(texel_lit, texel_away);
+  }
+}
+
 void TapTracing::trace_packet(std::span<const size_t> pixels) {
   thread_local Silhouettes::Nearby nearby[packet_size];  // their memory is used again
-  thread_local std::vector<uint8_t> decided[packet_size];
+  thread_local std::vector<uint8_t> known[packet_size];
   Packet packet;
   packet.pixels = pixels;
   packet.nearby = nearby;
-  packet.decided = decided;
+  packet.known = known;
   if (cells_) packet.reader.emplace(*cells_);
   OwnSurface::Pair pair;
   for (int k = 0; k < packet.active(); ++k) {
@@ -345,8 +395,9 @@ void TapTracing::trace_packet(std::span<const size_t> pixels) {
     packet.looked_up[k] = frame().to_light(l_.bias.looked_up(frame(), p, normal));
     packet.behind[k] = !frame().light().has_place(packet.looked_up[k]);
     if (listed_) among_taps_.list(pixel, p, nearby[k]);
-    decided[k].assign(static_cast<size_t>(probe_.taps()), 0);
+    known[k].assign(static_cast<size_t>(probe_.taps()), 0);
     if (square_ > 0) answer_blocks(packet, k, {0, 0, square_ - 1, square_ - 1}, pair);
+    if (listed_) answer_clear_ways(packet, k);
   }
   for (int tap = 0; tap < probe_.taps(); ++tap) trace_tap(packet, tap);
   answers_.local() += packet.answers;
@@ -371,21 +422,26 @@ void TapTracing::first_hits(const Packet& packet, std::span<const int> ks, const
   for (int i = 0; i < rays; ++i) hits[unknown[i]] = found[i];
 }
 
-void TapTracing::verdicts_at(const Packet& packet, std::span<const int> ks, const glm::dvec3* from,
+void TapTracing::verdicts_at(const Packet& packet, int tap, std::span<const int> ks, const glm::dvec3* from,
                              const glm::dvec3* offsets, OwnSurface::Verdict* verdicts) const {
   glm::dvec3 x[packet_size]{};
   uint32_t hits[packet_size];
   for (const int k : ks) x[k] = tap_place(from[k], offsets[k]);
   first_hits(packet, ks, x, hits);
-  for (const int k : ks) verdicts[k] = lit_at(packet, k, x[k], hits[k]);
+  for (const int k : ks)
+    verdicts[k] = lit_at(packet, k, x[k], hits[k], (packet.known[k][static_cast<size_t>(tap)] & exact_away) != 0);
 }
 
 void TapTracing::trace_tap(const Packet& packet, int tap) {
-  int asked[packet_size];
-  size_t count = 0;
-  for (int k = 0; k < packet.active(); ++k)
-    if (!packet.decided[k][static_cast<size_t>(tap)]) asked[count++] = k;
-  const std::span<const int> ks(asked, count);
+  const auto known = [&](int k, Known what) { return (packet.known[k][static_cast<size_t>(tap)] & what) != 0; };
+  int of_packet[packet_size], of_rays[packet_size];
+  size_t count = 0, asked = 0;
+  for (int k = 0; k < packet.active(); ++k) {
+    if (known(k, answered)) continue;
+    of_packet[count++] = k;
+    if (!known(k, exact_lit)) of_rays[asked++] = k;
+  }
+  const std::span<const int> ks(of_packet, count);
   if (ks.empty()) return;
   glm::dvec3 offsets[packet_size];
   if (probe_.pattern.variants == 1 && !probe_.pattern.scaled_by_view)  // the same of every receiver
@@ -396,34 +452,51 @@ void TapTracing::trace_tap(const Packet& packet, int tap) {
   if (std::all_of(ks.begin(), ks.end(), [&](int k) { return offsets[k] == glm::dvec3(0); }))
     for (const int k : ks) exact[k] = {packet.points[k].lit, true};  // V(P, P) is R1
   else
-    verdicts_at(packet, ks, packet.at, offsets, exact);
+    verdicts_at(packet, tap, {of_rays, asked}, packet.at, offsets, exact);
+  for (const int k : ks)
+    if (known(k, exact_lit)) {
+      exact[k] = {true, true};
+      packet.answers.cells += offsets[k] != glm::dvec3(0);
+    }
   if (l_.bias.moves_lookup())
-    verdicts_at(packet, ks, packet.looked_up, offsets, moved);
+    verdicts_at(packet, tap, ks, packet.looked_up, offsets, moved);
   else
     std::copy_n(exact, packet.active(), moved);
+  OwnSurface::EdgeSearch edges[packet_size];
+  int searched[packet_size];
+  size_t searches = 0;
   for (const int k : ks) {
     if (packet.behind[k]) moved[k] = exact[k];
     const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit;
     uint8_t& bits = bits_of(packet.pixels[static_cast<size_t>(k)])[tap];
     bits = static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
                                 (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure));
-    if (edge_distance_texels_) add_texel(packet, k, tap, offsets[k], moved_lit, bits);
+    if (!edge_distance_texels_) continue;
+    if (const auto search = add_texel(packet, k, tap, offsets[k], moved_lit, bits)) {
+      searched[searches] = k;
+      edges[searches++] = *search;
+    }
   }
+  if (searches == 0) return;
+  surface_.find_edges({edges, searches});
+  for (size_t i = 0; i < searches; ++i)
+    (*edge_distance_texels_)[packet.pixels[static_cast<size_t>(searched[i])]] = edges[i].distance_texels;
 }
 
-void TapTracing::add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset, bool moved_lit, uint8_t& bits) {
+std::optional<OwnSurface::EdgeSearch> TapTracing::add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset,
+                                                            bool moved_lit, uint8_t& bits) {
   const size_t pixel = packet.pixels[static_cast<size_t>(k)];
   const glm::ivec2 texel = probe_.texel(pixel, tap);
   const glm::dvec3 centre = l_.view.texel_place(texel);
-  const OwnSurface::Verdict at_texel = lit_at(packet, k, centre, l_.texels.hit(texel));
-  const bool clipped = may_clip() && l_.texels.may_be_clipped(texel, texel) && l_.texels.clipped(texel);
-  bits = static_cast<uint8_t>(bits | (at_texel.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+  const uint8_t known = packet.known[k][static_cast<size_t>(tap)];
+  const OwnSurface::Verdict at_texel = known & texel_lit
+                                           ? OwnSurface::Verdict{true, true}
+                                           : lit_at(packet, k, centre, l_.texels.hit(texel), (known & texel_away) != 0);
+  bits = static_cast<uint8_t>(bits | (at_texel.lit ? tap_texel_lit : 0) | (clipped(texel) ? tap_near_clipped : 0) |
                               (at_texel.sure ? 0 : tap_texel_unsure));
-  if (moved_lit == at_texel.lit || packet.behind[k]) return;
+  if (moved_lit == at_texel.lit || packet.behind[k]) return std::nullopt;
   const glm::dvec3 from = tap_place(packet.looked_up[k], offset);
-  const double distance = surface_.edge_distance_texels(packet.points[k], from, centre, moved_lit);
-  float& farthest = (*edge_distance_texels_)[pixel];
-  farthest = std::max(farthest, static_cast<float>(distance));
+  return OwnSurface::EdgeSearch{&packet.points[k], from, centre, moved_lit, (*edge_distance_texels_)[pixel]};
 }
 
 TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels,

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <type_traits>
 
+#include "raytrace/packets.h"
 #include "raytrace/vertex_rounding.h"
 
 namespace noonmark {
@@ -107,14 +109,6 @@ uint32_t OwnSurface::across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x
   return next;
 }
 
-uint32_t OwnSurface::first_hit(glm::dvec3 x) const {
-  if (cells_)
-    if (const std::optional<uint32_t> hit = LightCells::Reader(*cells_).first_hit(x)) return *hit;
-  uint32_t hit = no_primitive;
-  view_.first_hits(embree_, 1, &x, &hit);
-  return hit;
-}
-
 bool OwnSurface::covers(uint32_t triangle, glm::dvec3 x) const {
   if (triangle == no_primitive) return false;
   double least = 0, most = 0;
@@ -211,20 +205,22 @@ double OwnSurface::tie_m() const {
 }
 
 SurfacePoint OwnSurface::point(glm::dvec3 light, uint32_t primitive, bool lit) const {
-  const glm::dvec3 at = view_.place_of(light);
-  return {at, primitive, lit, lit && silhouettes_.near(at, tie_m())};
+  SurfacePoint p{.at = view_.place_of(light), .primitive = primitive, .lit = lit};
+  const bool near = silhouettes_.near(p.at);
+  p.on_silhouette = lit && near && silhouettes_.near(p.at, tie_m());
+  // A tie is far less than the reach, except far from the scene.
+  p.beside = near || !(2 * tie_m() < beside_m());
+  p.on_surface = walk(p, p.at).triangle != no_primitive;
+  return p;
 }
 
 template <class Edges>
-OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
-                                       const Edges& silhouettes) const {
+OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes,
+                                       bool beside) const {
   // The first hit is determined exactly, in double, where the ray may have met another surface than the first: beside a
   // silhouette, and where two surfaces intersect. An intersection can change a verdict only if P's own sheet is one of
   // the two surfaces: the sheet of a dark receiver comes out from under the other, or the sheet of a lit one goes
   // under.
-  const bool beside = silhouettes.near(x);
-  std::vector<Silhouettes::Crossing> crossed;
-  if (p.lit) crossed = silhouettes.crossings(p.at, x);
   // The silhouette may be the border of a cut mask, which lies on the other side of x in the texture.
   const double mask_error_m = view_.scene().mask_error_m;
   const bool on_border = beside && mask_error_m > 0 && silhouettes.near(x, mask_error_m);
@@ -233,6 +229,7 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   // verdict is sure only if it is the same for every triangle that may be the first.
   bool sure = !p.on_silhouette && !on_border;
   SheetAt own(*this, p, x);
+  CrossedBy<Edges> crossed(silhouettes, p, x);
   const bool tie = beside && silhouettes.near(x, tie_m());
   const auto exact = [&] {
     const uint32_t first = exact_first(x);
@@ -247,12 +244,23 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
            });
   };
   const auto maybe_lit = [&](uint32_t first) { return may_be_lit(p, x, first, own); };
-  if (p.lit && crossed.empty()) {  // no jump: lit, whatever the first hit is
+  // The ways to places of nearby silhouettes mostly cross one, and mostly one that the light does not see. P's own sheet, or a
+  // deeper surface, is lit whatever is crossed.
+  const bool often_crossed = std::is_same_v<Edges, Silhouettes::Nearby>;
+  std::optional<uint32_t> first;
+  if (often_crossed && p.lit && !beside && maybe_lit(hit)) {
+    const bool sure_before = sure;
+    first = exact();
+    const std::optional<Verdict> known = whatever_is_crossed(p, x, *first, own);
+    if (known && known->sure && sure == sure_before) return {true, sure};
+    if ((*crossed).empty()) return {true, sure_before};
+  }
+  if (p.lit && (*crossed).empty()) {  // no jump: lit, whatever the first hit is
     if (beside) exact();
     return {true, sure && (!tie || same_for_every_first(maybe_lit))};
   }
-  const uint32_t first = beside || may_be_lit(p, x, hit, own) ? exact() : hit;
-  Verdict v = verdict(p, x, first, own, crossed);
+  if (!first) first = beside || maybe_lit(hit) ? exact() : hit;
+  Verdict v = verdict(p, x, *first, own, crossed);
   if (tie && sure && v.sure)
     sure = p.lit && v.lit
                ? same_for_every_first(maybe_lit)
@@ -261,43 +269,9 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   return v;
 }
 template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes>(const SurfacePoint&, glm::dvec3, uint32_t,
-                                                             const Silhouettes&) const;
+                                                             const Silhouettes&, bool) const;
 template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes::Nearby>(const SurfacePoint&, glm::dvec3, uint32_t,
-                                                                     const Silhouettes::Nearby&) const;
-
-// At each place the first hit is `front`, and P's sheet is its own triangle. If the two are one, V is lit whatever lies between
-// P and the place (verdict()). If not, and P is dark, lit_at() compares these two planes only, and they lie further apart than
-// gap_m. A silhouette nearby changes nothing: it belongs to a surface behind `front`.
-std::optional<bool> OwnSurface::known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
-                                         LightCells::Reader& reader, Pair& last) const {
-  if (!may_be_known_in(p, low, high, reader)) return std::nullopt;
-  const std::optional<uint32_t> front = reader.front_in(low, high);
-  return front ? known_below(*front, p, low, reader, last) : std::nullopt;
-}
-
-std::optional<bool> OwnSurface::known_under(uint32_t front, const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
-                                            LightCells::Reader& reader, Pair& last) const {
-  return may_be_known_in(p, low, high, reader) ? known_below(front, p, low, reader, last) : std::nullopt;
-}
-
-bool OwnSurface::may_be_known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
-                                 LightCells::Reader& reader) const {
-  if (view_.scene().mask_error_m > 0) return false;  // a verdict beside the border of a mask is not sure
-  return !p.on_silhouette && reader.covers(p.primitive, low, high);
-}
-
-std::optional<bool> OwnSurface::known_below(uint32_t front, const SurfacePoint& p, glm::dvec2 at,
-                                            const LightCells::Reader& reader, Pair& last) const {
-  if (front == p.primitive) return true;
-  if (p.lit) return std::nullopt;
-  if (last.own != p.primitive || last.front != front) {
-    // Of parallel rays it is the same at all places. Half of the gap leaves room for double's rounding.
-    const double error = depth_error(front, p.primitive, glm::dvec3(at, 1));
-    last = {p.primitive, front,
-            error < reader.cells().gap_m() / 2 && !may_be_one_plane(view_.scene(), front, p.primitive)};
-  }
-  return last.apart ? std::optional(false) : std::nullopt;
-}
+                                                                     const Silhouettes::Nearby&, bool) const;
 
 bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own) const {
   if (hit == no_primitive || hit == p.primitive) return true;
@@ -307,22 +281,34 @@ bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, S
   return view_.hit_depth(hit, x) >= sheet.depth_m - error;
 }
 
-OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& at_x,
-                                        const std::vector<Silhouettes::Crossing>& crossed) const {
-  if (hit == no_primitive || hit == p.primitive) return {true, true};
+std::optional<OwnSurface::Verdict> OwnSurface::whatever_is_crossed(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
+                                                                   SheetAt& at_x) const {
+  if (hit == no_primitive || hit == p.primitive) return Verdict{true, true};
   const Sheet& sheet = *at_x;
-  if (sheet.triangle == hit) return {true, true};
+  if (sheet.triangle == hit) return Verdict{true, true};
+  const bool ended = sheet.triangle == no_primitive;
+  const double behind = sheet.depth_m - view_.hit_depth(hit, x);
+  if (behind <= rounding_of_sheet(p, x, sheet, hit)) {
+    if (!ended) return Verdict{true, true};
+    return p.lit && p.beside ? std::nullopt : std::optional(Verdict{true, p.on_surface});
+  }
+  if (may_be_one_plane(view_.scene(), hit, ended ? p.primitive : sheet.triangle)) return Verdict{true, true};
+  return p.lit ? std::nullopt : std::optional(Verdict{false, !ended || p.on_surface});
+}
+
+template <class Crossed>
+OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& at_x,
+                                        Crossed& crossed_by) const {
+  if (const std::optional<Verdict> known = whatever_is_crossed(p, x, hit, at_x)) return *known;
+  const std::vector<Silhouettes::Crossing>& crossed = *crossed_by;
   // If the rounding of P has put it beside its surface or onto its edge, the way from P may cross an edge that the way
   // from the exact P does not cross, or the reverse. Then it may leave the sheet at another place.
   const bool on_edge = !crossed.empty() && crossed.front().t * length_m(p, x) <= tie_m();
-  const auto on_surface = [&] { return !on_edge && walk(p, p.at).triangle != no_primitive; };
-  const double behind = sheet.depth_m - view_.hit_depth(hit, x);
-  if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, sheet.triangle != no_primitive || on_surface()};
-  const uint32_t own = sheet.triangle == no_primitive ? p.primitive : sheet.triangle;
-  if (may_be_one_plane(view_.scene(), hit, own)) return {true, true};
-  if (!p.lit) return {false, sheet.triangle != no_primitive || on_surface()};
+  const bool on_surface = !on_edge && p.on_surface;
+  const Sheet& sheet = *at_x;
+  if (sheet.depth_m - view_.hit_depth(hit, x) <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface};
   Verdict v = continuous(p, x, hit, crossed);
-  v.sure = v.sure && (on_surface() || (v.lit && (on_edge || goes_on_at(p))));
+  v.sure = v.sure && (on_surface || (v.lit && (on_edge || goes_on_at(p))));
   return v;
 }
 
@@ -336,18 +322,51 @@ double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const 
   return rounding_share * depth_error(hit, p.primitive, x) * (1 + (std::isfinite(growth) ? growth : 0));
 }
 
-double OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const {
-  double same = 0, other = 1;
-  for (int halving = 0; halving < 8; ++halving) {
-    const double middle = (same + other) / 2;
-    const glm::dvec3 x = view_.normal_place(from + middle * (to - from));
-    const std::vector<Silhouettes::Crossing> crossed =
-        p.lit ? silhouettes_.crossings(p.at, x) : std::vector<Silhouettes::Crossing>();
-    SheetAt own(*this, p, x);
-    (verdict(p, x, first_hit(x), own, crossed).lit == lit_from ? same : other) = middle;
+void OwnSurface::find_edges(std::span<EdgeSearch> searches) const {
+  struct Way {
+    double length = 0, texel_m = 0;
+    double same = 0, other = 1;
+    float distance() const { return static_cast<float>(other * length / texel_m); }
+  } ways[packet_size];
+  for (size_t i = 0; i < searches.size(); ++i) {
+    const EdgeSearch& s = searches[i];
+    // A normal place is a point of the light's frame at depth 1, or of its plane.
+    ways[i] = {.length = glm::length(s.to - s.from), .texel_m = view_.frame().texel_m(s.from)};
   }
-  // A normal place is a point of the light's frame at depth 1, or of its plane.
-  return other * glm::length(to - from) / view_.frame().texel_m(from);
+  std::optional<LightCells::Reader> reader;
+  if (cells_) reader.emplace(*cells_);
+  for (int halving = 0; halving < 8; ++halving) {
+    size_t asked[packet_size], count = 0, of_rays[packet_size];
+    glm::dvec3 x[packet_size], places[packet_size];
+    uint32_t hits[packet_size], found[packet_size];
+    int rays = 0;
+    for (size_t i = 0; i < searches.size(); ++i) {
+      // `other` only becomes less, and the roundings keep the order: what is not greater now is not greater at the end.
+      if (!(ways[i].distance() > searches[i].distance_texels)) continue;
+      const EdgeSearch& s = searches[i];
+      x[i] = view_.normal_place(s.from + (ways[i].same + ways[i].other) / 2 * (s.to - s.from));
+      asked[count++] = i;
+      if (const auto hit = reader ? reader->first_hit(x[i]) : std::nullopt) {
+        hits[i] = *hit;
+      } else {
+        places[rays] = x[i];
+        of_rays[rays++] = i;
+      }
+    }
+    if (rays > 0) view_.first_hits(embree_, rays, places, found);
+    for (int ray = 0; ray < rays; ++ray) hits[of_rays[ray]] = found[ray];
+    for (size_t n = 0; n < count; ++n) {
+      const size_t i = asked[n];
+      const EdgeSearch& s = searches[i];
+      SheetAt own(*this, *s.p, x[i]);
+      CrossedBy<Silhouettes> crossed(silhouettes_, *s.p, x[i]);
+      Way& way = ways[i];
+      const double middle = (way.same + way.other) / 2;
+      (verdict(*s.p, x[i], hits[i], own, crossed).lit == s.lit_from ? way.same : way.other) = middle;
+    }
+  }
+  for (size_t i = 0; i < searches.size(); ++i)
+    searches[i].distance_texels = std::max(searches[i].distance_texels, ways[i].distance());
 }
 
 double OwnSurface::length_m(const SurfacePoint& p, glm::dvec3 x) const {

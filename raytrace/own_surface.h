@@ -12,9 +12,12 @@
 // - A step that the rounding of vertices can have made is not a jump. A hit that may lie in one plane with P's sheet
 //   belongs to the sheet (raytrace/vertex_rounding.h).
 #pragma once
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
+#include <span>
 
 #include "raytrace/adjacency.h"
 #include "raytrace/embree_scene.h"
@@ -29,6 +32,8 @@ struct SurfacePoint {
   uint32_t primitive = 0;      // the triangle it lies on
   bool lit = false;            // R1
   bool on_silhouette = false;  // lit, and on a silhouette within double's rounding, such as its own surface's border
+  bool beside = true;          // a silhouette is so near that P may lie on it; false only if none is
+  bool on_surface = false;     // the rounding of P has not put it beside its surface
 };
 
 class OwnSurface {
@@ -48,29 +53,57 @@ class OwnSurface {
   };
 
   // V(P, x). hit: the triangle of the first hit on the light ray through x, or no_primitive.
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const { return lit_at(p, x, hit, silhouettes_); }
-  // The same, if these silhouettes were listed around P and x.
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Silhouettes::Nearby& nearby) const {
-    return lit_at<Silhouettes::Nearby>(p, x, hit, nearby);
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
+    return lit_at<Silhouettes>(p, x, hit, silhouettes_, silhouettes_.near(x));
+  }
+  // The same, if these silhouettes were listed around P and x. away: none is near x, for sure.
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Silhouettes::Nearby& nearby,
+                 bool away = false) const {
+    return lit_at<Silhouettes::Nearby>(p, x, hit, nearby, !away && nearby.near(x));
   }
 
-  // Remembers the last pair of triangles that known_in() compared.
-  struct Pair {
-    uint32_t own = no_primitive, front = no_primitive;
-    bool apart = false;
+  // Remembers which triangles known_in() compared: P's with one, or with those of a sheet.
+  class Pair {
+   public:
+    struct Of {
+      uint32_t own = no_primitive, front = no_primitive;
+      const uint32_t* sheet = nullptr;  // the first one in its list
+      bool operator==(const Of&) const = default;
+    };
+    bool apart(const Of& pair, const auto& compare) {
+      const uintptr_t sheet = reinterpret_cast<uintptr_t>(pair.sheet) / sizeof(uint32_t);
+      Entry& entry = entries_[(pair.own * 7 + pair.front + sheet + sheet / entries_.size()) % entries_.size()];
+      if (!(entry.pair == pair)) entry = {pair, compare()};
+      return entry.apart;
+    }
+
+   private:
+    struct Entry {
+      Of pair;
+      bool apart = false;
+    };
+    std::array<Entry, 64> entries_;  // those of different places replace one another
   };
-  // V(P, x) if it is the same at every place x of a rectangle of the light's plane, for sure, because one certified triangle is
+  // V(P, x) if it is the same at every place x of a rectangle of the light's plane, for sure, because certified surfaces are
   // before everything else there; no value if that is not known. reader: reads this surface's cells, which know the first hit of
   // a ray without tracing it.
   std::optional<bool> known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
                                Pair& last) const;
-  // The same, if this triangle is known to be before everything else in the rectangle (LightCells::Reader::front_in).
-  std::optional<bool> known_under(uint32_t front, const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high,
-                                  LightCells::Reader& reader, Pair& last) const;
+  // The same where the walk from P to each place of the rectangle leaves P's triangle: if it arrives in one triangle, or ends on
+  // one edge. p: in the frame of the cells.
+  std::optional<bool> known_on_sheet(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader,
+                                     Pair& last) const;
 
-  // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
-  // to 2^-8 of the way.
-  double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const;
+  // V differs at `from` and `to`, so it changes between them.
+  struct EdgeSearch {
+    const SurfacePoint* p = nullptr;
+    glm::dvec3 from{0}, to{0};
+    bool lit_from = false;
+    float distance_texels = 0;
+  };
+  // Raises distance_texels of each to the distance from `from` to the change, in texels, found to 2^-8 of the way. Of a distance
+  // that is less only this is found out. At most packet_size searches, because they share the packets of rays.
+  void find_edges(std::span<EdgeSearch> searches) const;
 
   // Whether the light ray through x passes through the triangle, in double.
   bool covers(uint32_t triangle, glm::dvec3 x) const;
@@ -92,13 +125,9 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams = true) const;
 
  private:
-  // The two halves of known_under(): what the receiver's own triangle decides, and what the triangle before it does.
-  bool may_be_known_in(const SurfacePoint& p, glm::dvec2 low, glm::dvec2 high, LightCells::Reader& reader) const;
-  std::optional<bool> known_below(uint32_t front, const SurfacePoint& p, glm::dvec2 at,
-                                  const LightCells::Reader& reader, Pair& last) const;
-  template <class Edges>  // Silhouettes, or those nearby
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes) const;
-  uint32_t first_hit(glm::dvec3 x) const;
+  // Edges: Silhouettes, or those nearby. beside: one of them is near x.
+  template <class Edges>
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes, bool beside) const;
 
   // S at x, walked to when it is first asked for: several steps of a verdict need it.
   class SheetAt {
@@ -116,9 +145,30 @@ class OwnSurface {
     std::optional<Sheet> sheet_;
   };
 
-  // The verdict for this first hit. own: of P at x. crossed: the silhouettes between P and x.
-  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own,
-                  const std::vector<Silhouettes::Crossing>& crossed) const;
+  // The silhouettes between P and x, where a jump of the first hit matters: not of a dark P. Searched for when they are first
+  // asked for.
+  template <class Edges>
+  class CrossedBy {
+   public:
+    CrossedBy(const Edges& silhouettes, const SurfacePoint& p, glm::dvec3 x)
+        : silhouettes_(silhouettes), p_(p), x_(x) {}
+    const std::vector<Silhouettes::Crossing>& operator*() {
+      if (!crossed_) crossed_ = p_.lit ? silhouettes_.crossings(p_.at, x_) : std::vector<Silhouettes::Crossing>();
+      return *crossed_;
+    }
+
+   private:
+    const Edges& silhouettes_;
+    const SurfacePoint& p_;
+    glm::dvec3 x_;
+    std::optional<std::vector<Silhouettes::Crossing>> crossed_;
+  };
+
+  // The verdict for this first hit, if it needs no silhouette that is crossed.
+  std::optional<Verdict> whatever_is_crossed(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own) const;
+  // The verdict for this first hit. own: of P at x. crossed: a CrossedBy of P and x.
+  template <class Crossed>
+  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own, Crossed& crossed) const;
   // The ray that was cast may lie on the other side of a silhouette than the exact ray only if the silhouette is nearer
   // to x than this.
   double beside_m() const { return Silhouettes::reach_of(view_); }
@@ -130,6 +180,25 @@ class OwnSurface {
   void list_covering(glm::dvec3 x, std::vector<uint32_t>& covering) const;
   // On a silhouette (within tie_m()): every triangle, or no_primitive, that may be the first hit, by rounding.
   void firsts_of_tie(glm::dvec3 x, std::vector<uint32_t>& firsts) const;
+  // Where the walks to all places of a rectangle of the light's plane arrive.
+  struct SheetIn {
+    uint32_t triangle = no_primitive;  // or no_primitive, when they all end early, on one edge
+    double end_m = 0;                  // where they end no point has less depth
+  };
+  // No value if they go different ways, or rounding may decide which. x: the rectangle's corners. Of parallel rays. What is asked
+  // of a place changes linearly over the rectangle, so it holds in the rectangle if it holds at its corners.
+  std::optional<SheetIn> walk_in(const SurfacePoint& p, const std::array<glm::dvec3, 4>& x) const;
+  static std::array<glm::dvec3, 4> corners_of(glm::dvec2 low, glm::dvec2 high) {
+    return {{{low.x, low.y, 1}, {high.x, low.y, 1}, {low.x, high.y, 1}, {high.x, high.y, 1}}};
+  }
+  // The depths of a triangle's plane in a rectangle.
+  struct DepthsIn {
+    double nearest_m = std::numeric_limits<double>::infinity(), deepest_m = -nearest_m;
+  };
+  DepthsIn depths_in(uint32_t triangle, const std::array<glm::dvec3, 4>& corners) const;
+  // V in a rectangle where P's sheet is the triangle `own`, which covers it; no value if it is not known.
+  std::optional<bool> as_seen(const SurfacePoint& p, uint32_t own, glm::dvec2 low, glm::dvec2 high,
+                              LightCells::Reader& reader, Pair& last) const;
   uint32_t next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const;
   // end: of the sheet, in the light's frame.
   uint32_t across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const;

@@ -104,11 +104,11 @@ struct PlacementTracer::Impl {
   }
 
   // V of a receiver at all points that these taps read, if it is the same for sure.
-  std::optional<bool> known_under(uint32_t front, const SurfacePoint& p, const PlacedTaps& taps) const {
-    if (front == no_primitive) return std::nullopt;
+  std::optional<bool> known_in(const SurfacePoint& p, const PlacedTaps& taps) const {
+    if (!in_cells) return std::nullopt;
     const Rectangle box = rectangle(taps);
     Asking& of_thread = asking.local();
-    return in_cells->known_under(front, p, box.low, box.high, of_thread.reader, of_thread.pair);
+    return in_cells->known_in(p, box.low, box.high, of_thread.reader, of_thread.pair);
   }
 
   // As TexelLattice::read_depths() gives them.
@@ -210,7 +210,7 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
   // Without a silhouette in the box, a lit receiver's surface is lit all over it (the rule of OwnSurface).
   const bool none_near = p.lit && !l.by_rays && nearby.none();
   const uint32_t front = l.fronts[pixel - l.first_pixel];
-  const std::optional<bool> known = none_near ? true : l.known_under(front, p, taps);
+  const std::optional<bool> known = none_near ? true : l.known_in(p, taps);
 
   const OwnSurface::Verdict everywhere{known.value_or(false), !p.on_silhouette};
   const auto bits_of = [](OwnSurface::Verdict v, bool clipped) {

@@ -216,6 +216,66 @@ bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {
                      [&](uint32_t index) { return all_->is_near(all_->edges_[index], x, within_m); });
 }
 
+// In float, against bounds that are wider than all roundings, in units of the ways:
+// - Each number below is a sum of at most three products, none of which is greater than 2 R, where R is the largest
+//   coordinate of a way: it is off by less than 2^-20 R.
+// - `from`, the ends and the edges are off by double's rounding of their coordinates: by less than 2^-40 of the largest, which
+//   leaves 2^12 roundings.
+// So beyond `margin` the signs are those of the exact numbers, and also of the numbers of double that cross() and is_near()
+// compute: those are off by a few roundings of double.
+// An edge is left behind in one of two ways. If both of its ends lie on one side of the way's line, the line does not meet it.
+// If both ends of the way lie on one side of the edge's line, further from it than the margin, the lines meet beyond the
+// way, and further beyond than double's rounding.
+void Silhouettes::Nearby::answer(Ways& ways) const {
+  const size_t count = ways.x.size();
+  ways.open.assign(count, 0);
+  ways.beside.assign(count, 0);
+  float largest = 0;
+  for (size_t i = 0; i < count; ++i) largest = std::max({largest, std::abs(ways.x[i]), std::abs(ways.y[i])});
+  const double per_m = 1 / ways.unit_m, r = static_cast<double>(largest);
+  const double margin = 0x1p-19 * r + 0x1p-40 * (std::max(farthest_m_, ways.most_m) * per_m + r);
+  const double beside = margin + all_->reach_m_ * per_m * (1 + 1e-9);
+  const auto m = static_cast<float>(margin * (1 + 0x1p-20)), far = static_cast<float>(beside * (1 + 0x1p-20));
+  for (const Ends& edge : ends_) {
+    const glm::dvec2 a = (edge.a - ways.from) * per_m, b = (edge.b - ways.from) * per_m, way = b - a;
+    const double length = glm::length(way);
+    if (!(length > 0)) {  // it is a point: the light sees it from its end
+      ways.open.assign(count, 1);
+      ways.beside.assign(count, 1);
+      return;
+    }
+    // The edge's line: n . x = d, and `from` lies on the side of n . x < d, or on it. Along the line the edge goes from
+    // `begin` to `end`, as far as a way can come.
+    const glm::dvec2 along = way / length;
+    glm::dvec2 n(-along.y, along.x);
+    double d = glm::dot(n, a);
+    if (d < 0) n = -n, d = -d;
+    if (d > 2 * r + beside) continue;  // |n . x| <= sqrt(2) r
+    const auto clamped = [&](double at) { return static_cast<float>(std::clamp(at, -4 * r - beside, 4 * r + beside)); };
+    const float begin = clamped(glm::dot(along, a)) - far, end = clamped(glm::dot(along, b)) + far;
+    const auto direction = [](glm::dvec2 v) {
+      const double size = glm::length(v);
+      return size > 0 ? glm::vec2(v / size) : glm::vec2(0);
+    };
+    const glm::vec2 to_a = direction(a), to_b = direction(b), normal(n), u(along);
+    const auto distance = static_cast<float>(d);
+    const int32_t on_one_side = d > 2 * margin;
+    const float* const xs = ways.x.data();
+    const float* const ys = ways.y.data();
+    int32_t* const open = ways.open.data();
+    int32_t* const beside_edge = ways.beside.data();
+    for (size_t i = 0; i < count; ++i) {
+      const float x = xs[i], y = ys[i];
+      const float beyond = normal.x * x + normal.y * y - distance, at = u.x * x + u.y * y;
+      const float of_a = to_a.x * y - to_a.y * x, of_b = to_b.x * y - to_b.y * x;
+      const int32_t before = beyond < -far, away = before | (beyond > far) | (at < begin) | (at > end);
+      const int32_t left = (of_a > m) & (of_b > m), right = (of_a < -m) & (of_b < -m);
+      open[i] |= !(away & ((before & on_one_side) | left | right));
+      beside_edge[i] |= !away;
+    }
+  }
+}
+
 std::vector<Silhouettes::Crossing> Silhouettes::Nearby::crossings(glm::dvec3 from, glm::dvec3 to) const {
   if (!listed_) return all_->crossings(from, to);
   std::vector<Crossing> at;

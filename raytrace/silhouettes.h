@@ -74,6 +74,22 @@ class Silhouettes {
     glm::dvec2 low{0}, high{0};
   };
 
+  // Straight ways of the light's plane from one place, as flat arrays, so that many of them are asked at once.
+  struct Ways {
+    glm::dvec2 from{0};
+    double unit_m = 1;        // of x and y
+    double most_m = 0;        // the largest coordinate from which `from` and the ends were computed
+    std::vector<float> x, y;  // from `from` to the end of each way
+    // The answers of Nearby::answer().
+    std::vector<int32_t> open;    // 0 only if the way is clear
+    std::vector<int32_t> beside;  // 0 only if near(end) is false
+    void clear() { x.clear(), y.clear(); }
+    void push(glm::dvec2 way) {
+      x.push_back(static_cast<float>(way.x));
+      y.push_back(static_cast<float>(way.y));
+    }
+  };
+
   // The silhouettes among a set of places that lie close together, listed once for many questions. The answers are the
   // same as those of all silhouettes, for places within the rectangle around the set and within_m up to reach_m.
   class Nearby {
@@ -85,6 +101,9 @@ class Silhouettes {
     // True only if none of them comes within reach_m of a place of the rectangle, so that none crosses a way inside it. Of
     // parallel rays.
     bool none_in(const Rectangle& rectangle) const;
+    // Which ways are clear: crossings(from, end) is empty and near(end) is false; and of which only the second is known. Of parallel rays; the ways must lie inside
+    // the rectangle around which the silhouettes were listed.
+    void answer(Ways& ways) const;
 
    private:
     friend class Silhouettes;
@@ -107,6 +126,23 @@ class Silhouettes {
   bool none_between(std::span<const glm::dvec3> corners) const {
     const std::optional<Rectangle> around = rectangle(corners);
     return around && none_in(*around);
+  }
+  // Whether of(triangle) is true of a triangle that has a silhouette which comes, or may come, within reach_m of a place of the
+  // rectangle.
+  bool any_near(const Rectangle& rectangle, const auto& of) const {
+    const Grid& grid = grids_[static_cast<size_t>(rectangle.chart)];
+    if (none_in(rectangle)) return false;
+    const size_t begin = grid.cell_of(rectangle.low), end = grid.cell_of(rectangle.high);
+    const size_t row = static_cast<size_t>(grid.size), columns = (end - begin) % row;
+    for (size_t cell = begin; cell <= end; cell += row)
+      for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + columns + 1]; ++i) {
+        const Edge& edge = edges_[grid.listed[i]];
+        const auto segment = view_.rays().in_chart(rectangle.chart, edge.a, edge.b, reach_m_);
+        if (segment && !beside(rectangle.low, rectangle.high, segment->a, segment->b, segment->reach) &&
+            of(edge.triangle))
+          return true;
+      }
+    return false;
   }
   // nearby: its memory is used again.
   void list_in(const Rectangle& rectangle, Nearby& nearby) const;

@@ -72,6 +72,58 @@ TEST_P(Nearby, AnswersLikeAllSilhouettes) {
     EXPECT_GT(none, 20u);
   }
 }
+// Many ways from one place at once: what is said of them for sure is what they are asked one by one.
+TEST_P(Nearby, AnswersManyWaysAtOnce) {
+  if (GetParam() != LightKind::directional) GTEST_SKIP() << "of parallel rays only";
+  std::mt19937 random(20261127);
+  const Scene scene = scraps(random);
+  const Adjacency adjacency(scene);
+  const LightView view(scene, make_light_frame(scene, {}));
+  const double reach = 1e-3, unit = 0.01;
+  const Silhouettes all(adjacency, view, reach);
+  Silhouettes::Nearby listed;
+  Silhouettes::Ways ways;
+  std::uniform_real_distribution<double> part(-1, 1);
+  constexpr int on_an_edge = 50;
+  uint64_t clear = 0, open = 0, away = 0, beside = 0, asked = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    // Around a corner of a triangle, so that the ways cross edges, pass beside their ends, and end beside them. The first
+    // trials begin on an edge itself.
+    const auto t = static_cast<uint32_t>(random() % scene.triangles.size());
+    const glm::dvec3 corner = view.corner(t, 0), along = view.corner(t, 1) - corner;
+    glm::dvec2 from = glm::dvec2(corner) + glm::dvec2(along) * std::abs(part(random));
+    if (trial >= on_an_edge) from += 4 * unit * glm::dvec2(part(random), part(random));
+    ways.clear();
+    ways.from = from, ways.unit_m = unit, ways.most_m = glm::length(from);
+    std::vector<glm::dvec3> ends;
+    const auto add = [&](glm::dvec2 end) {
+      ways.push((end - from) / unit);
+      ends.emplace_back(end, 1);
+    };
+    for (int y = -4; y <= 4; ++y)
+      for (int x = -4; x <= 4; ++x) add(from + unit * glm::dvec2(x, y));
+    for (int i = 0; i < 20; ++i) add(glm::dvec2(corner) + 2 * reach * glm::dvec2(part(random), part(random)));
+    glm::dvec2 low = from, high = from;
+    for (const glm::dvec3 end : ends) low = glm::min(low, glm::dvec2(end)), high = glm::max(high, glm::dvec2(end));
+    all.list_in({0, low, high}, listed);
+    listed.answer(ways);
+    for (size_t i = 0; i < ends.size(); ++i) {
+      const bool near = all.near(ends[i]), crosses = !all.crossings(glm::dvec3(from, 1), ends[i]).empty();
+      ASSERT_TRUE(ways.open[i] || (!near && !crosses)) << trial << ", way " << i;
+      ASSERT_TRUE(ways.beside[i] || !near) << trial << ", way " << i;
+      if (trial < on_an_edge) continue;  // nothing is known of a way that begins on an edge
+      ++asked;
+      clear += !near && !crosses, open += ways.open[i] != 0;
+      away += !near, beside += ways.beside[i] != 0;
+    }
+  }
+  // Of the ways that are clear nearly all are known to be, and so are the ends that have no edge beside them.
+  EXPECT_GT(clear, asked / 4);
+  EXPECT_LT(open - (asked - clear), clear / 50);
+  EXPECT_GT(asked - away, asked / 50);
+  EXPECT_LT(beside - (asked - away), away / 50);
+}
+
 INSTANTIATE_TEST_SUITE_P(Lights, Nearby, testing::Values(LightKind::directional, LightKind::spot, LightKind::point));
 
 }  // namespace
