@@ -3,10 +3,11 @@
 // (/sys/kernel/mm/transparent_hugepage/enabled = madvise), and libraries do not ask. Mesa's llvmpipe takes its textures, and
 // Embree its trees, from posix_memalign; the program takes its images from operator new.
 //
-//   - Large memory (least_large) begins a huge page, and is given back to the kernel when it is freed.
+//   - Large memory (least_large) begins a huge page. It lies in pages of its own, which the kernel gets back when it is freed,
+//     unless it fits into what is free in the heap: freed large memory between small pieces would stay with the program.
 //   - All else lies in the heap. It grows by many pages at once, and the huge pages are asked for when operator new sees that it
-//     has grown. It keeps some memory that is free at its end, for the next point. Large memory never lies in it: freed memory
-//     between small pieces would stay with the program. The heaps of threads other than the first are left as they are.
+//     has grown. It keeps some memory that is free at its end, for the next point. The heaps of threads other than the first
+//     are left as they are.
 //
 // This file is part of the executable alone: its functions stand before those of the libraries, and take all memory from the
 // C library, whose free() ends it. Where the kernel has no huge pages they change nothing but the alignment.
