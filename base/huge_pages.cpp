@@ -1,14 +1,24 @@
-// Large memory in huge pages. Mesa's llvmpipe takes its textures, and Embree its trees, from posix_memalign, and the program its
-// images from operator new. They are written at once: page by page the kernel needs more time to give them than the
-// program to write them. On Linux huge pages are often given only to those who ask
-// (/sys/kernel/mm/transparent_hugepage/enabled = madvise), and libraries do not ask.
+// Memory in huge pages: large memory, and the C library's heap. Page by page the kernel needs more time to give memory than the
+// program to write it. On Linux huge pages are often given only to those who ask
+// (/sys/kernel/mm/transparent_hugepage/enabled = madvise), and libraries do not ask. Mesa's llvmpipe takes its textures, and
+// Embree its trees, from posix_memalign; the program takes its images from operator new.
+//
+//   - Large memory (least_large) begins a huge page. It lies in pages of its own, which the kernel gets back when it is freed,
+//     unless it fits into what is free in the heap: freed large memory between small pieces would stay with the program.
+//   - All else lies in the heap. It grows by many pages at once, and the huge pages are asked for when operator new sees that it
+//     has grown. It keeps some memory that is free at its end, for the next point. The heaps of threads other than the first
+//     are left as they are.
 //
 // This file is part of the executable alone: its functions stand before those of the libraries, and take all memory from the
 // C library, whose free() ends it. Where the kernel has no huge pages they change nothing but the alignment.
+#include <malloc.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -28,11 +38,17 @@
 namespace {
 
 constexpr size_t huge_page = size_t{2} << 20;  // of x86-64, and of ARM with pages of 4 KiB
-constexpr size_t least_bytes = 2 * huge_page;  // smaller memory would lose much of itself to the alignment
+// Memory ends with a whole huge page if at most 1 / most_lost of it is lost; if not, its last bytes lie in small pages.
+constexpr size_t most_lost = 4;
+constexpr size_t least_large =
+    huge_page * most_lost / (most_lost + 1) + 1;  // so much may end with a huge page of its own
 
 // Null if there is no memory. Leaves errno as it was.
 void* large_memory(size_t alignment, size_t bytes) {
   const int before = errno;
+  if (const size_t lost = (huge_page - bytes % huge_page) % huge_page;
+      lost <= bytes / most_lost && bytes <= PTRDIFF_MAX)
+    bytes += lost;
   void* const made = std::aligned_alloc(std::max(alignment, huge_page), bytes);
   // Whole huge pages only: what follows them in the last one may belong to others. A refusal changes nothing.
   if (made) madvise(made, bytes / huge_page * huge_page, MADV_HUGEPAGE);
@@ -40,12 +56,41 @@ void* large_memory(size_t alignment, size_t bytes) {
   return made;
 }
 
+#ifdef __GLIBC__
+// The heap grows by heap_step, and keeps up to heap_kept that is free at its end. Measured with 200 points of 64 x 64 pixels:
+// with steps of 4 MiB half as many page faults again, because each step begins with a small page.
+constexpr int heap_step = 16 << 20, heap_kept = 2 * heap_step;
+
+std::atomic<char*> advised_end{nullptr};
+
+[[gnu::constructor]] void lay_out_heap() {
+  advised_end = static_cast<char*>(sbrk(0));
+  mallopt(M_MMAP_THRESHOLD, static_cast<int>(least_large));
+  mallopt(M_TOP_PAD, heap_step);
+  mallopt(M_TRIM_THRESHOLD, heap_kept);
+}
+
+// Asks for huge pages where the heap has grown. Two threads that see it at once ask twice.
+void advise_heap() {
+  char* const end = static_cast<char*>(sbrk(0));
+  char* const before = advised_end.load(std::memory_order_relaxed);
+  if (end == before) return;
+  advised_end.store(end, std::memory_order_relaxed);
+  if (end < before) return;  // it has shrunk
+  const int error = errno;
+  madvise(before, static_cast<size_t>(end - before), MADV_HUGEPAGE);
+  errno = error;
+}
+#else
+void advise_heap() {}
+#endif
+
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) int posix_memalign(void** memory, size_t alignment, size_t bytes) {
   if (alignment % sizeof(void*) != 0 || alignment == 0 || (alignment & (alignment - 1)) != 0) return EINVAL;
   const int before = errno;
-  void* const made = bytes >= least_bytes ? large_memory(alignment, bytes) : std::aligned_alloc(alignment, bytes);
+  void* const made = bytes >= least_large ? large_memory(alignment, bytes) : std::aligned_alloc(alignment, bytes);
   errno = before;
   if (!made) return ENOMEM;
   *memory = made;
@@ -53,8 +98,9 @@ extern "C" __attribute__((visibility("default"))) int posix_memalign(void** memo
 }
 
 void* operator new(size_t bytes) {
+  advise_heap();
   for (;;) {
-    if (void* const made = bytes >= least_bytes ? large_memory(1, bytes) : std::malloc(std::max<size_t>(bytes, 1)))
+    if (void* const made = bytes >= least_large ? large_memory(1, bytes) : std::malloc(std::max<size_t>(bytes, 1)))
       return made;
     const std::new_handler handler = std::get_new_handler();
     if (!handler) throw std::bad_alloc();

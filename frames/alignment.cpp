@@ -92,10 +92,9 @@ const Flip* ValueAlignment::flip() const {
   return best;
 }
 
-OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage& receivers,
-                                   const ReceiverTruth& truth) {
+OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
+                                   const Image<float>& pixel_m) {
   const int width = frame.visibility.width, height = frame.visibility.height;
-  const Image<float> pixel_m = pixel_width_m(frame.view, receivers);
   const auto apart = [&](size_t a, size_t b) {
     const glm::dvec3 way = glm::dvec3(receivers.position[b]) - glm::dvec3(receivers.position[a]);
     const double least = OutlineAlignment::apart_px * std::max(pixel_m[a], pixel_m[b]);

@@ -73,7 +73,9 @@ struct OutlineAlignment {
   // x to the right, y down, of a pixel or a few; 0 along an axis that is not told.
   glm::ivec2 shift() const;
 };
-OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth);
+// pixel_m: pixel_width_m() of the receivers.
+OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
+                                   const Image<float>& pixel_m);
 
 // The width of a pixel at each receiver, across the view, in metres; 0 without a receiver.
 Image<float> pixel_width_m(const ViewMatrix& view, const ReceiverImage& receivers);

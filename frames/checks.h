@@ -42,6 +42,7 @@ struct CheckEvidence {
   const Image<float>& moved_m;  // of given receivers: how far they were from the scene
   const ReceiverTruth& truth;
   const Image<uint8_t>& counted;
+  const Image<float>& pixel_m;  // pixel_width_m() of the receivers
 };
 std::vector<CheckResult> check_frame(const CheckEvidence& evidence);
 

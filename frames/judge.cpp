@@ -81,7 +81,8 @@ void compare_with_truth(const GivenFrame& frame, FrameVerdict& verdict) {
   }
 }
 
-void classify(const raytrace::Tracer& tracer, const GivenFrame& frame, const JudgeRules& rules, FrameVerdict& verdict) {
+void classify(const raytrace::Tracer& tracer, const Image<float>& pixel_m, const JudgeRules& rules,
+              FrameVerdict& verdict) {
   const int width = verdict.error.width, height = verdict.error.height;
   Image<uint8_t> hard(width, height, 0), falsely_lit(width, height, 0);
   for (size_t i = 0; i < hard.size(); ++i) {
@@ -92,7 +93,6 @@ void classify(const raytrace::Tracer& tracer, const GivenFrame& frame, const Jud
     else
       hard[i] = 1;
   }
-  const Image<float> pixel_m = pixel_width_m(frame.view, verdict.receivers);
   Image<float> reach(width, height, 0);
   for (size_t i = 0; i < reach.size(); ++i)
     reach[i] = static_cast<float>(rules.edge_m ? *rules.edge_m : rules.edge_pixels * pixel_m[i]);
@@ -170,10 +170,11 @@ FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, con
   verdict.truth = tracer.receiver_truth(verdict.receivers, verdict.light, {frame.light, rules.standard_error});
   verdict.contact_m = rules.contact_m.value_or(JudgeRules::contact_share * diagonal_m(scene));
   compare_with_truth(frame, verdict);
-  verdict.checks =
-      check_frame({scene, tracer, frame, seen, verdict.receivers, found.moved_m, verdict.truth, verdict.counted});
+  const Image<float> pixel_m = pixel_width_m(frame.view, verdict.receivers);
+  verdict.checks = check_frame(
+      {scene, tracer, frame, seen, verdict.receivers, found.moved_m, verdict.truth, verdict.counted, pixel_m});
   for (CheckResult& check : verdict.checks) check.accepted = rules.accepted.contains(std::string(check.name));
-  classify(tracer, frame, rules, verdict);
+  classify(tracer, pixel_m, rules, verdict);
   measure(verdict);
   if (verdict.metrics.at("counted") == 0 && !verdict.refused())
     throw Error(ErrorKind::file,

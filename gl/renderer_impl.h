@@ -150,6 +150,8 @@ struct Renderer::Impl {
   ShadowMap upload_cube(int side, const std::function<void(int, float*)>& copy_row);
   // Writes a layer of a flat map. elsewhere: the depth of the texels that are not in the set, in [0, 1].
   void upload_tiles(const MapDepths& map, float elsewhere, TiledMaps& to, int layer);
+  // The same of listed texels alone; places: the column in the low 16 bits, the row in the high ones.
+  void write_listed(const TiledMaps& to, int layer, std::span<const uint32_t> places, std::span<const float> depths);
   // The depths of a layer of a flat map at the texels of the set, by TexelSet::index. Throws Error(device).
   void read_listed(GLuint map, int layer, const TexelSet& texels, std::span<float> depth);
 

@@ -1,5 +1,5 @@
 // Textures of flat maps that are looked up no more, for the next maps of the same size and number. What a texture of an uploaded map
-// holds is known, so that the next one writes only the tiles that hold something else (renderer_map_tiles.cpp). And new
+// holds is known, so that the next one writes only what differs (renderer_map_tiles.cpp). And new
 // memory costs more than it seems: the driver clears it, and the system gives it page by page. Of large maps only one
 // array is spare at a time, whether it was drawn or uploaded: the next map takes its memory over.
 //
@@ -19,16 +19,16 @@
 #include <vector>
 
 #include "gl/gl_objects.h"
+#include "technique/texel_set.h"
 
 namespace noonmark::gl {
 
 // Flat maps of one size, the layers of an array; often only one.
 struct TiledMaps {
-  // All texels of a layer are known to have the depth `elsewhere`, but for those of some tiles.
+  // All texels of a layer are known to have the depth `elsewhere`, but for those of a set.
   struct Known {
     float elsewhere = std::numeric_limits<float>::quiet_NaN();  // NaN: nothing is known, as of a drawn map
-    std::vector<uint8_t>
-        written{};  // for each tile of a TexelSet of this size: 1 if a texel of it may have another depth
+    std::shared_ptr<const TexelSet> texels{};                   // null: of none
   };
   Texture texture;
   GLenum format = 0;

@@ -2,6 +2,7 @@
 // workbench_measure.cpp (one point) and workbench_pictures.cpp (small pictures for a page).
 #pragma once
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -93,6 +94,7 @@ struct Workbench::Impl {
     truth.forget();
     view.forget();
     curve.forget();
+    footprint.forget();
     receivers_on_device.clear();
   }
 
@@ -199,6 +201,7 @@ struct Workbench::Impl {
   KeptMaps maps;
   Remembered<ChoiceStage> chosen;
   Remembered<CurveStage> curve;
+  Remembered<std::map<std::string, double>> footprint;  // metrics of the texels' size in the picture
   std::string receivers_on_device;
 };
 

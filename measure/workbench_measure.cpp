@@ -93,10 +93,6 @@ PointRecord record_of(const Recorded& in) {
   if (in.metrics == MetricSet::all) {
     record.metrics["shaded_rmse"] = shaded_rmse(receivers, t.frame, camera, ladder.truth(), ladder.shown());
     record.metrics["flip"] = shaded_flip(receivers, t.frame, camera, ladder.truth(), ladder.shown());
-    std::vector<const LightFrame*> frames;
-    for (const LookedUpMap& map : in.maps) frames.push_back(&map.frame);
-    record.metrics.merge(
-        footprint_metrics(texel_footprint(receivers, camera, frames, in.of(), in.truth.receivers.facing)));
   }
   int64_t texels = 0;
   int tiles = 0;
@@ -115,6 +111,15 @@ std::map<std::string, double> laws_of(const Technique& technique, const Ladder& 
                                       const ViewStage& view, const LookupStage& lookup) {
   return measure_laws({ladder, *loaded.scene, view.receivers, view.camera, technique.frame,
                        technique.settings.map.format, lookup.probe, technique.moments.has_value()});
+}
+
+// Of the maps' grids and the receivers alone, so that it is the same at every bias.
+std::map<std::string, double> footprint_of(const Recorded& in) {
+  const ReceiverImage& receivers = in.view.receivers;
+  std::vector<const LightFrame*> frames;
+  for (const LookedUpMap& map : in.maps) frames.push_back(&map.frame);
+  const CameraFrame camera = make_camera_frame(in.view.camera, receivers.width(), receivers.height());
+  return footprint_metrics(texel_footprint(receivers, camera, frames, in.of(), in.truth.receivers.facing));
 }
 
 // Of the receivers of one cascade, in the ladder of the whole point. It hides the others for that time.
@@ -446,6 +451,10 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     recorded.maps.push_back(
         {map.technique.frame, map.lookup.probe, map.technique.bias, map.lookup.edge_distance_texels});
   m.record = record_of(recorded);
+  if (metrics == MetricSet::all)
+    for (const auto& [name, value] :
+         b.footprint.get(asked.keys.truth + asked.keys.lookup, [&] { return footprint_of(recorded); }))
+      m.record.metrics[name] = value;
   if (cascaded) {
     Seam all;
     for (const Seam& seam : seams) all.add(seam);

@@ -124,6 +124,23 @@ OnSurface Tracer::on_surface(const Image<glm::dvec3>& points, const Image<uint8_
 
 double edge_ring(int ring) { return (ring % 2 == 0 ? 0.25 : 0.375) * std::exp2(ring / 2); }
 
+namespace {
+
+// The places of a ring's spokes on a circle of radius 1: of even rings, and of odd ones, which are turned by half a spoke.
+struct Spokes {
+  std::array<glm::dvec2, edge_spokes> of_ring[2];
+  Spokes() {
+    for (int odd = 0; odd < 2; ++odd)
+      for (int spoke = 0; spoke < edge_spokes; ++spoke) {
+        const double turn = 2 * std::numbers::pi * (spoke + odd / 2.0) / edge_spokes;
+        of_ring[odd][static_cast<size_t>(spoke)] = {std::cos(turn), std::sin(turn)};
+      }
+  }
+  glm::dvec2 at(int ring, int spoke) const { return of_ring[ring % 2][static_cast<size_t>(spoke)]; }
+};
+
+}  // namespace
+
 Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTruth& truth, const LightFrame& frame,
                                    const Image<uint8_t>& mask, const Image<float>& radius_m,
                                    const Image<float>& unit_m) const {
@@ -133,9 +150,13 @@ Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTru
   const LightView& view = light->view();
   LightCells* const cells = uses_cells() ? light->cells(receivers) : nullptr;
   const OwnSurface surface(traced_->embree, traced_->adjacency, view, light->silhouettes(), cells);
+  const Spokes spokes;
   Image<uint8_t> near(receivers.width(), receivers.height(), 0);
   tbb::parallel_for(tbb::blocked_range<size_t>(0, mask.size(), 256), [&](const tbb::blocked_range<size_t>& pixels) {
     Silhouettes::Nearby nearby;
+    std::optional<LightCells::Reader> reader;
+    if (cells) reader.emplace(*cells);
+    OwnSurface::Pair pair;
     for (size_t i = pixels.begin(); i != pixels.end(); ++i) {
       const double radius = radius_m[i], unit = unit_m[i];
       if (!mask[i] || !(radius > 0) || !(unit > 0)) continue;
@@ -144,8 +165,8 @@ Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTru
       glm::dvec3 right, up;
       frame.light().axes_across(frame, p, right, up);
       const auto place = [&](int ring, int spoke, double reach) {
-        const double turn = 2 * std::numbers::pi * (spoke + (ring % 2) / 2.0) / edge_spokes;
-        return view.place_of(frame.to_light(p + reach * (std::cos(turn) * right + std::sin(turn) * up)));
+        const glm::dvec2 way = spokes.at(ring, spoke);
+        return view.place_of(frame.to_light(p + reach * (way.x * right + way.y * up)));
       };
       int last = 0;
       while (edge_ring(last) * unit < radius) ++last;
@@ -154,6 +175,21 @@ Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTru
         for (int spoke = 0; spoke < edge_spokes; ++spoke)
           places[static_cast<size_t>(spoke)] = place(ring, spoke, edge_ring(ring) * unit);
       };
+      // Whether V is R1 at all places in the rectangle around these. It holds all ways from P to them, and the rings within. A
+      // receiver that is lit and has no silhouette there is lit at all of its places (OwnSurface::lit_at without a crossing).
+      // A dark one may come out of its occluder without one.
+      const auto is_same = [&] {
+        if (point.lit) {
+          light->silhouettes().list_nearby(places, nearby);
+          return nearby.none();
+        }
+        if (!reader) return false;
+        glm::dvec2 low(places[0]), high(places[0]);
+        for (const glm::dvec3& at : places) low = glm::min(low, glm::dvec2(at)), high = glm::max(high, glm::dvec2(at));
+        return surface.known_in(point, low, high, *reader, pair) == std::optional(false);
+      };
+      places_on(last);
+      if (is_same()) continue;
       // Whether a change between P and this place of the last ring, found to 2^-10 of the way, lies within the radius.
       const auto changes_within = [&](int spoke) {
         double same = 0, other = 1;
@@ -169,10 +205,8 @@ Image<uint8_t> Tracer::edge_within(const ReceiverImage& given, const ReceiverTru
       };
       for (int ring = 0; ring <= last && !near[i]; ++ring) {
         places_on(ring);
-        // The rectangle around the ring holds all ways from P to it. A receiver that is lit and has no silhouette there is lit at
-        // all of its places (OwnSurface::lit_at without a crossing). A dark one may come out of its occluder without one.
-        light->silhouettes().list_nearby(places, nearby);
-        if (point.lit && nearby.none()) continue;
+        if (is_same()) continue;
+        if (!point.lit) light->silhouettes().list_nearby(places, nearby);
         std::array<uint32_t, edge_spokes> hits;
         view.first_hits(traced_->embree, edge_spokes, places.data(), hits.data());
         for (int spoke = 0; spoke < edge_spokes && !near[i]; ++spoke) {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
+#include <vector>
 
 #include "app/pictures/picture_files.h"
 #include "app/pictures/view_colors.h"
@@ -18,11 +18,11 @@ class FramePainter {
   FramePainter(const FrameVerdict& verdict, const GivenFrame& frame) : v_(verdict), frame_(frame) {}
 
   // Grey clay: ambient 0.15, the rest from the cosine and the visibility.
-  Image<Color> shaded(const std::function<float(size_t)>& visibility) const {
+  Image<Color> shaded(const auto& visibility) const {
     return paint([&](size_t i) {
       if (!v_.truth.facing[i]) return facing_away;
       const float value = visibility(i);
-      return std::isnan(value) ? named_color("background") : grey(0.15 + 0.75 * cosine(i) * value);
+      return std::isnan(value) ? color_.background : grey(0.15 + 0.75 * cosine(i) * value);
     });
   }
 
@@ -37,36 +37,37 @@ class FramePainter {
 
   // The same by the cause of the ladder.
   Image<Color> causes(const Ladder& ladder) const {
+    const std::vector<Color> colors = colors_of_causes(ladder);
     return named([&](size_t i) {
       return ladder.cause[i] == static_cast<uint8_t>(Cause::none) ? std::nullopt
-                                                                  : std::optional(color_of(ladder, ladder.cause[i]));
+                                                                  : std::optional(colors[ladder.cause[i]]);
     });
   }
 
   // Too dark in the colour of acne, too light in the colour of Peter Panning, grey where right.
   Image<Color> difference() const {
-    const glm::vec3 dark(named_color("acne")), light(named_color("peter_panning")), right(named_color("lit"));
+    const glm::vec3 dark(color_.too_dark), light(color_.too_light), right(color_.lit);
     return paint([&](size_t i) {
-      if (!v_.counted[i]) return named_color("attached");
+      if (!v_.counted[i]) return color_.attached;
       const bool too_dark = frame_.visibility[i] < v_.truth_at(i);
       return Color(glm::mix(right, too_dark ? dark : light, std::min(1.0f, v_.error[i])) + 0.5f);
     });
   }
 
  private:
-  Image<Color> paint(const std::function<Color(size_t)>& color) const {
-    Image<Color> picture(v_.error.width, v_.error.height, named_color("background"));
+  Image<Color> paint(const auto& color) const {
+    Image<Color> picture(v_.error.width, v_.error.height, color_.background);
     for (size_t i = 0; i < picture.size(); ++i)
       if (v_.receivers.primitive[i] != no_primitive) picture[i] = color(i);
     return picture;
   }
   // color: of a wrong pixel; empty: it has none.
-  Image<Color> named(const std::function<std::optional<Color>(size_t)>& color) const {
+  Image<Color> named(const auto& color) const {
     return paint([&](size_t i) {
-      if (!v_.truth.facing[i]) return named_color("attached");
-      if (!v_.counted[i]) return named_color("ambiguous");
+      if (!v_.truth.facing[i]) return color_.attached;
+      if (!v_.counted[i]) return color_.ambiguous;
       const float shade = 0.72f + 0.28f * static_cast<float>(cosine(i));
-      const glm::vec3 right = shade * glm::vec3(named_color(v_.truth.lit[i] ? "lit" : "shadowed"));
+      const glm::vec3 right = shade * glm::vec3(v_.truth.lit[i] ? color_.lit : color_.shadowed);
       const auto found = color(i);
       if (!found) return Color(right + 0.5f);
       return Color(glm::mix(right, glm::vec3(*found), 0.25f + 0.75f * std::min(1.0f, v_.error[i])) + 0.5f);
@@ -79,6 +80,7 @@ class FramePainter {
 
   const FrameVerdict& v_;
   const GivenFrame& frame_;
+  const PixelColors color_;
 };
 
 template <class T>

@@ -27,7 +27,7 @@ double clay(const Measurement& m, size_t i, double visibility) {
   return 0.15 + 0.75 * std::max(0.0f, m.map().probe.n_dot_l[i]) * visibility;
 }
 
-Image<Color> paint(const Measurement& m, const std::function<Color(size_t)>& facing_color) {
+Image<Color> paint(const Measurement& m, const auto& facing_color) {
   Image<Color> picture(m.receivers.width(), m.receivers.height(), named_color("background"));
   for (size_t i = 0; i < picture.size(); ++i) {
     if (m.receivers.primitive[i] == no_primitive) continue;
@@ -53,25 +53,28 @@ float strength_of(float wrong, bool of_moments) {
 // Each wrong pixel in the colour of its cause, over the grey of right pixels. The strength of the colour is the size of
 // the error.
 Image<Color> classes(const Measurement& m) {
+  const PixelColors color;
+  const std::vector<Color> of_cause = colors_of_causes(m.ladder);
   return paint(m, [&](size_t i) {
-    if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
-    if (m.ladder.flags[i] & flag_ambiguous) return named_color("ambiguous");
+    if (!(m.ladder.flags[i] & flag_facing)) return color.attached;
+    if (m.ladder.flags[i] & flag_ambiguous) return color.ambiguous;
     // A little shading makes the shapes visible.
     const float shade = 0.72f + 0.28f * m.map().probe.n_dot_l[i];
-    const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.truth()[i] != 0 ? "lit" : "shadowed"));
+    const glm::vec3 right = shade * glm::vec3(m.ladder.truth()[i] != 0 ? color.lit : color.shadowed);
     if (m.ladder.cause[i] == static_cast<uint8_t>(Cause::none)) return Color(right + 0.5f);
     const float wrong = std::abs(m.ladder.shown()[i] - m.ladder.truth()[i]);
-    return Color(glm::mix(right, glm::vec3(color_of(m.ladder, m.ladder.cause[i])),
-                          strength_of(wrong, m.technique.moments.has_value())) +
-                 0.5f);
+    return Color(
+        glm::mix(right, glm::vec3(of_cause[m.ladder.cause[i]]), strength_of(wrong, m.technique.moments.has_value())) +
+        0.5f);
   });
 }
 
 // Too dark in the colour of acne, too light in the colour of Peter Panning, grey where right.
 Image<Color> difference(const Measurement& m) {
-  const glm::vec3 dark(named_color("acne")), light(named_color("peter_panning")), right(named_color("lit"));
+  const PixelColors color;
+  const glm::vec3 dark(color.too_dark), light(color.too_light), right(color.lit);
   return paint(m, [&](size_t i) {
-    if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
+    if (!(m.ladder.flags[i] & flag_facing)) return color.attached;
     const float signed_error = m.ladder.shown()[i] - m.ladder.truth()[i];
     return Color(glm::mix(right, signed_error < 0 ? dark : light, std::min(1.0f, std::abs(signed_error))) + 0.5f);
   });
@@ -132,9 +135,10 @@ std::vector<StoredMap> stored_maps(const Measurement& m) {
 // that is not counted is dark.
 Image<Color> changes(const Measurement& m) {
   const Flicker& flicker = *m.flicker;
+  const PixelColors usual;
   return paint(m, [&](size_t i) {
-    if (!flicker.points.counted[i]) return named_color("attached");
-    glm::vec3 color(0.72f * glm::vec3(named_color(flicker.now[i] > 0.5f ? "lit" : "shadowed")));
+    if (!flicker.points.counted[i]) return usual.attached;
+    glm::vec3 color(0.72f * glm::vec3(flicker.now[i] > 0.5f ? usual.lit : usual.shadowed));
     const float change = std::abs(flicker.next[i] - flicker.now[i]);
     if (change == 0) return Color(color + 0.5f);
     glm::vec3 mixed(0);
@@ -245,9 +249,10 @@ Image<Color> motion_frame(const Measurement& m) {
 Image<Color> lit_picture(const Measurement& m) {
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   const Image<float> frame = shaded_frame(m.receivers, m.technique.frame, camera, m.ladder.truth());
+  const Color ambiguous = named_color("ambiguous");
   return paint(m, [&](size_t i) {
     if (!(m.ladder.flags[i] & flag_facing)) return facing_away;
-    return m.ladder.flags[i] & flag_ambiguous ? named_color("ambiguous") : grey(frame[i]);
+    return m.ladder.flags[i] & flag_ambiguous ? ambiguous : grey(frame[i]);
   });
 }
 

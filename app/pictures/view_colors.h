@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "app/pictures/image_file.h"
 #include "base/srgb.h"
@@ -18,11 +19,23 @@ inline Color named_color(std::string_view name) {
   return {color->r, color->g, color->b};
 }
 
-// Of an index into ladder.causes.
-inline Color color_of(const Ladder& ladder, size_t cause) {
-  if (cause < ladder.built_in()) return named_color(ladder.causes[cause].name);
-  const auto [r, g, b] = ladder.brought[cause - ladder.built_in()].color;
-  return {r, g, b};
+// The colours that most pixels have. To look each up by its name would take longer than to paint the pixel.
+struct PixelColors {
+  Color background = named_color("background"), attached = named_color("attached"),
+        ambiguous = named_color("ambiguous"), lit = named_color("lit"), shadowed = named_color("shadowed"),
+        too_dark = named_color("acne"), too_light = named_color("peter_panning");
+};
+
+// Of each index into ladder.causes.
+inline std::vector<Color> colors_of_causes(const Ladder& ladder) {
+  std::vector<Color> colors;
+  for (size_t cause = 0; cause < ladder.built_in(); ++cause)
+    colors.push_back(cause == static_cast<size_t>(Cause::none) ? Color(0) : named_color(ladder.causes[cause].name));
+  for (const RungCause& brought : ladder.brought) {
+    const auto [r, g, b] = brought.color;
+    colors.push_back({r, g, b});
+  }
+  return colors;
 }
 
 inline Color grey(double linear) { return Color(srgb_encoded(linear)); }

@@ -220,10 +220,7 @@ void SweepRun::measure_point(int64_t id) {
 // All points are timed together if one has no times yet: times of another day could not be compared with the others.
 void SweepRun::time() {
   if (outcome_.interrupted || !times_measured(experiment_)) return;
-  const std::vector<PointRecord> points = store_->load().points;
-  if (std::all_of(points.begin(), points.end(),
-                  [](const PointRecord& point) { return point.metrics.contains("shadow_ms"); }))
-    return;
+  if (store_->lacking("shadow_ms").empty()) return;
   std::vector<Settings> timed;
   for (const int64_t id : wanted_) timed.push_back(point_at(id));
   const auto go_on = [&](int done, int all) {

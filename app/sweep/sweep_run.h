@@ -55,7 +55,7 @@ class SweepRun {
   PointPictures pictures_of(const Measurement& m, const PointRecord& with_curve);
   void keep_light(const Measurement& m);
   LightPart light_of(int64_t id);
-  void draw_pictures_of(const PointRecord& point, const Instant& instant);
+  bool draw_pictures_of(const PointRecord& point, const Instant& instant);  // whether they are other ones now
   bool has_all_pictures(const PointRecord& point);
   PictureRecord animation(int64_t id, const Instant& instant);
   RunInfo info();

@@ -61,6 +61,7 @@ void SweepRun::picture_lights() {
   if (outcome_.interrupted) return;
   std::vector<std::string> names;
   for (const Experiment& part : experiment_.parts) names.push_back(part.part);
+  bool changed = false;
   for (const PointRecord& point : outcome_.results.points) {
     PointPictures now = point;
     PointPictures old;
@@ -73,8 +74,9 @@ void SweepRun::picture_lights() {
       for (PictureRecord& picture : keep_lights(shown->second, names, point.id, folder_.path()))
         now.pictures.push_back(std::move(picture));
     store_->set_pictures(point.id, now);
+    changed = true;
   }
-  outcome_.results = store_->load();
+  if (changed) outcome_.results = store_->load();
 }
 
 }  // namespace noonmark

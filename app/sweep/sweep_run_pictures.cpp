@@ -71,10 +71,12 @@ void SweepRun::picture() {
   if (outcome_.interrupted || !known) return;
   if (!options_.shard) noonmark::judge(experiment_, outcome_.results);  // pictures may be chosen by broken bounds
   const std::vector<int64_t> shown = points_with_pictures(experiment_.pictures, outcome_.results);
+  bool changed = false;
   for (const PointRecord& point : outcome_.results.points) {
     if (point.pictures.empty() || std::find(shown.begin(), shown.end(), point.id) != shown.end()) continue;
     remove_pictures(point, folder_.path());  // another point has them now
     store_->set_pictures(point.id, {});
+    changed = true;
   }
   const Instant instant =
       options_.shard ? Instant{} : worst_instant(outcome_.results.points);  // of all shares together
@@ -83,9 +85,9 @@ void SweepRun::picture() {
   for (const int64_t id : shown) {
     progress_->shown.set_left(progress_->pictures, left);
     left -= id == instant.id && instant.frames.size() > 2 ? 1 + instant.frames.size() : 1;
-    draw_pictures_of(*find_point(outcome_.results.points, id), instant);
+    changed |= draw_pictures_of(*find_point(outcome_.results.points, id), instant);
   }
-  outcome_.results = store_->load();
+  if (changed) outcome_.results = store_->load();
 }
 
 // Whether the point has its pictures as they were written, beside those of a frame of several lights. Says why it has not.
@@ -99,10 +101,10 @@ bool SweepRun::has_all_pictures(const PointRecord& point) {
 }
 
 // instant: the frames of a motion that the animation shows, at one of the points.
-void SweepRun::draw_pictures_of(const PointRecord& point, const Instant& instant) {
+bool SweepRun::draw_pictures_of(const PointRecord& point, const Instant& instant) {
   // With fewer than 3 frames the picture "flicker" shows them all.
   const bool moves = point.id == instant.id && instant.frames.size() > 2, whole = has_all_pictures(point);
-  if (whole && moves == has_motion(point)) return;
+  if (whole && moves == has_motion(point)) return false;
   PointPictures kept = point;
   if (!whole) {
     remove_those(kept, is_at_recommended_bias,
@@ -114,6 +116,7 @@ void SweepRun::draw_pictures_of(const PointRecord& point, const Instant& instant
   remove_those(kept, is_motion, folder_.path());  // another point may have the animation now
   if (moves) kept.pictures.push_back(animation(point.id, instant));
   store_->set_pictures(point.id, kept);
+  return true;
 }
 
 PictureRecord SweepRun::animation(int64_t id, const Instant& instant) {

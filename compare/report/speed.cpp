@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -240,10 +241,13 @@ std::string error_shown_first(const Results& results) {
   return measured && (has_size || results.info.accuracy != "error_soft") ? errors.front() : "error";
 }
 
+double error_in_plane(const ComparedChoice& one, const std::string& error, AtBias at) {
+  return counts_by(one, error, at) ? value_of(one, error, at).worst : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error, AtBias at) {
   std::vector<FrontPoint> plane;
-  for (const ComparedChoice& one : group.choices)
-    plane.push_back({cost_of(one, cost), counts_by(one, error, at) ? value_of(one, error, at).worst : std::nan("")});
+  for (const ComparedChoice& one : group.choices) plane.push_back({cost_of(one, cost), error_in_plane(one, error, at)});
   return pareto_front(plane);
 }
 

@@ -31,8 +31,11 @@ std::vector<std::string> errors_of(const Results& results);
 // are equal then.
 std::string error_shown_first(const Results& results);
 
-// Indices of the choices on the Pareto front, from the cheapest to the most accurate: those that count (counts_by) and
-// are on pareto_front() (findings.h). Cost and error are the largest over the conditions; the error is that at the bias.
+// The error at which a choice stands: the largest over the conditions, at the bias. NaN if it does not count (counts_by).
+double error_in_plane(const ComparedChoice& one, const std::string& error, AtBias at);
+
+// Indices of the choices on the Pareto front, from the cheapest to the most accurate: those that count and are on
+// pareto_front() (findings.h). The cost is the largest over the conditions too.
 std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error,
                              AtBias at = AtBias::best);
 

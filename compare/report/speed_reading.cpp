@@ -21,11 +21,10 @@ namespace {
 
 constexpr size_t most_stretches = 6;  // a sentence with more is not read
 
-// NaN where the choice does not count.
-CostAndError place_of(const ComparedChoice& one, const SpeedReading& reading) {
-  return {cost_of(one, reading.cost).middle, counts_by(one, reading.error, reading.at)
-                                                 ? value_of(one, reading.error, reading.at).worst
-                                                 : std::numeric_limits<double>::quiet_NaN()};
+std::vector<CostAndError> places_on(const std::vector<FrontPoint>& plane) {
+  std::vector<CostAndError> places;
+  for (const FrontPoint& one : plane) places.push_back({one.cost.middle, one.error});
+  return places;
 }
 
 bool is_finite(const CostAndError& one) { return std::isfinite(one.cost) && std::isfinite(one.error); }
@@ -107,12 +106,24 @@ SpeedReadings::SpeedReadings(const ComparedGroup& group, const Results& results)
 SpeedReadings::SpeedReadings(const ComparedGroup& group, Techniques techniques, const Results& results)
     : group_(group), techniques_(std::move(techniques)), is_incomplete_(is_incomplete(results)) {}
 
+std::vector<FrontPoint> SpeedReadings::plane(const std::string& cost, const std::string& error, AtBias at) const {
+  const auto [costs, new_cost] = costs_.try_emplace(cost);
+  if (new_cost)
+    for (const ComparedChoice& one : group_.choices) costs->second.push_back(cost_of(one, cost));
+  const auto [errors, new_error] = errors_.try_emplace({error, at});
+  if (new_error)
+    for (const ComparedChoice& one : group_.choices) errors->second.push_back(error_in_plane(one, error, at));
+  std::vector<FrontPoint> plane;
+  for (size_t i = 0; i < group_.choices.size(); ++i) plane.push_back({costs->second[i], errors->second[i]});
+  return plane;
+}
+
 SpeedReading SpeedReadings::of(const std::string& cost, const std::string& error, AtBias at) const {
   SpeedReading reading{cost, error, at, {}, {}, {}, {}};
-  std::vector<CostAndError> places;
-  for (const ComparedChoice& one : group_.choices) places.push_back(place_of(one, reading));
+  const std::vector<FrontPoint> all = plane(cost, error, at);
+  std::vector<CostAndError> places = places_on(all);
   reading.curves = curves_of(group_, techniques_, places);
-  reading.front = front_of(group_, cost, error, at);
+  reading.front = pareto_front(all);
   reading.stretches = stretches_of(reading, techniques_, places);
   if (!is_incomplete_) reading.answers = answers_of(group_, std::move(places));
   return reading;
@@ -143,7 +154,8 @@ std::vector<Phrase> SpeedReadings::takeovers(const SpeedReading& reading, const 
 
 std::vector<Phrase> SpeedReadings::why(const SpeedReading& reading, const ChoiceNames& names) const {
   const size_t winner = reading.stretches.front().curve;
-  const auto place = [&](size_t i) { return place_of(group_.choices[i], reading); };
+  const std::vector<CostAndError> places = places_on(plane(reading.cost, reading.error, reading.at));
+  const auto place = [&](size_t i) { return places[i]; };
   const auto less = [&](size_t a, size_t b) {
     return std::pair(place(a).error, place(a).cost) < std::pair(place(b).error, place(b).cost);
   };

@@ -6,14 +6,17 @@
 //   page += readings.takeovers(reading, names);
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/judge/answers.h"
 #include "compare/judge/least_error.h"
 #include "compare/judge/techniques.h"
 #include "compare/judge/tradeoff.h"
+#include "compare/report/findings.h"
 #include "compare/report/speed.h"
 #include "compare/results/records.h"
 
@@ -39,6 +42,7 @@ struct Phrase {
   bool is_name = false;
 };
 
+// For one thread at a time.
 class SpeedReadings {
  public:
   // The group must live longer.
@@ -56,10 +60,15 @@ class SpeedReadings {
  private:
   std::string name_of(size_t technique, const ChoiceNames& names) const;
   std::vector<Phrase> why(const SpeedReading& reading, const ChoiceNames& names) const;
+  // Where each choice stands; the error is NaN where the choice does not count.
+  std::vector<FrontPoint> plane(const std::string& cost, const std::string& error, AtBias at) const;
 
   const ComparedGroup& group_;
   Techniques techniques_;
   bool is_incomplete_ = false;
+  // Of each choice. A page reads all pairs of its costs and errors, so each is asked for many times.
+  mutable std::map<std::string, std::vector<MedianInterval>> costs_;
+  mutable std::map<std::pair<std::string, AtBias>, std::vector<double>> errors_;
 };
 
 // The points of the three answers of every group, for RunInfo::cost and error_shown_first(), each at the condition that is worst;

@@ -7,8 +7,10 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 // With AddressSanitizer that file has no functions.
 #ifndef __SANITIZE_ADDRESS__
@@ -17,8 +19,8 @@ namespace {
 
 constexpr size_t MiB = size_t{1} << 20;
 
-// Whether huge pages are asked for where this address is (`hg` among the flags of its range).
-bool asks_for_huge_pages(const void* memory) {
+// The flags of the range in which this address lies; no value if it lies in none.
+std::optional<std::string> flags_at(const void* memory) {
   const auto address = reinterpret_cast<uintptr_t>(memory);
   std::ifstream ranges("/proc/self/smaps");
   bool here = false;
@@ -27,10 +29,13 @@ bool asks_for_huge_pages(const void* memory) {
     char between = 0;
     std::istringstream words(line);
     if (words >> std::hex >> begin >> between >> end && between == '-') here = begin <= address && address < end;
-    if (here && line.rfind("VmFlags:", 0) == 0) return line.find(" hg") != std::string::npos;
+    if (here && line.rfind("VmFlags:", 0) == 0) return line;
   }
-  return false;
+  return std::nullopt;
 }
+
+// Whether huge pages are asked for where this address is.
+bool asks_for_huge_pages(const void* memory) { return flags_at(memory).value_or("").find(" hg") != std::string::npos; }
 
 bool kernel_has_huge_pages() { return std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled").good(); }
 
@@ -48,6 +53,36 @@ TEST(HugePages, AreAskedForWhereMemoryIsLarge) {
   EXPECT_TRUE(asks_for_huge_pages(image.get() + 63 * MiB));
 }
 
+constexpr size_t more_than_the_heap_keeps = 64 * MiB;
+
+// A picture of 1280 x 720 floats has 1.76 huge pages.
+TEST(HugePages, LastOneIsWholeIfLittleIsLost) {
+  if (!kernel_has_huge_pages()) GTEST_SKIP() << "the kernel has none";
+  const size_t bytes = 1280 * 720 * sizeof(float);
+  const auto picture = std::make_unique<char[]>(bytes);
+  EXPECT_TRUE(begins_huge_page(picture.get()));
+  EXPECT_TRUE(asks_for_huge_pages(picture.get() + bytes - 1));
+}
+
+TEST(HugePages, LargeMemoryGoesBackToTheKernel) {
+  auto between = std::make_unique<char[]>(more_than_the_heap_keeps);
+  const auto after = std::make_unique<char[]>(more_than_the_heap_keeps), small = std::make_unique<char[]>(1000);
+  const char* const middle = between.get() + more_than_the_heap_keeps / 2;
+  EXPECT_TRUE(flags_at(middle));
+  between.reset();
+  EXPECT_FALSE(flags_at(middle));
+}
+
+TEST(HugePages, AreAskedForWhereTheHeapGrows) {
+  if (!kernel_has_huge_pages()) GTEST_SKIP() << "the kernel has none";
+  std::vector<std::unique_ptr<char[]>> pieces;
+  for (int i = 0; i < 640; ++i) pieces.push_back(std::make_unique<char[]>(MiB / 10));
+  // The step in which the last one lies may not have been seen yet.
+  size_t asked = 0;
+  for (const auto& piece : pieces) asked += asks_for_huge_pages(piece.get());
+  EXPECT_GT(asked, pieces.size() / 2);
+}
+
 TEST(HugePages, MemoryIsAlignedAsItIsAskedFor) {
   for (const size_t alignment : {sizeof(void*), size_t{64}, size_t{4096}, 4 * MiB})
     for (const size_t bytes : {size_t{1}, size_t{1000}, 5 * MiB + 1}) {
@@ -63,10 +98,12 @@ TEST(HugePages, MemoryIsAlignedAsItIsAskedFor) {
   void* memory = before;
   for (const size_t wrong : {size_t{0}, size_t{4}, size_t{24}})
     EXPECT_EQ(posix_memalign(&memory, wrong, 100), EINVAL) << wrong;
-  volatile size_t too_much = SIZE_MAX / 4;
-  EXPECT_EQ(posix_memalign(&memory, 64, too_much), ENOMEM);
-  EXPECT_EQ(memory, before) << "nothing was made";
-  EXPECT_THROW(static_cast<void>(::operator new(too_much)), std::bad_alloc);
+  for (const size_t bytes : {SIZE_MAX / 4, SIZE_MAX - 1, SIZE_MAX}) {
+    volatile size_t too_much = bytes;
+    EXPECT_EQ(posix_memalign(&memory, 64, too_much), ENOMEM);
+    EXPECT_EQ(memory, before) << "nothing was made";
+    EXPECT_THROW(static_cast<void>(::operator new(too_much)), std::bad_alloc);
+  }
   EXPECT_NE(std::unique_ptr<char[]>(new char[0]).get(), nullptr);
 }
 
