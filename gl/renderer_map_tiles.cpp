@@ -101,11 +101,16 @@ void Renderer::Impl::upload_tiles(const MapDepths& map, float elsewhere, TiledMa
     known.texels.reset();
   }
   const TexelSet* const before = known.texels == map.texels ? nullptr : known.texels.get();
+  // Into large maps of several layers nothing is drawn: with llvmpipe an array of 3 x 6144 x 6144 texels then stayed in memory
+  // beside the next one. Why is not known; one layer of 8192 x 8192 does not.
+  const bool may_draw =
+      to.size.z == 1 ||
+      sizeof(float) * static_cast<size_t>(to.size.x) * static_cast<size_t>(to.size.y) <= SpareMaps::most_small_bytes;
   std::vector<uint8_t> whole(texels.tiles());
   TexelList list;
   for (size_t n = 0; n < texels.tiles(); ++n) {
     const size_t count = texels.count(n) + (before ? before->count(n) : 0);
-    whole[n] = count > most_drawn;
+    whole[n] = count > (may_draw ? most_drawn : 0);
     if (count > 0 && !whole[n]) list.add_tile(map, before, elsewhere, n);
   }
   write_tiles(to.texture.id(), layer, map, elsewhere, whole);
