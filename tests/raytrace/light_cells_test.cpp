@@ -95,6 +95,22 @@ TEST(LightCells, CracksOfTJunctions) {
                 4000, 3, std::to_string(off));
 }
 
+// A sheet that ends at an edge but goes on over a seam, because the next one's border meets it but for rounding. Beyond it lies
+// something before the second sheet and deeper than the plane of the first: there the taps are dark.
+TEST(LightCells, SeamsAtTheEndsOfSheets) {
+  for (const float off : {0.0f, 1.0f, 2.0f}) {  // units of the last place
+    float border = 1;
+    for (float i = 0; i < off; ++i) border = std::nextafter(border, 2.0f);
+    expect_same(under_a_light(above,
+                              [&](Scene& s) {
+                                add_quad(s, "first", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+                                add_quad(s, "second", {border, 0, -1}, {0, 0, 2}, {2, -1, 0});
+                                add_quad(s, "between", {1.06, -0.02, -0.7}, {0, 0, 1.4}, {0.3, 0, 0});
+                              }),
+                4000, 16, std::to_string(off), 1, box(9));
+  }
+}
+
 TEST(LightCells, SliversAndSoup) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
