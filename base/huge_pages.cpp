@@ -41,7 +41,7 @@ constexpr size_t huge_page = size_t{2} << 20;  // of x86-64, and of ARM with pag
 // Memory ends with a whole huge page if at most 1 / most_lost of it is lost; if not, its last bytes lie in small pages.
 constexpr size_t most_lost = 4;
 constexpr size_t least_large =
-    huge_page * most_lost / (most_lost + 1) + 1;  // so much may end with a huge page of its own
+    huge_page * most_lost / (most_lost + 1) + 1;  // from this size on, its last huge page is whole
 
 // Null if there is no memory. Leaves errno as it was.
 void* large_memory(size_t alignment, size_t bytes) {

@@ -294,7 +294,7 @@ std::optional<double> LightCells::list_parts(std::span<const uint32_t> triangles
 LightCells::Judged LightCells::judge_place(const Cell& cell, glm::dvec2 at) const {
   const Square place{at, reach_m_};
   thread_local std::vector<Part> parts;
-  if (!cell.ends_here()) return {};  // memory is used up
+  if (!cell.ends_here()) return {};  // it should be divided, but the memory for squares is used up
   const std::optional<double> others_m = list_parts(cell.triangles, place, parts);
   return others_m ? judge(parts, *others_m, place) : Judged();
 }

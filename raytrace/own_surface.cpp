@@ -341,7 +341,7 @@ void OwnSurface::find_edges(std::span<EdgeSearch> searches) const {
     uint32_t hits[packet_size], found[packet_size];
     int rays = 0;
     for (size_t i = 0; i < searches.size(); ++i) {
-      // `other` only becomes less, and the roundings keep the order: what is not greater now is not greater at the end.
+      // Each halving can only make this distance less. So a search that is not the largest now is not the largest at the end.
       if (!(ways[i].distance() > searches[i].distance_texels)) continue;
       const EdgeSearch& s = searches[i];
       x[i] = view_.normal_place(s.from + (ways[i].same + ways[i].other) / 2 * (s.to - s.from));

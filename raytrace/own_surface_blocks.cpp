@@ -1,4 +1,4 @@
-// Verdicts of all places of a rectangle of the light's plane at once.
+// One verdict for a whole rectangle of the light's plane, where it can be proven that all places in it have the same.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -77,7 +77,7 @@ struct PlacementTracer::Impl {
   }
 
   // The rectangle of the light's plane that holds these taps' points. The lattice has another origin than the light's own
-  // frame. The difference is rounded far finer than the reach of the squares.
+  // frame. The rounding from one frame to the other is much less than the margin of the squares (LightCells, reach_m).
   struct Rectangle {
     glm::dvec2 low, high;
   };

@@ -216,7 +216,7 @@ bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {
                      [&](uint32_t index) { return all_->is_near(all_->edges_[index], x, within_m); });
 }
 
-// In float, against bounds that are wider than all roundings, in units of the ways:
+// Computed in float, in units of the ways. Each comparison leaves a margin that is more than the sum of all roundings:
 // - Each number below is a sum of at most three products, none of which is greater than 2 R, where R is the largest
 //   coordinate of a way: it is off by less than 2^-20 R.
 // - `from`, the ends and the edges are off by double's rounding of their coordinates: by less than 2^-40 of the largest, which

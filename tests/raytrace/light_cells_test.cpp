@@ -330,7 +330,7 @@ TEST(LightCells, FrontsAreFirstAllOverTheirRectangles) {
     }
   }
   EXPECT_EQ(wrong, 0);
-  EXPECT_GT(known, 20 * 2000 / 4);
+  EXPECT_GT(known, 20 * 2000 / 4);  // cells that know no front must not pass
 }
 
 // A small rectangle has a front also where the finest square around it has none, because an edge crosses the square.

@@ -117,7 +117,7 @@ TEST_P(Nearby, AnswersManyWaysAtOnce) {
       away += !near, beside += ways.beside[i] != 0;
     }
   }
-  // Of the ways that are clear nearly all are known to be, and so are the ends that have no edge beside them.
+  // answer() finds nearly all ways that are clear, and nearly all ends that no edge is near.
   EXPECT_GT(clear, asked / 4);
   EXPECT_LT(open - (asked - clear), clear / 50);
   EXPECT_GT(asked - away, asked / 50);
