@@ -83,10 +83,8 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   PointRecord record;
   record.metrics = made.metrics;
   if (const std::vector<Unsound> unsound = find_unsound({&record, 1}); !unsound.empty())
-    throw Error(
-        ErrorKind::defect,
-        fmt::format("the lookup of the given map contradicts itself ({} = {:.6g}, a sound one has at most {:g})",
-                    unsound[0].limit->metric, unsound[0].value, unsound[0].limit->most));
+    throw Error(ErrorKind::defect,
+                fmt::format("the lookup of the given map contradicts itself ({})", value_text(unsound.front())));
   return made;
 }
 

@@ -241,7 +241,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
     const LookupProbe probe = renderer.probe(technique, gl::ProbeTaps::none);
     raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, technique.frame, settings.map,
                                                 technique.bias, polygon_offset_unit(renderer, technique));
-    LatticeStage stage(renderer, tracer, probe, view, truth, technique, &bias_part("constant"), edges);
+    LatticeStage stage(renderer, tracer, probe, view, truth, technique, {&bias_part("constant"), edges, {}});
     double blurred = 0;
     for (const PixelRange& strip : strips_of(technique, most_kept_tap_bytes)) {
       const TapTruth taps = rays.trace_places(probe, strip);

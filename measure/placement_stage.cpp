@@ -106,16 +106,17 @@ std::unique_ptr<PlacementStage> make_placement_stage(const PlacementInput& in, P
     return std::make_unique<OneByOneStage<MomentCounts>>(in, MomentCounts(placements, request.reductions));
   if (in.technique.frame.light().placements_form_lattice())
     return std::make_unique<LatticeStage>(in.renderer, in.tracer, in.probe, in.view, in.truth, in.technique,
-                                          request.part, std::move(request.edges));
+                                          std::move(request));
   return std::make_unique<OneByOneStage<PlacementCounts>>(
       in, PlacementCounts(placements, in.probe, request.part, std::move(request.edges)));
 }
 
 LatticeStage::LatticeStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupProbe& probe,
                            const ViewStage& view, const TruthStage& truth, const Technique& technique,
-                           const BiasPart* part, std::vector<float> edges)
+                           PlacementRequest request)
     : PlacementStage(technique.frame),
-      counts_(Placements(technique.settings.map.placements), probe, part, std::move(edges)),
+      checks_(request.checks),
+      counts_(Placements(technique.settings.map.placements), probe, request.part, std::move(request.edges)),
       truth_(truth.receivers),
       map_(technique.settings.map),
       bias_(technique.bias),

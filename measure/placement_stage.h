@@ -7,7 +7,7 @@
 //   std::map<std::string, double> metrics = placement_metrics(shares, stage->facts(worst_placement(shares)));
 //
 // Two placements are measured by themselves too, with OpenGL: the one of the settings, and the one with the largest
-// error. The counts must agree with both.
+// error. The counts must agree with both (with Checks::none they are not compared, and the second is not measured).
 //
 // Shifts of a grid that is compared share one lattice of rays. The turns of a cube share no texel, and a map of moments needs
 // the depths and weights of whole blurs: there each placement is measured by itself, and S x S placements take as long as
@@ -73,6 +73,7 @@ struct PlacementRequest {
   const BiasPart* part = nullptr;  // of lookups that compare depths; it and edges as for PlacementCounts
   std::vector<float> edges;
   std::optional<MomentCounts::ReductionBounds> reductions;  // of a map of moments
+  Checks checks = Checks::all;                              // whether add() compares the counts with its evidence
 };
 
 // The stage for the kind of light and of lookup.
@@ -81,13 +82,13 @@ std::unique_ptr<PlacementStage> make_placement_stage(const PlacementInput& input
 // Shifts of the grid: one lattice of rays answers for all of them.
 class LatticeStage final : public PlacementStage {
  public:
-  // All arguments must outlive the stage.
+  // All that is referred to must outlive the stage.
   LatticeStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupProbe& probe, const ViewStage& view,
-               const TruthStage& truth, const Technique& technique, const BiasPart* part, std::vector<float> edges);
+               const TruthStage& truth, const Technique& technique, PlacementRequest request);
 
   void add(const LookupEvidence& evidence, PixelRange strip) override {
     add(evidence.taps, strip);
-    compare(evidence, 0, strip);
+    if (checks_ == Checks::all) compare(evidence, 0, strip);
   }
   // taps: of placement 0, for this strip; its F and D are read.
   void add(const TapTruth& taps, PixelRange strip);
@@ -104,6 +105,7 @@ class LatticeStage final : public PlacementStage {
   template <class Visit>
   void in_parts(PixelRange strip, size_t points, const Visit& visit) const;
 
+  Checks checks_;
   PlacementCounts counts_;
   const ReceiverTruth& truth_;
   MapSettings map_;

@@ -181,18 +181,22 @@ MapResults Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, s
 
 ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
                               std::span<const AskedMap> asked, std::span<const Technique> techniques,
-                              const ChosenCascades* chosen, bool keep_fetched) {
+                              const ChosenCascades* chosen, bool keep_fetched, Checks checks) {
+  const bool checked = checks == Checks::all;
   ShownMaps shown;
+  shown.checks = checks;
   shown.moments.resize(asked.size());
   shown.ties.resize(asked.size());
   const ShownStage nothing;
   const auto check_stages = [&](const gl::ShadowMap& of, const MapResults& results, const auto& depths_of) {
-    for (size_t k = 0; k < asked.size() && techniques[k].moments; ++k) {
+    const bool kept = keep_fetched && &results == &shown.r5;
+    for (size_t k = 0; (checked || kept) && k < asked.size() && techniques[k].moments; ++k) {
       const MapDepths& depths = depths_of(k);
       MomentEvidence moments = renderer.read_moments(of, techniques, *depths.texels, k);
-      shown.moments[k] += check_moments(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k]), depths,
-                                        moments, result_in_map(results, chosen, static_cast<int>(k)));
-      if (keep_fetched && &results == &shown.r5) shown.fetched.push_back(std::move(moments.fetched));
+      if (checked)
+        shown.moments[k] += check_moments(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k]), depths,
+                                          moments, result_in_map(results, chosen, static_cast<int>(k)));
+      if (kept) shown.fetched.push_back(std::move(moments.fetched));
     }
   };
   shown.r5 = look_up(renderer, *map.map, techniques);
@@ -200,6 +204,7 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
     shown.stored.push_back(renderer.read_map(*map.map, asked[k].lookup.exact_depth.texels, static_cast<int>(k)));
   check_stages(*map.map, shown.r5, [&](size_t k) -> const MapDepths& { return shown.stored[k]; });
   keep_small(renderer, map.map);
+  if (!checked && !techniques.front().moments) return shown;
 
   const auto upload = [&](const auto& depths_of) {
     std::vector<const MapDepths*> depths;
@@ -223,9 +228,13 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
 
 ShownStage ShownMaps::take(const ChosenCascades* chosen, size_t map) {
   const int cascade = static_cast<int>(map);
-  return {result_in_map(r5, chosen, cascade),
-          result_in_map(r4, chosen, cascade),
-          tie_lookup.own.size() ? result_in_map(tie_lookup, chosen, cascade) : Image<float>(),
+  const auto result = [&](const MapResults& of) {
+    return of.own.size() ? result_in_map(of, chosen, cascade) : Image<float>();
+  };
+  return {checks,
+          result(r5),
+          result(r4),
+          result(tie_lookup),
           std::move(stored[map]),
           std::move(ties[map]),
           moments[map],
@@ -244,8 +253,10 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
                                const TruthStage& truth, const ShownStage& shown, const Technique& technique,
                                const BiasPart* varied, const EachStrip& each_strip) {
   const LookupEvidence evidence = evidence_of(lookup, truth, shown, technique);
-  SoundnessCheck soundness(
-      {evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers, technique.frame, view.camera.eye_m});
+  std::optional<SoundnessCheck> soundness;
+  if (shown.checks == Checks::all)
+    soundness.emplace(SoundnessInput{evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers,
+                                     technique.frame, view.camera.eye_m});
   Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height(),
                                technique.moments ? cause_count : compared_cause_count),
                   {},
@@ -258,9 +269,15 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   for (const PixelRange& strip : lookup.strips) {
     if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
     climbed.tap_answers += lookup.taps.answers;
+    const auto judge = [&](auto&... judges) {
+      if (soundness)
+        read_taps(evidence, strip, judges..., *soundness);
+      else
+        read_taps(evidence, strip, judges...);
+    };
     if (technique.moments) {
       MomentClimb climbing(evidence, strip, climbed.ladder);
-      read_taps(evidence, strip, climbing, soundness);
+      judge(climbing);
       below_comparison = larger_residual(below_comparison, climbing.below_comparison());
       climbed.reductions.add(climbing.reductions());
       if (each_strip) each_strip(evidence, strip);
@@ -269,14 +286,15 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
     Climb climbing(evidence, strip, climbed.ladder);
     if (climbed.counts) {
       BiasCounts::Adding counting(*climbed.counts, evidence, shown.stored);
-      read_taps(evidence, strip, climbing, soundness, counting);
+      judge(climbing, counting);
     } else {
-      read_taps(evidence, strip, climbing, soundness);
+      judge(climbing);
     }
     if (each_strip) each_strip(evidence, strip);
   }
   keep_small_index(renderer, technique.frame);
-  climbed.soundness = soundness.metrics();
+  if (!soundness) return climbed;
+  climbed.soundness = soundness->metrics();
   if (technique.moments) {
     climbed.soundness.merge(moment_contract_metrics(shown.moments));
     if (technique.moments->kind().bound) climbed.soundness["below_comparison"] = below_comparison;

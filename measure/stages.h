@@ -74,8 +74,14 @@ struct LookupStage {
   size_t seen_texels = 0;  // those of exact_depth that receivers read whose result the map has a part in
 };
 
+// Whether a measurement checks its renderer too (compare/judge/soundness.h). With none OpenGL draws the maps and looks them
+// up (R5) as always. But R4 of a lookup that compares depths is computed from the taps, and no number of the renderer is
+// compared with its definition. For what is measured in order to be compared, and not kept: a search, a small picture.
+enum class Checks { all, none };
+
 // What OpenGL shows in one map: the technique on its own map, on the exact map and on the tie map.
 struct ShownStage {
+  Checks checks = Checks::all;  // with none there is no tie map, and r4 only of a map of moments
   Image<float> r5, r4, tie_lookup;
   MapDepths stored;  // the drawn map as the lookup's sampler returns it
   MapDepths ties;
@@ -85,6 +91,7 @@ struct ShownStage {
 
 // The same in all maps of a point, each kind of them looked up in one pass.
 struct ShownMaps {
+  Checks checks = Checks::all;
   MapResults r5, r4, tie_lookup;
   std::vector<MapDepths> stored, ties;  // of each map
   std::vector<MomentContractCounts> moments;
@@ -145,10 +152,11 @@ class Pipeline {
   // One lookup of all receivers, in all maps. show_maps() calls it for the drawn, the exact and the tie maps.
   virtual MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques);
   // map: has its maps; afterwards they and the exact maps on the device are kept only if they are small. exact_map: those of
-  // an earlier call for the same lookups, or none. chosen: null with one map. keep_fetched: of maps of moments.
+  // an earlier call for the same lookups, or none. chosen: null with one map. keep_fetched: of maps of moments. checks: what
+  // only they read is left out with none, and climb_strips() leaves them out too.
   ShownMaps show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
                       std::span<const AskedMap> asked, std::span<const Technique> techniques,
-                      const ChosenCascades* chosen, bool keep_fetched = false);
+                      const ChosenCascades* chosen, bool keep_fetched = false, Checks checks = Checks::all);
   // The same of one map, whose exact map is not kept.
   ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
                   const Technique& technique);

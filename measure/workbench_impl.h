@@ -161,7 +161,8 @@ struct Workbench::Impl {
   // The lookups of all maps, and what OpenGL shows in them. truths: of each map. of_receivers: null with one map.
   ShownMaps show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
                       std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
-                      const ChosenCascades* of_receivers, MetricSet metrics, bool keep_fetched = false);
+                      const ChosenCascades* of_receivers, MetricSet metrics, bool keep_fetched = false,
+                      Checks checks = Checks::all);
 
   // Frees the receivers of a large picture on the device; see() brings them back.
   void free_large_picture(const ReceiverImage& receivers) {
@@ -182,7 +183,7 @@ struct Workbench::Impl {
   WorstPlacement render_worst(const Asked& asked, const ViewStage& seen, const OneMap& map, PlacementStage& placements);
   void add_placements(PointRecord& record, std::span<const OneMap> maps,
                       std::span<const std::unique_ptr<PlacementStage>> placements,
-                      std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked);
+                      std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked, Checks checks);
 
   struct SmallPicture;
   LivePicture draw_live(const SceneStage& loaded, const Settings& settings);

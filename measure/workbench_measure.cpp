@@ -90,7 +90,7 @@ PointRecord record_of(const Recorded& in) {
   const bool any = depths.least_m <= depths.most_m;
   record.metrics["nearest_receiver_m"] = any ? depths.least_m : not_a_number;
   record.metrics["farthest_receiver_m"] = any ? depths.most_m : not_a_number;
-  if (in.metrics == MetricSet::all) {
+  if (in.metrics != MetricSet::searched) {
     record.metrics["shaded_rmse"] = shaded_rmse(receivers, t.frame, camera, ladder.truth(), ladder.shown());
     record.metrics["flip"] = shaded_flip(receivers, t.frame, camera, ladder.truth(), ladder.shown());
   }
@@ -239,7 +239,8 @@ const ChoiceStage& Workbench::Impl::choose(const Asked& asked, const ViewStage& 
 
 ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
                                      std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
-                                     const ChosenCascades* of_receivers, MetricSet metrics, bool keep_fetched) {
+                                     const ChosenCascades* of_receivers, MetricSet metrics, bool keep_fetched,
+                                     Checks checks) {
   const SceneStage& loaded = asked.loaded;
   if (!kept.exact.has(asked.keys.lookup)) kept.exact.forget();
   std::vector<AskedMap> of_each;
@@ -255,7 +256,7 @@ ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, 
   // A search does not read it, and it costs a pass over the map.
   if (metrics == MetricSet::all && !map.used) map.used = renderer.used_texels(*map.map);
   std::optional<gl::ShadowMap>& exact = kept.exact.get(asked.keys.lookup, [] { return std::nullopt; });
-  return stages->show_maps(renderer, map, exact, of_each, techniques, of_receivers, keep_fetched);
+  return stages->show_maps(renderer, map, exact, of_each, techniques, of_receivers, keep_fetched, checks);
 }
 
 // OpenGL renders the worst placement of a map too: the counts are compared with it, and what it shows there is a metric of
@@ -277,11 +278,12 @@ Workbench::Impl::WorstPlacement Workbench::Impl::render_worst(const Asked& asked
   return {error_of_map(climbed.ladder, map.truth.receivers), std::move(climbed.soundness)};
 }
 
-// Adds the metrics over all placements of a map, or of each of the cascades, whose worst placements are independent.
-// of_maps: placement_metrics() of all of them.
+// Adds the metrics over all placements of a map, or of each of the cascades, whose worst placements are independent; with
+// checks, what OpenGL shows at the worst. of_maps: placement_metrics() of all of them.
 void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap> maps,
                                      std::span<const std::unique_ptr<PlacementStage>> placements,
-                                     std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked) {
+                                     std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked,
+                                     Checks checks) {
   record.metrics.merge(of_maps);
   double error = 0, disagreements = 0, receivers = 0;
   for (const auto& stage : placements) receivers += stage->receivers();
@@ -291,7 +293,7 @@ void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap
     time.milliseconds += stage.time().milliseconds;
     time.rays += stage.time().rays;
     const double share = stage.receivers() / receivers;
-    if (!(share > 0)) continue;
+    if (!(share > 0) || checks == Checks::none) continue;
     const WorstPlacement worst = render_worst(asked, seen, maps[k], stage);
     error += share * worst.error_shown;
     disagreements += static_cast<double>(stage.disagreements());
@@ -300,8 +302,10 @@ void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap
       if (const auto value = worst.soundness.find(limit.metric); value != worst.soundness.end())
         if (double& found = record.metrics[limit.metric]; !(value->second <= found)) found = value->second;
   }
-  record.metrics["error_worst_shown"] = error;
-  record.metrics["placement_disagreements"] = disagreements;
+  if (checks == Checks::all) {
+    record.metrics["error_worst_shown"] = error;
+    record.metrics["placement_disagreements"] = disagreements;
+  }
   add_time(record, "placement", time);
 }
 
@@ -344,7 +348,7 @@ std::vector<ReceiverSection> Workbench::sections(const Measurement& m, std::span
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
-                               MetricSet metrics) {
+                               MetricSet metrics, Checks checks) {
   Impl& b = *impl_;
   const Impl::Asked asked = b.begin(settings);
   const SceneStage& loaded = asked.loaded;
@@ -376,7 +380,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   std::vector<std::unique_ptr<PlacementStage>> placements;  // of each map
   const auto with_placements = [&](LookupStage& lookup) -> EachStrip {
     const size_t k = placements.size();
-    PlacementRequest request{unknown, {}, {}};
+    PlacementRequest request{unknown, {}, {}, checks};
     if (unknown) request.edges = placement_edges(biases_of(*curve_options), scale.depth_per_unit);
     if (reduces && !cascaded) request.reductions = {curve_options->peter_panning_bound, curve_options->acne_bound};
     placements.push_back(make_placement_stage(
@@ -388,7 +392,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   std::optional<ParameterCurve> over;
   if (curve_options && has_curve_over(settings, curve_options->over.setting))
     over.emplace(curve_options->over, settings);
-  ShownMaps shown = b.show_maps(asked, view, kept, truths, techniques, of_receivers, metrics, over.has_value());
+  ShownMaps shown = b.show_maps(asked, view, kept, truths, techniques, of_receivers, metrics, over.has_value(), checks);
   std::vector<OneMap> maps;
   for (size_t k = 0; k < techniques.size(); ++k) {
     LookupStage& lookup = *kept.each[k].lookup.value();
@@ -442,8 +446,10 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       of_placements = join_placements(cascades, receivers, m.cascades.blends());
     }
     laws = join_laws(cascades);
-    soundness = join_soundness(cascades);
-    soundness["cascade_choice_excess"] = choice->excess;
+    if (checks == Checks::all) {
+      soundness = join_soundness(cascades);
+      soundness["cascade_choice_excess"] = choice->excess;
+    }
     keep_cascade_metrics(cascades);
   }
   Recorded recorded{technique, m.ladder, loaded, view, truth, {}, cascaded ? &m.cascades : nullptr, metrics};
@@ -500,7 +506,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     m.record.metrics.merge(measure_flicker(*m.flicker));
   }
   if (!placements.empty() && !nothing_judged(m.record))
-    b.add_placements(m.record, maps, placements, std::move(of_placements), view, asked);
+    b.add_placements(m.record, maps, placements, std::move(of_placements), view, asked, checks);
   for (size_t k = 0; k < maps.size(); ++k)
     m.maps.push_back(
         {techniques[k], maps[k].lookup.probe, std::move(maps[k].stored), maps[k].lookup.exact_depth,

@@ -105,7 +105,7 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
     for (const TruthStage& truth : small.truths) truths.push_back(&truth);
     const ChosenCascades* const of_receivers = small.chosen ? &*small.chosen : nullptr;
     ShownMaps shown = show_maps({loaded, techniques.front(), keys}, small.seen, kept, truths, techniques, of_receivers,
-                                MetricSet::searched);
+                                MetricSet::searched, false, Checks::none);
     std::optional<Ladder> ladder;
     for (size_t k = 0; k < techniques.size(); ++k) {
       const TruthStage& truth = small.truths[k];

@@ -32,7 +32,7 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
   EnginePromise promise;
   for (const Settings& settings : conditions) {
     require_memory(bench.memory(settings, false, false), bench.memory_of_program(false), "the engine's map");
-    const PointRecord point = bench.measure(settings, std::nullopt, metric_set_for(accuracy)).record;
+    const PointRecord point = bench.measure(settings, std::nullopt, metric_set_for(accuracy), Checks::none).record;
     if (nothing_judged(point)) continue;
     // As the error of an answer: of a filtered map that of the worst placement, where it is measured at each.
     const bool filtered = reads_moments(settings);

@@ -179,7 +179,7 @@ class Search {
         return;
       }
     say_(fmt::format("looking at {} in full size", name_of(tried, request_)));
-    const PointRecord shown = bench_.measure(tried.settings, std::nullopt).record;
+    const PointRecord shown = bench_.measure(tried.settings, std::nullopt, MetricSet::shaded, Checks::none).record;
     tried.eye = eye_errors(shown);
     tried.why_not = why_not_for_eye(shown, request_.eye);
   }
@@ -204,7 +204,7 @@ class Search {
                                                           tried.settings.filter, tried.settings.map.resolution),
                                      request_.width_px);
       there.map.placements = placements_along(tried);
-      PointRecord record = bench_.measure(there, searched_, metric_set_for(request_.accuracy)).record;
+      PointRecord record = bench_.measure(there, searched_, metric_set_for(request_.accuracy), Checks::none).record;
       if (nothing_judged(record)) {
         say_("a view in which nothing can be judged is left out");
         continue;
@@ -390,7 +390,7 @@ class Search {
     Settings there = settings_of(*tried.worst);
     there.map.placements = 1;
     find_setting(tried.worst->curve->parameter).set(there, fmt::format("{}", tried.nearest->bias));
-    const Measurement m = bench_.measure(there, std::nullopt);
+    const Measurement m = bench_.measure(there, std::nullopt, MetricSet::searched, Checks::none);
     tried.worst = m.record;
     tried.worst->worst = worst_of_bias(m);
     return tried;

@@ -99,7 +99,8 @@ class Around {
 
   void add(const Settings& settings, TornadoEnd& end) {
     require_memory(bench_.memory(settings, false, false), bench_.memory_of_program(false), "the search");
-    const PointRecord point = bench_.measure(settings, std::nullopt, metric_set_for(options_.accuracy)).record;
+    const PointRecord point =
+        bench_.measure(settings, std::nullopt, metric_set_for(options_.accuracy), Checks::none).record;
     if (nothing_judged(point)) return;  // a view that sees nothing says nothing of the technique
     if (!has_placements(point) || placed_names(options_.accuracy).largest.empty()) placed_ = false;
     const double error = worst_placed(point, options_.accuracy);

@@ -212,7 +212,7 @@ void judge_reduction(Workbench& bench, Tried& tried, const std::vector<PointReco
   for (const PointRecord& point : points) {
     Settings there = settings_of(point);
     there.lookup["reduction"] = choice.value;
-    PointRecord shown = bench.measure(there, std::nullopt, metric_set_for(accuracy)).record;
+    PointRecord shown = bench.measure(there, std::nullopt, metric_set_for(accuracy), Checks::none).record;
     if (!take_point(bench, tried, std::move(shown), searched, accuracy)) return;
   }
 }

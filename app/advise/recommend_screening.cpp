@@ -70,7 +70,7 @@ std::string why_too_wrong(const Tried& tried, const AdviceRequest& request) {
 
 double Screening::error_of(const Tried& tried) const {
   const Settings settings = small_picture(tried.settings, request_.width_px);
-  return metric_of(bench_.measure(settings, std::nullopt, metric_set_for(request_.accuracy)).record,
+  return metric_of(bench_.measure(settings, std::nullopt, metric_set_for(request_.accuracy), Checks::none).record,
                    placed_accuracy(bench_, settings, request_.accuracy));
 }
 
@@ -243,7 +243,7 @@ void Screening::measure(const Choice& choice) {
   try {
     const Settings settings = small_picture(tried.settings, request_.width_px);
     require_memory(bench_.memory(settings, true, false), bench_.memory_of_program(false), "the search");
-    PointRecord record = bench_.measure(settings, searched_, metric_set_for(request_.accuracy)).record;
+    PointRecord record = bench_.measure(settings, searched_, metric_set_for(request_.accuracy), Checks::none).record;
     if (nothing_judged(record))
       throw Error(ErrorKind::usage, "nothing of the scene that faces the light is in view; choose another view");
     if (!seen_) seen_ = seen_share(record);

@@ -60,7 +60,8 @@ int searched_width_px(Workbench& bench, const Settings& settings) {
   Settings probe = small_picture(settings, least_searched_px);
   probe.map.resolution = 256;
   probe.map.placements = 1;
-  const double counted = metric_of(bench.measure(probe, std::nullopt, MetricSet::searched).record, "counted");
+  const double counted =
+      metric_of(bench.measure(probe, std::nullopt, MetricSet::searched, Checks::none).record, "counted");
   if (!(counted > 0)) return least_searched_px;
   const double wanted = std::ceil(probe.view.width_px * std::sqrt(enough_receivers / counted));
   const int most = std::max(least_searched_px, settings.view.width_px);

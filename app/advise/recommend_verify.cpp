@@ -1,5 +1,7 @@
 #include "app/advise/recommend_verify.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -7,6 +9,8 @@
 #include <random>
 
 #include "app/advise/recommend_filtered.h"
+#include "base/error.h"
+#include "compare/judge/soundness.h"
 #include "compare/results/quantities.h"
 #include "technique/light_frame.h"
 #include "technique/lookups.h"
@@ -43,7 +47,18 @@ struct Limits {
   bool filtered = false;
 };
 
+// The search measured without checks, so these measurements are those that say whether the answer can be relied on.
+void require_sound(const PointRecord& shown) {
+  if (const std::vector<Unsound> unsound = find_unsound({&shown, 1}); !unsound.empty())
+    throw Error(
+        ErrorKind::defect,
+        fmt::format("a measurement that verifies the answer contradicts itself ({}); so there is no answer; report "
+                    "this with the output of noonmark doctor",
+                    value_text(unsound.front())));
+}
+
 void judge(PointRecord shown, const Limits& limits, Verified& verified) {
+  require_sound(shown);
   const double acne = worst_placed(shown, "acne"), panning = worst_placed(shown, "peter_panning"),
                error = worst_placed(shown, limits.accuracy);
   verified.worst_acne = std::max(verified.worst_acne, acne);

@@ -98,7 +98,7 @@ class Divider {
     settings.map.resolution = resolution;
     settings.map.placements = 1;
     say_(fmt::format("{}: a map of {} texels", lights_[light].first, resolution));
-    const Measurement m = bench_.measure(settings, CurveOptions(), MetricSet::searched);
+    const Measurement m = bench_.measure(settings, CurveOptions(), MetricSet::searched, Checks::none);
     if (tiles_.size() == light) tiles_.push_back(m.technique.frame.tiles);
     if (const std::optional<BiasCurve>& curve = m.record.curve) {
       const double best = curve->best_bias_depth * parameter_per_depth(m.record);
@@ -107,7 +107,7 @@ class Divider {
     return settings;
   }
   LightPart part_of(const Settings& settings) {
-    return light_part(bench_.measure(settings, std::nullopt, MetricSet::searched));
+    return light_part(bench_.measure(settings, std::nullopt, MetricSet::searched, Checks::none));
   }
   Candidate candidate(size_t light, int resolution) {
     Candidate made{resolution, texels(light, resolution), 0, measured(light, resolution)};

@@ -175,9 +175,12 @@ std::vector<Unsound> find_unsound(std::span<const PointRecord> points) {
   return found;
 }
 
+std::string value_text(const Unsound& unsound) {
+  return fmt::format("{} = {}, a sound one has at most {}", unsound.limit->metric, unsound.value, unsound.limit->most);
+}
+
 std::string text_of(const Unsound& unsound) {
-  return fmt::format("point {}: the measurement contradicts itself ({} = {}, a sound one has at most {})",
-                     unsound.point, unsound.limit->metric, unsound.value, unsound.limit->most);
+  return fmt::format("point {}: the measurement contradicts itself ({})", unsound.point, value_text(unsound));
 }
 
 }  // namespace noonmark

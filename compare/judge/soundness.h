@@ -116,6 +116,8 @@ struct Unsound {
 };
 std::vector<Unsound> find_unsound(std::span<const PointRecord> points);
 
+// "contract = 0.25, a sound one has at most 0"
+std::string value_text(const Unsound& unsound);
 // "point 3: the measurement contradicts itself (contract = 0.25, a sound one has at most 0)"
 std::string text_of(const Unsound& unsound);
 

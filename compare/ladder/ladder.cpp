@@ -111,7 +111,7 @@ Climb::Climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder) :
 void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
   const LookupEvidence& e = e_;
   Ladder& ladder = ladder_;
-  const bool blended = e.probe.pattern.bilinear();
+  const bool computed = e.probe.pattern.bilinear() || e.r4.size() == 0;
   const double whole = whole_weight(e.probe);
   if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside_of_map(e.probe, i, e.exact_map))
     ladder.flags[i] |= flag_outside;
@@ -149,8 +149,8 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
   if (unsure > 0) ladder.flags[i] |= flag_undecided;
   // Computed in double and rounded once to float: the shader's own count / N is the same quotient in float.
   const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
-  const float r[std::size(rung_names)] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
-                                          share(texel_lit), blended ? share(all_lit) : e.r4[i], e.r5[i]};
+  const float r[std::size(rung_names)] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]),  share(exact_lit),
+                                          share(texel_lit), computed ? share(all_lit) : e.r4[i], e.r5[i]};
   for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
 
   const auto set = [&](Cause cause, float value) { ladder[cause][i] = value; };

@@ -69,7 +69,9 @@ struct LookupEvidence {
   const MapDepths& exact_map;
   const MapSettings& map;
   Bias bias;
-  const Image<float>& r4;  // OpenGL's result on the exact map; climb() does not read it if a sampler blends the taps
+  // OpenGL's result on the exact map. climb() does not read it if a sampler blends the taps, and computes it from the taps if
+  // it is empty.
+  const Image<float>& r4;
   const Image<float>& r5;
   const MomentLookup* moments = nullptr;  // null: the lookup compares depths
 };
