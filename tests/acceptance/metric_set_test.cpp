@@ -1,4 +1,4 @@
-// A measurement without the metrics that a search does not read: nothing else changes.
+// A measurement without the metrics that a search does not read, and one without checks of the renderer: nothing else changes.
 #include <gtest/gtest.h>
 
 #include "tests/support/measured.h"
@@ -10,16 +10,100 @@ TEST(MetricSet, AreLeftOutAlone) {
   Workbench bench(gl::DebugMode::fatal);
   const Settings settings = with({{"map.placements", "2"}}, small("cube-room", 120, 68));
   auto all = bench.measure(settings, CurveOptions{}).record.metrics;
+  const auto leave_out = [&](MetricSet needed, const std::vector<const char*>& metrics) {
+    for (const char* metric : metrics) {
+      EXPECT_GT(all[metric], 0) << metric;
+      EXPECT_EQ(metric_set_for(metric), needed) << metric;
+      all.erase(metric);
+    }
+  };
+  leave_out(MetricSet::all, {"map_used", "undersampled", "perspective_aliasing", "perspective_aliasing_p95"});
+  EXPECT_EQ(bench.measure(settings, CurveOptions{}, MetricSet::shaded).record.metrics, all);
+  leave_out(MetricSet::shaded, {"shaded_rmse", "flip"});
   const auto few = bench.measure(settings, CurveOptions{}, MetricSet::searched).record.metrics;
-  for (const char* metric :
-       {"shaded_rmse", "flip", "map_used", "undersampled", "perspective_aliasing", "perspective_aliasing_p95"}) {
-    EXPECT_GT(all[metric], 0) << metric;
-    EXPECT_EQ(metric_set_for(metric), MetricSet::all) << metric;
-    all.erase(metric);
-  }
   EXPECT_EQ(few, all);
   for (const auto& [metric, value] : few) EXPECT_EQ(metric_set_for(metric), MetricSet::searched) << metric;
 }
+
+class WithoutChecks : public testing::TestWithParam<SceneCase> {};
+
+// The metrics that are left out: those of soundness, but for the ladder's own residuals, and what OpenGL shows at the worst
+// placement. Also those of each cascade.
+void leave_out_checks(std::map<std::string, double>& metrics) {
+  for (const char* metric :
+       {"contract", "rounding_excess", "address_error_texels", "reference_error_m", "map_error_quanta", "map_bits",
+        "cascade_choice_excess", "contract_store", "contract_blur", "contract_fetch", "contract_lit",
+        "contract_fetch_largest", "below_comparison", "error_worst_shown", "placement_disagreements"})
+    metrics.erase(metric);
+}
+
+std::vector<float> numbers_of(const Ladder& ladder) {
+  std::vector<float> all = ladder.doubt.pixels;
+  for (const Ladder::RungImage& rung : ladder.rungs)
+    all.insert(all.end(), rung.lit.pixels.begin(), rung.lit.pixels.end());
+  for (const Ladder::CauseImage& cause : ladder.causes)
+    all.insert(all.end(), cause.step.pixels.begin(), cause.step.pixels.end());
+  return all;
+}
+
+TEST_P(WithoutChecks, AllElseIsTheSame) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings settings = with(GetParam().settings, small(GetParam().scene, 160, 90));
+  const auto measured = [&](Checks checks) {
+    return bench.measure(settings, CurveOptions{}, MetricSet::searched, checks);
+  };
+  const Measurement checked = measured(Checks::all);
+  const Ladder ladder = checked.ladder;
+  PointRecord wanted = checked.record;
+  ASSERT_TRUE(wanted.metrics.contains("contract"));
+  // Once with what the checked measurement left behind, and once anew.
+  for (const bool anew : {false, true}) {
+    if (anew) bench.measure(small("plane", 32, 18), std::nullopt);
+    const Measurement bare = measured(Checks::none);
+    auto metrics = wanted.metrics;
+    EXPECT_FALSE(bare.record.metrics.contains("contract"));
+    leave_out_checks(metrics);
+    for (const auto& [name, value] : metrics) {
+      const auto found = bare.record.metrics.find(name);
+      ASSERT_NE(found, bare.record.metrics.end()) << name;
+      if (name == "residual" || name == "tap_residual") {
+        EXPECT_LE(found->second, value) << name;  // the worst placement, which is not drawn, has one too
+        continue;
+      }
+      EXPECT_TRUE(found->second == value || (std::isnan(value) && std::isnan(found->second)))
+          << name << " is " << found->second << ", and with checks " << value;
+    }
+    EXPECT_EQ(bare.record.metrics.size(), metrics.size());
+    EXPECT_EQ(numbers_of(bare.ladder), numbers_of(ladder));
+    EXPECT_EQ(bare.ladder.cause.pixels, ladder.cause.pixels);
+    EXPECT_EQ(bare.ladder.flags.pixels, ladder.flags.pixels);
+    EXPECT_EQ(bare.record.cascades.size(), wanted.cascades.size());
+    ASSERT_EQ(bare.record.curve.has_value(), wanted.curve.has_value());
+    if (!wanted.curve) continue;
+    EXPECT_EQ(bare.record.curve->bias_depth, wanted.curve->bias_depth);
+    EXPECT_EQ(bare.record.curve->error, wanted.curve->error);
+    EXPECT_EQ(bare.record.curve->acne, wanted.curve->acne);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lookups, WithoutChecks,
+    testing::Values(
+        SceneCase{"none", "cube-room", {{"bias.constant", "0.01"}}},
+        SceneCase{"box", "cube-room", {{"filter.kind", "box"}, {"filter.size", "5"}, {"map.placements", "2"}}},
+        SceneCase{
+            "hardware", "hills-walk", {{"filter.kind", "hardware"}, {"map.format", "16"}, {"map.placements", "2"}}},
+        SceneCase{"plane", "cube-room", {{"filter.kind", "box"}, {"bias.reference", "receiver_plane"}}},
+        SceneCase{"vsm", "cube-room", {{"lookup.kind", "vsm"}, {"filter.kind", "box"}, {"map.placements", "2"}}},
+        SceneCase{"point", "cube-room", {{"light.kind", "point"}, {"map.resolution", "128"}, {"map.placements", "2"}}},
+        SceneCase{"cascades",
+                  "street",
+                  {{"map.fit", "sphere"},
+                   {"cascades.count", "3"},
+                   {"cascades.blend", "0.2"},
+                   {"map.resolution", "256"},
+                   {"map.placements", "2"}}}),
+    [](const auto& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace noonmark::acceptance
