@@ -254,9 +254,13 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
                                const BiasPart* varied, const EachStrip& each_strip) {
   const LookupEvidence evidence = evidence_of(lookup, truth, shown, technique);
   std::optional<SoundnessCheck> soundness;
-  if (shown.checks == Checks::all)
+  const bool reads_tan = technique.bias.reads_tan();
+  if (shown.checks == Checks::all) {
+    const bool known = lookup.checked_probe && lookup.checked_probe->second == reads_tan;
     soundness.emplace(SoundnessInput{evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers,
-                                     technique.frame, view.camera.eye_m});
+                                     technique.frame, view.camera.eye_m,
+                                     known ? &lookup.checked_probe->first : nullptr});
+  }
   Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height(),
                                technique.moments ? cause_count : compared_cause_count),
                   {},
@@ -295,6 +299,7 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   keep_small_index(renderer, technique.frame);
   if (!soundness) return climbed;
   climbed.soundness = soundness->metrics();
+  lookup.checked_probe.emplace(soundness->probe(), reads_tan);
   if (technique.moments) {
     climbed.soundness.merge(moment_contract_metrics(shown.moments));
     if (technique.moments->kind().bound) climbed.soundness["below_comparison"] = below_comparison;

@@ -72,6 +72,9 @@ struct LookupStage {
   StageTime texel_stage, tap_stage;
   TruthAnswers texel_answers{};
   size_t seen_texels = 0;  // those of exact_depth that receivers read whose result the map has a part in
+  // What climb_strips() found when it checked the probe, and whether the bias read tan(theta) then. The amounts of a bias of
+  // the compared depth change nothing else that is checked of the probe, so it is compared once for all of them.
+  std::optional<std::pair<ProbeErrors, bool>> checked_probe{};
 };
 
 // Whether a measurement checks its renderer too (compare/judge/soundness.h). With none OpenGL draws the maps and looks them

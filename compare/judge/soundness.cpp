@@ -76,7 +76,7 @@ void SoundnessCheck::receiver(size_t i, const ReceiverTaps& taps, Part& part) co
     part.broken += !(holds(e, taps, bias, e.exact_map, DepthFormat::d32f, i, e.r4[i]) &&
                      holds(e, taps, bias, in_.stored_map, e.map.format, i, e.r5[i]) &&
                      holds(e, taps, bias, in_.ties, DepthFormat::d32f, i, in_.tie_lookup[i]));
-  check_.compare(i, part.probe);
+  if (!in_.known_probe) check_.compare(i, part.probe);
 }
 
 void SoundnessCheck::join(const Part& part) {
@@ -137,7 +137,9 @@ MapDepths tie_map(const LookupEvidence& e) {
 }
 
 SoundnessCheck::SoundnessCheck(const SoundnessInput& in)
-    : in_(in), check_(in.evidence, in.receivers, in.frame, in.eye_m) {}
+    : in_(in), check_(in.evidence, in.receivers, in.frame, in.eye_m) {
+  if (in.known_probe) found_.probe = *in.known_probe;
+}
 
 void SoundnessCheck::add(PixelRange strip) { read_taps(in_.evidence, strip, *this); }
 

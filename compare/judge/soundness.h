@@ -34,6 +34,8 @@ struct SoundnessInput {
   const ReceiverImage& receivers;
   const LightFrame& frame;
   glm::dvec3 eye_m;  // the camera's position
+  // What an earlier check found of the same probe (SoundnessCheck::probe()); null: it is compared anew.
+  const ProbeErrors* known_probe = nullptr;
 };
 
 // Metrics over the facing receivers. Ambiguous ones are included, because only their truth is unsure and not their
@@ -61,6 +63,7 @@ class SoundnessCheck {
   // Adds a strip by itself; the evidence holds the taps of one strip at a time. Every pixel must be added once.
   void add(PixelRange strip);
   std::map<std::string, double> metrics() const;  // over the strips added so far
+  const ProbeErrors& probe() const { return found_.probe; }
 
   // As a judge of read_taps (compare/ladder/receiver_taps.h), which adds the strip too.
   struct Part {

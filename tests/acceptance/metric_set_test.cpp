@@ -1,4 +1,5 @@
-// A measurement without the metrics that a search does not read, and one without checks of the renderer: nothing else changes.
+// A measurement without the metrics that a search does not read, one without checks of the renderer, and one whose checks are
+// partly known from the point before: nothing else changes.
 #include <gtest/gtest.h>
 
 #include "tests/support/measured.h"
@@ -104,6 +105,32 @@ INSTANTIATE_TEST_SUITE_P(
                    {"map.resolution", "256"},
                    {"map.placements", "2"}}}),
     [](const auto& one) { return one.param.name; });
+
+// A probe whose tangents are wrong.
+struct WrongTangents : Pipeline {
+  LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
+                             const TruthStage& truth, const Technique& technique) override {
+    LookupStage lookup = Pipeline::prepare_lookup(renderer, tracer, view, truth, technique);
+    for (float& tangent : lookup.probe.tan_theta.pixels) tangent *= 2;
+    return lookup;
+  }
+};
+
+// The probe is compared once for all amounts of the bias, and anew where the bias begins to read tan(theta).
+TEST(Checks, OfTheProbeAreRemembered) {
+  const Settings constant = with({{"bias.constant", "0.01"}}, small("hills-walk", 160, 90));
+  const Settings larger = with({{"bias.constant", "0.02"}}, constant), tangent = with({{"bias.tan", "0.01"}}, constant);
+  Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<WrongTangents>());
+  const auto excess = [&](const Settings& settings) {
+    return bench.measure(settings, std::nullopt).record.metrics.at("rounding_excess");
+  };
+  const double unread = excess(constant);
+  EXPECT_GT(unread, 0);
+  EXPECT_LT(unread, 1);
+  EXPECT_EQ(excess(larger), unread);
+  EXPECT_GT(excess(tangent), 1000);
+  EXPECT_EQ(excess(larger), unread);
+}
 
 }  // namespace
 }  // namespace noonmark::acceptance
