@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace noonmark {
@@ -22,6 +23,19 @@ double least_stretch(glm::dvec2 a, glm::dvec2 b) {
   // (squares - root) / 2 without cancellation.
   return std::abs(determinant) / std::sqrt((squares + root) / 2);
 }
+
+// The grid of a map. One of a single tile is the same for all receivers.
+struct Grid {
+  const LightFrame& frame;
+  const KindOfLight& kind;
+  std::optional<MapTile> only;
+  explicit Grid(const LightFrame* of) : frame(*of), kind(of->light()) {
+    if (of->tiles == 1) only = of->tile(0);
+  }
+  glm::dvec2 texels(const MapTile& tile, glm::dvec3 world) const {
+    return tile.texels(kind.place(frame.to_light(world)));
+  }
+};
 
 double pixel_width_m(const CameraFrame& camera, glm::dvec3 p, int height) {
   const bool perspective = camera.camera.projection == Projection::perspective;
@@ -42,18 +56,20 @@ TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame
   const int width = receivers.width(), height = receivers.height();
   const auto none = static_cast<float>(std::numeric_limits<double>::quiet_NaN());
   TexelFootprint footprint{{width, height, none}, {width, height, none}};
+  const std::vector<Grid> grids(frames.begin(), frames.end());
+  const PixelRays rays(camera, width, height);
   tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y)
       for (int x = 0; x < width; ++x) {
         const size_t i = facing.index(x, y);
         if (!facing[i]) continue;
-        const LightFrame& frame = *frames[cascades ? (*cascades)[i] : 0];
-        const glm::dvec3 p(receivers.position[i]), normal(receivers.normal[i]), light = frame.to_light(p);
-        const MapTile tile = frame.tile_at(light);
-        const auto texels = [&](glm::dvec3 world) { return tile.texels(frame.place(frame.to_light(world))); };
-        const glm::dvec2 here = texels(p);
-        const glm::dvec2 right = texels(on_plane(camera.pixel_ray(x + 1, y, width, height), p, normal)) - here,
-                         down = texels(on_plane(camera.pixel_ray(x, y + 1, width, height), p, normal)) - here;
+        const Grid& grid = grids[cascades ? (*cascades)[i] : 0];
+        const glm::dvec3 p(receivers.position[i]), normal(receivers.normal[i]), light = grid.frame.to_light(p);
+        std::optional<MapTile> there;
+        const MapTile& tile = grid.only ? *grid.only : there.emplace(grid.frame.tile_at(light));
+        const glm::dvec2 here = tile.texels(grid.kind.place(light));
+        const glm::dvec2 right = grid.texels(tile, on_plane(rays.at(x + 1, y), p, normal)) - here,
+                         down = grid.texels(tile, on_plane(rays.at(x, y + 1), p, normal)) - here;
         footprint.pixels[i] = static_cast<float>(1 / least_stretch(right, down));
         footprint.perspective[i] = static_cast<float>(tile.texel_m(light) / pixel_width_m(camera, p, height));
       }

@@ -1,6 +1,7 @@
 #include "measure/view_shading.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,8 @@ double clay_response(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye) 
 }
 
 namespace {
+
+const glm::u8vec3 shown_background(background_srgb[0], background_srgb[1], background_srgb[2]);
 
 // Calls visit(i) for each pixel, from several threads.
 void each_pixel(size_t pixels, const auto& visit) {
@@ -72,29 +75,81 @@ double shaded_rmse(const ReceiverImage& receivers, const LightFrame& light, cons
 }
 
 Image<glm::u8vec3> shown_frame(const ReceiverImage& receivers, const Image<float>& frame) {
-  Image<glm::u8vec3> shown(frame.width, frame.height, {background_srgb[0], background_srgb[1], background_srgb[2]});
+  Image<glm::u8vec3> shown(frame.width, frame.height, shown_background);
   each_pixel(shown.size(), [&](size_t i) {
     if (receivers.primitive[i] != no_primitive) shown[i] = glm::u8vec3(srgb_encoded(frame[i]));
   });
   return shown;
 }
 
+namespace {
+
+// The pixels whose visibility differs between two pictures, by blocks of the picture.
+struct Differing {
+  static constexpr int side = 8;
+  bool any = false, undefined = false;  // any: receivers; undefined: a visibility of one is NaN
+  Image<uint8_t> blocks;
+
+  Differing(const ReceiverImage& receivers, const Image<float>& one, const Image<float>& other)
+      : blocks((one.width + side - 1) / side, (one.height + side - 1) / side) {
+    struct Found {
+      bool any = false, undefined = false;
+    };
+    const Found found = tbb::parallel_reduce(
+        tbb::blocked_range<int>(0, blocks.height), Found(),
+        [&](const tbb::blocked_range<int>& range, Found all) {
+          for (int y = range.begin() * side; y < std::min(range.end() * side, one.height); ++y)
+            for (int x = 0; x < one.width; ++x) {
+              const size_t i = one.index(x, y);
+              if (receivers.primitive[i] == no_primitive) continue;
+              all.any = true;
+              if (one[i] == other[i]) continue;  // neither is NaN
+              all.undefined |= std::isnan(one[i]) || std::isnan(other[i]);
+              blocks.at(x / side, y / side) = 1;
+            }
+          return all;
+        },
+        [](Found a, Found b) {
+          return Found{a.any || b.any, a.undefined || b.undefined};
+        });
+    any = found.any, undefined = found.undefined;
+  }
+
+  // The blocks with a pixel that lies within `reach` of such a pixel.
+  Image<uint8_t> within(int reach) const {
+    const int steps = (reach + side - 1) / side;
+    Image<uint8_t> near(blocks.width, blocks.height);
+    for (int y = 0; y < blocks.height; ++y)
+      for (int x = 0; x < blocks.width; ++x)
+        if (blocks.at(x, y))
+          for (int j = std::max(0, y - steps); j <= std::min(blocks.height - 1, y + steps); ++j)
+            for (int i = std::max(0, x - steps); i <= std::min(blocks.width - 1, x + steps); ++i) near.at(i, j) = 1;
+    return near;
+  }
+};
+
+}  // namespace
+
 double shaded_flip(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
                    const Image<float>& visibility, const Image<float>& other) {
-  bool any = false, differ = false;
-  for (size_t i = 0; i < receivers.primitive.size(); ++i) {
-    if (receivers.primitive[i] == no_primitive) continue;
-    any = true;
-    if (std::isnan(visibility[i]) || std::isnan(other[i])) return std::numeric_limits<double>::quiet_NaN();
-    differ |= visibility[i] != other[i];
-  }
-  if (!any) return std::numeric_limits<double>::quiet_NaN();
-  if (!differ) return 0;
-  const Image<glm::u8vec3> one = shown_frame(receivers, shaded_frame(receivers, light, camera, visibility));
-  Image<glm::u8vec3> two = one;  // equal visibility gives equal colours
-  each_pixel(two.size(), [&](size_t i) {
-    if (receivers.primitive[i] != no_primitive && visibility[i] != other[i])
-      two[i] = glm::u8vec3(srgb_encoded(shaded(receivers, light, camera, other[i], i)));
+  const Differing differing(receivers, visibility, other);
+  if (!differing.any || differing.undefined) return std::numeric_limits<double>::quiet_NaN();
+  // A pixel within reach of one that differs has an error, which depends on the colours within reach of it. Where neither is,
+  // no colour is needed: both pictures have the same.
+  const Image<uint8_t> needed = differing.within(2 * flip_reach());
+  Image<glm::u8vec3> one(visibility.width, visibility.height), two = one;
+  tbb::parallel_for(tbb::blocked_range<int>(0, needed.height, 2), [&](const tbb::blocked_range<int>& range) {
+    for (int y = range.begin() * Differing::side; y < std::min(range.end() * Differing::side, one.height); ++y)
+      for (int x = 0; x < one.width; ++x) {
+        if (!needed.at(x / Differing::side, y / Differing::side)) continue;
+        const size_t i = one.index(x, y);
+        const auto shown = [&](const Image<float>& of) {
+          if (receivers.primitive[i] == no_primitive) return shown_background;
+          return glm::u8vec3(srgb_encoded(shaded(receivers, light, camera, of[i], i)));
+        };
+        one[i] = shown(visibility);
+        two[i] = visibility[i] == other[i] ? one[i] : shown(other);
+      }
   });
   return flip(one, two).mean;
 }

@@ -71,12 +71,15 @@ SeenReceivers Tracer::seen_by(const ReceiverImage& given, const Camera& camera) 
   const glm::dvec2 places[5] = {{0, 0}, {error, 0}, {-error, 0}, {0, error}, {0, -error}};
   for_each_packet(towards.size(), [&](size_t first, int n) {
     uint32_t hidden[5];
+    ShadowStart::Across axes[packet_size];
+    for (int i = 0; i < n; ++i) axes[i] = start.across(towards[first + static_cast<size_t>(i)]);
     for (int place = 0; place < 5; ++place) {
       ShadowRay rays[packet_size];
       uint32_t before_near = 0;
       for (int i = 0; i < n; ++i) {
         const uint32_t pixel = towards[first + static_cast<size_t>(i)];
-        rays[i] = place == 0 ? start.whole(pixel) : start.beside(pixel, places[place]);
+        rays[i] = place == 0 ? start.whole(pixel)
+                             : start.beside(pixel, places[place].x * axes[i].right + places[place].y * axes[i].up);
         if (!near.end(rays[i])) before_near |= 1u << i;
       }
       hidden[place] = traced_->embree.occluded(n, rays, unseen) | before_near;

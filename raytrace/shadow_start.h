@@ -27,20 +27,25 @@ class ShadowStart {
   // starts behind the plane.
   ShadowRay whole(size_t pixel) const {
     const ShadowRay ray = at(pixel);
-    return ray.own_distance < 0 ? beside(pixel, glm::dvec2(0)) : ray;
+    return ray.own_distance < 0 ? beside(pixel, glm::dvec3(0)) : ray;
   }
 
-  // The ray starts at P, moved by offset (metres, along two axes across the ray) and then moved along the ray to behind
+  // Two axes across the ray of a receiver.
+  struct Across {
+    glm::dvec3 right, up;
+  };
+  Across across(size_t pixel) const {
+    Across axes;
+    frame_.light().axes_across(frame_, receivers_.position[pixel], axes.right, axes.up);
+    return axes;
+  }
+
+  // The ray starts at P, moved by offset (metres, across the ray) and then moved along the ray to behind
   // its own plane, as far as the rounding of P reaches along a grazing ray. So the ray meets everything in front of the
   // plane.
-  ShadowRay beside(size_t pixel, glm::dvec2 offset) const {
+  ShadowRay beside(size_t pixel, glm::dvec3 offset) const {
     const uint32_t own = receivers_.primitive[pixel];
-    glm::dvec3 moved = receivers_.position[pixel];
-    if (offset != glm::dvec2(0)) {
-      glm::dvec3 right, up;
-      frame_.light().axes_across(frame_, moved, right, up);
-      moved += offset.x * right + offset.y * up;
-    }
+    const glm::dvec3 moved = glm::dvec3(receivers_.position[pixel]) + offset;
     const WayToLight way = way_from(moved);
     const double to_plane = own_distance(moved, own, way.direction);
     const double cosine = std::abs(glm::dot(glm::dvec3(receivers_.normal[pixel]), glm::dvec3(way.direction)));

@@ -161,11 +161,14 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
   const glm::dvec2 places[5] = {{0, 0}, {error, 0}, {-error, 0}, {0, error}, {0, -error}};
   for_each_packet(found.unknown.size(), [&](size_t first, int n) {
     uint32_t dark[5];
+    ShadowStart::Across axes[packet_size];
+    for (int i = 0; i < n; ++i) axes[i] = start.across(found.unknown[first + static_cast<size_t>(i)]);
     for (int place = 0; place < 5; ++place) {
       ShadowRay rays[packet_size];
       for (int i = 0; i < n; ++i) {
         const uint32_t pixel = found.unknown[first + static_cast<size_t>(i)];
-        rays[i] = place == 0 ? start.whole(pixel) : start.beside(pixel, places[place]);
+        rays[i] = place == 0 ? start.whole(pixel)
+                             : start.beside(pixel, places[place].x * axes[i].right + places[place].y * axes[i].up);
       }
       dark[place] = traced_->embree.occluded(n, rays);
     }

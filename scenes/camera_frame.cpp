@@ -46,11 +46,27 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   return frame;
 }
 
+namespace {
+
+// The middle of a pixel, from -1 to 1 over the picture, times half the picture's width or height.
+double across_picture(int x, int width, double half) { return (2 * (x + 0.5) / width - 1) * half; }
+double up_picture(int y, int height, double half) { return (1 - 2 * (y + 0.5) / height) * half; }
+
+}  // namespace
+
 Ray CameraFrame::pixel_ray(int x, int y, int width, int height) const {
-  const double a = (2 * (x + 0.5) / width - 1) * half_width;
-  const double b = (1 - 2 * (y + 0.5) / height) * half_height;
+  const double a = across_picture(x, width, half_width), b = up_picture(y, height, half_height);
   if (camera.projection == Projection::perspective) return {eye_m, forward + a * right + b * up};
   return {eye_m + a * right + b * up, forward};
+}
+
+PixelRays::PixelRays(const CameraFrame& camera, int width, int height)
+    : perspective_(camera.camera.projection == Projection::perspective),
+      shared_(perspective_ ? camera.eye_m : camera.forward) {
+  const glm::dvec3 from = perspective_ ? camera.forward : camera.eye_m;
+  for (int x = 0; x <= width; ++x)
+    columns_.push_back(from + across_picture(x, width, camera.half_width) * camera.right);
+  for (int y = 0; y <= height; ++y) rows_.push_back(up_picture(y, height, camera.half_height) * camera.up);
 }
 
 glm::dmat4 CameraFrame::clip_from_world() const {

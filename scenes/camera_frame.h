@@ -1,6 +1,7 @@
 // A camera's axes and matrix in double. Only this file says how a picture's pixels map to rays.
 #pragma once
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "scenes/scene.h"
 
@@ -26,6 +27,22 @@ struct CameraFrame {
   // Through the centre of pixel (x, y) of a picture of the size given to make_camera_frame; row 0 on top.
   Ray pixel_ray(int x, int y, int width, int height) const;
   glm::dmat4 clip_from_world() const;  // of a camera with near and far
+};
+
+// The rays of all pixels of a picture, bit for bit those of CameraFrame::pixel_ray(). What the pixels of a column or a row share is
+// computed once. x and y may be one more than the picture has.
+class PixelRays {
+ public:
+  PixelRays(const CameraFrame& camera, int width, int height);
+  Ray at(int x, int y) const {
+    const glm::dvec3 moved = columns_[static_cast<size_t>(x)] + rows_[static_cast<size_t>(y)];
+    return perspective_ ? Ray{shared_, moved} : Ray{moved, shared_};
+  }
+
+ private:
+  bool perspective_;
+  glm::dvec3 shared_;  // perspective: the eye; orthographic: the direction
+  std::vector<glm::dvec3> columns_, rows_;
 };
 
 // The rotation by a vector: its axis times its angle in degrees, counter-clockwise as seen from the vector's tip.

@@ -37,11 +37,6 @@ int cube_face_of(glm::dvec3 d) {
   return 2 * axis + (d[axis] < 0 ? 1 : 0);
 }
 
-glm::dvec3 LightFrame::to_light(glm::dvec3 world) const {
-  const glm::dvec3 d = world - origin_m;
-  return {glm::dot(d, right), glm::dot(d, up), glm::dot(d, forward)};
-}
-
 glm::dvec3 LightFrame::to_world(glm::dvec3 light) const {
   return origin_m + light.x * right + light.y * up + light.z * forward;
 }

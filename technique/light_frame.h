@@ -91,7 +91,10 @@ struct LightFrame {
   int64_t texels() const { return int64_t{1} * resolution * rows * tiles; }  // of the whole map
   glm::ivec2 map_size() const { return {resolution, tiles * rows}; }
 
-  glm::dvec3 to_light(glm::dvec3 world) const;
+  glm::dvec3 to_light(glm::dvec3 world) const {
+    const glm::dvec3 d = world - origin_m;
+    return {glm::dot(d, right), glm::dot(d, up), glm::dot(d, forward)};
+  }
   glm::dvec3 to_world(glm::dvec3 light) const;
   glm::dvec3 direction_to_light(glm::dvec3 world) const { return light().direction_to_light(*this, world); }  // unit
   // The same for a directional light: its direction does not depend on the place.

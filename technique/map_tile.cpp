@@ -28,14 +28,4 @@ double MapTile::window_depth_slope(double z) const {
   throw std::logic_error("a tile without a depth");
 }
 
-double MapTile::texel_m(glm::dvec3 light) const {
-  return orthographic ? 2 * half / resolution : 2 * along(light) * half / resolution;
-}
-
-glm::dvec2 MapTile::texels(glm::dvec3 place) const {
-  if (orthographic) return ((glm::dvec2(place) - centre_m) / (2.0 * half_m()) + 0.5) * size() + glm::dvec2(corner);
-  const glm::dvec2 side = glm::dvec2(glm::dot(place, right), glm::dot(place, up)) / (along(place) * half);
-  return (side + 1.0) / 2.0 * static_cast<double>(resolution) - shift_texels + glm::dvec2(corner);
-}
-
 }  // namespace noonmark

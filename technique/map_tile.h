@@ -50,7 +50,7 @@ struct MapTile {
   glm::dvec3 place_at(glm::dvec2 texels) const;  // its inverse; of a perspective tile the place with along() = 1
 };
 
-// In the header, because a lattice of placements asks them at each of its points.
+// In the header, because they are asked for each receiver, tap and point of a lattice of placements.
 inline double MapTile::window_depth(double z) const {
   switch (depth) {
     case TileDepth::linear:
@@ -61,6 +61,16 @@ inline double MapTile::window_depth(double z) const {
       return z / far_m;
   }
   throw std::logic_error("a tile without a depth");
+}
+
+inline double MapTile::texel_m(glm::dvec3 light) const {
+  return orthographic ? 2 * half / resolution : 2 * along(light) * half / resolution;
+}
+
+inline glm::dvec2 MapTile::texels(glm::dvec3 place) const {
+  if (orthographic) return ((glm::dvec2(place) - centre_m) / (2.0 * half_m()) + 0.5) * size() + glm::dvec2(corner);
+  const glm::dvec2 side = glm::dvec2(glm::dot(place, right), glm::dot(place, up)) / (along(place) * half);
+  return (side + 1.0) / 2.0 * static_cast<double>(resolution) - shift_texels + glm::dvec2(corner);
 }
 
 inline glm::dvec3 MapTile::place_of(glm::ivec2 texel) const { return place_at(glm::dvec2(texel) + 0.5); }

@@ -1,14 +1,19 @@
 #include "compare/ladder/flip.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
 #include "base/srgb.h"
@@ -138,119 +143,248 @@ struct Features {
   }
 };
 
-// The picture is filtered in tiles. A filter also reads a margin around its tile. A margin outside the picture has the values of
-// the picture's nearest pixels.
-constexpr int tile_side = 64;
-using Plane = Image<double>;
+// The picture is filtered in tiles, and a tile in strips of `lanes` columns. A filter also reads a margin around its tile. A margin
+// outside the picture has the values of the picture's nearest pixels.
+constexpr int tile_side = 64, lanes = 8, most_strips = tile_side / lanes;
+using Lanes = std::array<double, lanes>;
+// Two numbers of a vector register: compilers leave sums in registers so, and find no order of their own.
+using Pair [[gnu::vector_size(2 * sizeof(double))]] = double;
+constexpr size_t pairs = lanes / 2;
 
-// to[x] = the sum of weight[t] * row(t)[x] over all t in their order, for x from 0 to count - 1. Eight places at a time, so that
-// their sums stay in registers.
-template <class Row>
-void weighted_sum(const std::vector<double>& weights, int count, double* to, const Row& row) {
-  constexpr int lanes = 8;
-  int x = 0;
-  for (; x + lanes <= count; x += lanes) {
-    double sum[lanes] = {};
-    for (size_t t = 0; t < weights.size(); ++t) {
-      const double weight = weights[t];
-      const double* from = row(static_cast<int>(t)) + x;
-      for (int lane = 0; lane < lanes; ++lane) sum[lane] += weight * from[lane];
+// to[n] = the sum of weight[n][t] * from[n][t * step + lane] over all t in their order, of each lane. Several filters at a time,
+// so that one addition need not wait for the last.
+template <size_t filters>
+void weighted_sums(const std::array<const Taps*, filters>& taps, const std::array<const double*, filters>& from,
+                   size_t step, const std::array<Lanes*, filters>& to) {
+  Pair sum[filters][pairs] = {};
+  const size_t count = taps[0]->weights.size();
+  for (size_t t = 0; t < count; ++t)
+    for (size_t n = 0; n < filters; ++n) {
+      const double weight = taps[n]->weights[t];
+      for (size_t pair = 0; pair < pairs; ++pair) {
+        Pair values;
+        std::memcpy(&values, from[n] + t * step + 2 * pair, sizeof values);
+        sum[n][pair] += weight * values;
+      }
     }
-    std::copy_n(sum, lanes, to + x);
-  }
-  for (; x < count; ++x) {
-    double sum = 0;
-    for (size_t t = 0; t < weights.size(); ++t) sum += weights[t] * row(static_cast<int>(t))[x];
-    to[x] = sum;
-  }
+  for (size_t n = 0; n < filters; ++n) std::memcpy(to[n]->data(), sum[n], sizeof *to[n]);
 }
 
-// One separable filter over a plane, without the margin.
-Plane filtered(const Plane& plane, int margin, const Taps& across, const Taps& down) {
-  const int width = plane.width - 2 * margin, height = plane.height - 2 * margin;
-  Plane rows(width, plane.height), made(width, height);
-  for (int y = 0; y < plane.height; ++y)
-    weighted_sum(across.weights, width, &rows.at(0, y),
-                 [&](int t) { return &plane.at(margin - across.radius() + t, y); });
-  for (int y = 0; y < height; ++y)
-    weighted_sum(down.weights, width, &made.at(0, y),
-                 [&](int t) { return &rows.at(0, y + margin - down.radius() + t); });
-  return made;
-}
-
-// What the eye gets of one tile of a picture.
+// What the eye gets of one pixel of a picture.
 struct Seen {
-  std::array<Plane, 3> color;  // YCxCz
-  Plane edge, point;           // strengths
-  bool same_at(size_t i, const Seen& other) const {
-    return color[0][i] == other.color[0][i] && color[1][i] == other.color[1][i] && color[2][i] == other.color[2][i] &&
-           edge[i] == other.edge[i] && point[i] == other.point[i];
-  }
+  glm::dvec3 color;    // YCxCz
+  double edge, point;  // strengths
 };
+
+// Which strips of which rows of a tile are to be computed. Rows and columns count from the margin's corner.
+struct Wanted {
+  std::array<uint8_t, tile_side> pixels{};  // by row of the tile: strips in which a pixel's filters read a difference
+  std::vector<uint8_t> differ,
+      sums;  // by row with the margin: strips whose row of taps reads a difference; that are needed
+};
+static_assert(most_strips <= 8, "a strip is a bit of a byte");
 
 class Evaluator {
  public:
   explicit Evaluator(double pixels_per_degree)
       : blur_(pixels_per_degree),
         features_(pixels_per_degree),
-        margin_(std::max(blur_.radius, features_.edge.radius())) {
+        margin_(std::max(blur_.radius, features_.edge.radius())),
+        columns_(tile_side + 2 * margin_) {
     for (int v = 0; v < 256; ++v) linear_[static_cast<size_t>(v)] = srgb_decoded(static_cast<uint8_t>(v));
   }
   int margin() const { return margin_; }
 
-  // Sets the errors of width x height pixels from (left, top) on.
-  void evaluate(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test, int left, int top, int width,
-                int height, Image<float>& error) const {
-    const Seen a = see(reference, left, top, width, height), b = see(test, left, top, width, height);
-    for (size_t i = 0; i < a.edge.size(); ++i) {
-      if (a.same_at(i, b)) continue;  // no error: the filters read nothing that differs
-      const auto lab = [&](const Seen& seen) {
-        return hunt_lab(glm::clamp(rgb_of_ycxcz({seen.color[0][i], seen.color[1][i], seen.color[2][i]}), 0.0, 1.0));
-      };
-      const double color = redistributed(color_distance(lab(a), lab(b)));
-      const double feature =
-          std::pow(std::max(std::abs(a.edge[i] - b.edge[i]), std::abs(a.point[i] - b.point[i])) / std::numbers::sqrt2,
-                   q_feature);
-      const int x = left + static_cast<int>(i) % width, y = top + static_cast<int>(i) / width;
-      error.at(x, y) = static_cast<float>(std::pow(color, 1 - feature));
+  static std::unique_ptr<double[]> place_for(int count) {
+    return std::make_unique_for_overwrite<double[]>(static_cast<size_t>(count));
+  }
+  // A tile of a picture with its margin, row by row.
+  struct Planes {
+    std::unique_ptr<double[]> y, cx, cz, brightness;  // brightness: Y from 0 to 1
+    explicit Planes(int pixels)
+        : y(place_for(pixels)), cx(place_for(pixels)), cz(place_for(pixels)), brightness(place_for(pixels)) {}
+  };
+  // Of one strip and each row of the tile with its margin, what the filters' factors across give.
+  struct Rows {
+    enum Sum { y, cx, cz_narrow, cz_wide, smooth, edge, point, count };
+    std::array<std::vector<Lanes>, count> sums;
+    explicit Rows(int rows) {
+      for (auto& sum : sums) sum.resize(static_cast<size_t>(rows));
+    }
+    void copy(size_t row, const Rows& from) {
+      for (size_t k = 0; k < count; ++k) sums[k][row] = from.sums[k][row];
+    }
+  };
+  // What a thread computes with, for one tile after the other.
+  struct Scratch {
+    Wanted wanted;
+    Planes a, b;
+    Rows rows_a, rows_b;
+  };
+  Scratch scratch() const {
+    const int pixels = columns_ * columns_;
+    return {{}, Planes(pixels), Planes(pixels), Rows(columns_), Rows(columns_)};
+  }
+
+  // Sets the errors of the tile's pixels, where they are not 0.
+  void evaluate(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test, glm::ivec2 corner,
+                Scratch& scratch, Image<float>& error) const {
+    const int height = std::min(tile_side, test.height - corner.y), width = std::min(tile_side, test.width - corner.x);
+    auto& [wanted, a, b, rows_a, rows_b] = scratch;
+    if (!list_wanted(reference, test, corner, width, height, wanted)) return;
+    fill(a, reference, corner, wanted.sums);
+    fill(b, test, corner, wanted.differ);
+    const size_t rows = wanted.sums.size();
+    for (int strip = 0; strip * lanes < width; ++strip) {
+      const auto has = [&](uint8_t strips) { return (strips >> strip & 1) != 0; };
+      for (size_t row = 0; row < rows; ++row) {
+        if (!has(wanted.sums[row])) continue;
+        sum_row(a, row, strip, rows_a);
+        if (has(wanted.differ[row]))
+          sum_row(b, row, strip, rows_b);
+        else
+          rows_b.copy(row, rows_a);
+      }
+      for (int y = 0; y < height; ++y) {
+        if (!has(wanted.pixels[static_cast<size_t>(y)])) continue;
+        const auto seen_a = see(rows_a, y), seen_b = see(rows_b, y);
+        for (int lane = 0; lane < std::min(lanes, width - strip * lanes); ++lane) {
+          if (seen_a.same_at(seen_b, lane)) continue;  // no error: the filters read nothing that differs
+          error.at(corner.x + strip * lanes + lane, corner.y + y) = error_of(seen_a(lane), seen_b(lane));
+        }
+      }
     }
   }
 
  private:
-  Seen see(const Image<glm::u8vec3>& picture, int left, int top, int width, int height) const {
-    std::array<Plane, 3> plane;
-    for (Plane& channel : plane) channel = Plane(width + 2 * margin_, height + 2 * margin_);
-    for (int y = 0; y < plane[0].height; ++y)
-      for (int x = 0; x < plane[0].width; ++x) {
-        const glm::u8vec3 here = picture.at(std::clamp(left + x - margin_, 0, picture.width - 1),
-                                            std::clamp(top + y - margin_, 0, picture.height - 1));
-        const glm::dvec3 color = ycxcz_of_rgb({linear_[here.x], linear_[here.y], linear_[here.z]});
-        for (int c = 0; c < 3; ++c) plane[static_cast<size_t>(c)].at(x, y) = color[c];
+  struct SeenLanes {
+    enum Sum { y, cx, cz_narrow, cz_wide, edge_across, edge_down, point_across, point_down, count };
+    std::array<Lanes, count> sums;
+    bool same_at(const SeenLanes& other, int at) const {
+      const auto lane = static_cast<size_t>(at);
+      for (size_t k = 0; k < count; ++k)
+        if (sums[k][lane] != other.sums[k][lane]) return false;
+      return true;
+    }
+    Seen operator()(int at) const {
+      const auto lane = static_cast<size_t>(at);
+      return {{sums[y][lane], sums[cx][lane], sums[cz_wide][lane] + sums[cz_narrow][lane]},
+              std::hypot(sums[edge_across][lane], sums[edge_down][lane]),
+              std::hypot(sums[point_across][lane], sums[point_down][lane])};
+    }
+  };
+
+  // False where the filters of no pixel read a difference.
+  bool list_wanted(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test, glm::ivec2 corner, int width,
+                   int height, Wanted& wanted) const {
+    const int strips = (width + lanes - 1) / lanes, rows = height + 2 * margin_;
+    wanted.differ.assign(static_cast<size_t>(rows), 0);
+    wanted.sums.assign(static_cast<size_t>(rows), 0);
+    wanted.pixels.fill(0);
+    const int left = std::max(0, corner.x - margin_), right = std::min(corner.x + width + margin_, test.width);
+    const int top = corner.y - margin_;
+    bool any = false;
+    for (int y = std::max(0, top); y < std::min(top + rows, test.height); ++y) {
+      uint8_t& differ = wanted.differ[static_cast<size_t>(y - top)];
+      const glm::u8vec3 *one = &reference.at(0, y), *other = &test.at(0, y);
+      if (std::equal(one + left, one + right, other + left)) continue;
+      for (int x = left; x < right; ++x) {
+        if (one[x] == other[x]) continue;
+        // A strip reads the columns from its first, less the margin, to its last and the margin.
+        const int column = x - corner.x;
+        for (int strip = 0; strip < strips; ++strip)
+          if (strip * lanes - margin_ <= column && column < (strip + 1) * lanes + margin_)
+            differ = static_cast<uint8_t>(differ | 1 << strip);
       }
-    Seen seen;
-    seen.color = {filtered(plane[0], margin_, blur_.y, blur_.y), filtered(plane[1], margin_, blur_.cx, blur_.cx),
-                  filtered(plane[2], margin_, blur_.cz_wide, blur_.cz_wide)};
-    const Plane narrow = filtered(plane[2], margin_, blur_.cz_narrow, blur_.cz_narrow);
-    for (size_t i = 0; i < narrow.size(); ++i) seen.color[2][i] += narrow[i];
-    for (double& y : plane[0].pixels) y = (y + 16) / 116;  // from 0 to 1
-    const auto strength = [&](const Taps& taps) {
-      Plane made = filtered(plane[0], margin_, taps, features_.smooth);
-      const Plane other = filtered(plane[0], margin_, features_.smooth, taps);
-      for (size_t i = 0; i < made.size(); ++i) made[i] = std::hypot(made[i], other[i]);
-      return made;
+      any |= differ != 0;
+    }
+    if (!any) return false;
+    // The rows outside the picture are those of its border.
+    for (int row = 0; row < rows; ++row)
+      wanted.differ[static_cast<size_t>(row)] =
+          wanted.differ[static_cast<size_t>(std::clamp(top + row, 0, test.height - 1) - top)];
+    for (int y = 0; y < height; ++y) {
+      uint8_t& pixels = wanted.pixels[static_cast<size_t>(y)];
+      for (int row = y; row <= y + 2 * margin_; ++row)
+        pixels = static_cast<uint8_t>(pixels | wanted.differ[static_cast<size_t>(row)]);
+      for (int row = y; pixels != 0 && row <= y + 2 * margin_; ++row) {
+        uint8_t& sums = wanted.sums[static_cast<size_t>(row)];
+        sums = static_cast<uint8_t>(sums | pixels);
+      }
+    }
+    return true;
+  }
+
+  // strips: by row, those whose columns and margins are read.
+  void fill(Planes& planes, const Image<glm::u8vec3>& picture, glm::ivec2 corner,
+            const std::vector<uint8_t>& strips) const {
+    for (size_t row = 0; row < strips.size(); ++row) {
+      const int y = std::clamp(corner.y - margin_ + static_cast<int>(row), 0, picture.height - 1);
+      int column = 0;
+      for (int strip = 0; strip < most_strips; ++strip) {
+        if (!(strips[row] >> strip & 1)) continue;
+        for (column = std::max(column, strip * lanes); column < (strip + 1) * lanes + 2 * margin_; ++column) {
+          const glm::u8vec3 here = picture.at(std::clamp(corner.x - margin_ + column, 0, picture.width - 1), y);
+          const glm::dvec3 color = ycxcz_of_rgb({linear_[here.x], linear_[here.y], linear_[here.z]});
+          const size_t i = row * static_cast<size_t>(columns_) + static_cast<size_t>(column);
+          planes.y[i] = color.x, planes.cx[i] = color.y, planes.cz[i] = color.z;
+          planes.brightness[i] = (color.x + 16) / 116;
+        }
+      }
+    }
+  }
+
+  void sum_row(const Planes& planes, size_t row, int strip, Rows& rows) const {
+    const size_t start = row * static_cast<size_t>(columns_) + static_cast<size_t>(strip * lanes + margin_);
+    const auto sum = [&](auto... parts) {
+      weighted_sums<sizeof...(parts)>({std::get<0>(parts)...},
+                                      {std::get<1>(parts) + start - std::get<0>(parts)->radius()...}, 1,
+                                      {&rows.sums[std::get<2>(parts)][row]...});
     };
-    seen.edge = strength(features_.edge);
-    seen.point = strength(features_.point);
+    sum(std::tuple(&blur_.y, planes.y.get(), Rows::y), std::tuple(&blur_.cx, planes.cx.get(), Rows::cx));
+    sum(std::tuple(&blur_.cz_narrow, planes.cz.get(), Rows::cz_narrow),
+        std::tuple(&blur_.cz_wide, planes.cz.get(), Rows::cz_wide));
+    sum(std::tuple(&features_.smooth, planes.brightness.get(), Rows::smooth),
+        std::tuple(&features_.edge, planes.brightness.get(), Rows::edge));
+    sum(std::tuple(&features_.point, planes.brightness.get(), Rows::point));
+  }
+
+  // y: a row of the tile.
+  SeenLanes see(const Rows& rows, int y) const {
+    SeenLanes seen;
+    const auto sum = [&](auto... parts) {
+      weighted_sums<sizeof...(parts)>(
+          {std::get<0>(parts)...},
+          {rows.sums[std::get<1>(parts)][static_cast<size_t>(y + margin_ - std::get<0>(parts)->radius())].data()...},
+          lanes, {&seen.sums[std::get<2>(parts)]...});
+    };
+    sum(std::tuple(&blur_.y, Rows::y, SeenLanes::y), std::tuple(&blur_.cx, Rows::cx, SeenLanes::cx));
+    sum(std::tuple(&blur_.cz_narrow, Rows::cz_narrow, SeenLanes::cz_narrow),
+        std::tuple(&blur_.cz_wide, Rows::cz_wide, SeenLanes::cz_wide));
+    sum(std::tuple(&features_.smooth, Rows::edge, SeenLanes::edge_across),
+        std::tuple(&features_.edge, Rows::smooth, SeenLanes::edge_down));
+    sum(std::tuple(&features_.smooth, Rows::point, SeenLanes::point_across),
+        std::tuple(&features_.point, Rows::smooth, SeenLanes::point_down));
     return seen;
+  }
+
+  static float error_of(const Seen& a, const Seen& b) {
+    const auto lab = [](const Seen& seen) { return hunt_lab(glm::clamp(rgb_of_ycxcz(seen.color), 0.0, 1.0)); };
+    const double color = redistributed(color_distance(lab(a), lab(b)));
+    const double feature =
+        std::pow(std::max(std::abs(a.edge - b.edge), std::abs(a.point - b.point)) / std::numbers::sqrt2, q_feature);
+    return static_cast<float>(std::pow(color, 1 - feature));
   }
 
   Blur blur_;
   Features features_;
-  int margin_;
+  int margin_, columns_;
   std::array<double, 256> linear_;
 };
 
 }  // namespace
+
+int flip_reach(double pixels_per_degree) { return Evaluator(pixels_per_degree).margin(); }
 
 Flip flip(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test, double pixels_per_degree) {
   if (reference.width != test.width || reference.height != test.height)
@@ -259,23 +393,11 @@ Flip flip(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test, d
   if (test.size() == 0) return result;
   const Evaluator evaluator(pixels_per_degree);
   const int across = (test.width + tile_side - 1) / tile_side, down = (test.height + tile_side - 1) / tile_side;
+  tbb::enumerable_thread_specific<Evaluator::Scratch> scratch([&] { return evaluator.scratch(); });
   tbb::parallel_for(tbb::blocked_range<int>(0, across * down, 1), [&](const tbb::blocked_range<int>& range) {
+    Evaluator::Scratch& mine = scratch.local();
     for (int tile = range.begin(); tile != range.end(); ++tile) {
-      const int left = tile % across * tile_side, top = tile / across * tile_side;
-      const int right = std::min(left + tile_side, test.width), bottom = std::min(top + tile_side, test.height);
-      // A pixel whose filters read nothing that differs has no error. Those of the tile that have one lie in a rectangle.
-      const int margin = evaluator.margin();
-      glm::ivec2 low(std::numeric_limits<int>::max()), high(std::numeric_limits<int>::min());
-      for (int y = std::max(0, top - margin); y < std::min(bottom + margin, test.height); ++y)
-        for (int x = std::max(0, left - margin); x < std::min(right + margin, test.width); ++x)
-          if (reference.at(x, y) != test.at(x, y)) {
-            low = glm::min(low, glm::ivec2(x, y));
-            high = glm::max(high, glm::ivec2(x, y));
-          }
-      if (low.x > high.x) continue;
-      low = glm::max(low - margin, glm::ivec2(left, top));
-      high = glm::min(high + margin + 1, glm::ivec2(right, bottom));
-      evaluator.evaluate(reference, test, low.x, low.y, high.x - low.x, high.y - low.y, result.error);
+      evaluator.evaluate(reference, test, glm::ivec2(tile % across, tile / across) * tile_side, mine, result.error);
     }
   });
   double sum = 0;  // in the pixels' order, so that it is the same on every machine

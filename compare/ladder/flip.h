@@ -21,6 +21,9 @@ struct Flip {
 // The viewing conditions of the paper: a screen of 3840 pixels and 0.7 m width, seen from a distance of 0.7 m.
 inline constexpr double flip_pixels_per_degree = 3840 * 3.14159265358979323846 / 180;
 
+// How far from its pixel a filter reads, in pixels along a row or a column. A pixel's error depends on no others.
+int flip_reach(double pixels_per_degree = flip_pixels_per_degree);
+
 // The pictures are 8-bit sRGB, as they are shown. Throws std::logic_error if their sizes differ. Costs nothing where the
 // pictures are equal.
 Flip flip(const Image<glm::u8vec3>& reference, const Image<glm::u8vec3>& test,

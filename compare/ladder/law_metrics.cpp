@@ -13,6 +13,7 @@
 
 #include "compare/ladder/law_bias.h"
 #include "compare/ladder/numbers.h"
+#include "compare/ladder/step_blocks.h"
 #include "scenes/camera_frame.h"
 
 namespace noonmark {
@@ -65,11 +66,17 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
   raise(over.law_depth, quantum / 2);
   raise(over.law_m, quantum_m(in.frame, quantum / 2, &MapTile::near_m));
   for (size_t i = 0; i < in.ladder.flags.size(); ++i) {  // in the picture's order: the sums are the same on any machine
-    if (!is_counted(in.ladder, i)) continue;
-    over.whole_area += areas[i];
-    for (int c = 0; c < compared_cause_count; ++c)
-      over.area[c] += areas[i] * std::abs(static_cast<double>(in.ladder[static_cast<Cause>(c)][i]));
+    if (is_counted(in.ladder, i)) over.whole_area += areas[i];
   }
+  const auto add = [&](size_t c, size_t i) {
+    if (is_counted(in.ladder, i)) over.area[c] += areas[i] * std::abs(static_cast<double>(in.ladder.causes[c].step[i]));
+  };
+  const StepBlocks steps(in.ladder);
+  for (size_t c = 0; c < over.area.size(); ++c)
+    if (std::isfinite(over.whole_area))
+      steps.each(c, [&](size_t i) { add(c, i); });
+    else  // an area that is not finite is not lost in a step of 0
+      for (size_t i = 0; i < in.ladder.flags.size(); ++i) add(c, i);
   return over;
 }
 
@@ -127,13 +134,14 @@ Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, c
   const CameraFrame view = make_camera_frame(camera, width, height);
   // Perspective: the area on the plane at distance 1. Orthographic: the area in m2.
   const double pixel = 4 * view.half_width * view.half_height / (static_cast<double>(width) * height);
+  const PixelRays rays(view, width, height);
   Image<double> areas(width, height, 0);
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       if (receivers.primitive.at(x, y) == no_primitive) continue;
       const glm::dvec3 normal(receivers.normal.at(x, y));
       const double to_light = glm::dot(normal, frame.direction_to_light(receivers.position.at(x, y)));
-      const glm::dvec3 way = view.pixel_ray(x, y, width, height).direction;
+      const glm::dvec3 way = rays.at(x, y).direction;
       double area = pixel / std::abs(glm::dot(normal, way)) * to_light;
       // A pixel of area A on the plane at distance 1, seen along a ray of length |way|, has the solid angle A /
       // |way|^3. At depth z the ray has the length z |way|, and it meets the surface at the cosine |N.way| / |way|.

@@ -9,6 +9,7 @@
 
 #include "compare/ladder/numbers.h"
 #include "compare/ladder/shadow_edges.h"
+#include "compare/ladder/step_blocks.h"
 #include "compare/ladder/wrong_patch.h"
 
 namespace noonmark {
@@ -110,16 +111,29 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     pcf += std::abs(static_cast<double>(ladder[Rung::shown][i]) - ladder.truth()[i]);
     pcf_soft += std::abs(static_cast<double>(ladder[Rung::shown][i]) - ladder.soft_truth()[i]);
     wrong += hard != 0;
-    for (size_t c = 0; c < size.size(); ++c) {
+  }
+
+  const StepBlocks steps(ladder);
+  for (size_t c = 0; c < size.size(); ++c)
+    steps.each(c, [&](size_t i) {
+      if (!is_counted(ladder, i)) return;
       const double step = std::abs(static_cast<double>(ladder.causes[c].step[i]));
       size[c] += step;
       raise(largest[c], step);
-    }
-    const double aliasing = static_cast<double>(ladder[Cause::aliasing_dark][i]) + ladder[Cause::aliasing_light][i];
-    aliasing_squares += aliasing * aliasing;
+    });
+  steps.each(static_cast<size_t>(Cause::peter_panning), [&](size_t i) {
+    if (!is_counted(ladder, i)) return;
     if (ladder.truth()[i] != 0) panning_lit += std::abs(static_cast<double>(ladder[Cause::peter_panning][i]));
     if (in_gap(ladder, i)) raise(gap, gap_m(in, i));
-    if (is_aliased(ladder, i)) {
+  });
+  for (size_t block = 0; block < steps.blocks(); ++block) {
+    if (!steps.any(block, static_cast<size_t>(Cause::aliasing_dark)) &&
+        !steps.any(block, static_cast<size_t>(Cause::aliasing_light)))
+      continue;
+    for (size_t i = steps.first(block); i < steps.end(block); ++i) {
+      if (!is_counted(ladder, i) || !is_aliased(ladder, i)) continue;
+      const double aliasing = static_cast<double>(ladder[Cause::aliasing_dark][i]) + ladder[Cause::aliasing_light][i];
+      aliasing_squares += aliasing * aliasing;
       ++aliased;
       const float distance = in.map_of(i).edge_distance_texels[i];
       raise(edge_max, distance);
@@ -216,11 +230,15 @@ std::vector<PointRecord::WorstOf> worst_pixels(const MeasureInput& in) {
       [&](size_t i) { return is_aliased(ladder, i) ? static_cast<double>(in.map_of(i).edge_distance_texels[i]) : 0; });
 
   const auto width = static_cast<size_t>(std::max(1, ladder.flags.width));
+  const StepBlocks steps(ladder);
+  bool stepped = false;
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    if (i == steps.first(StepBlocks::block_of(i))) stepped = steps.any(StepBlocks::block_of(i));
     if (!is_counted(ladder, i)) continue;
     // Almost all pixels are right: none of the parts above can be other than 0 there.
     if (soft(i) == 0 && ladder.doubt[i] == 0 &&
-        std::all_of(ladder.causes.begin(), ladder.causes.end(), [i](const auto& cause) { return cause.step[i] == 0; }))
+        (!stepped || std::all_of(ladder.causes.begin(), ladder.causes.end(),
+                                 [i](const auto& cause) { return cause.step[i] == 0; })))
       continue;
     for (auto& [worst, part] : all) {
       const double here = std::isnan(worst.size) ? 0 : part(i);

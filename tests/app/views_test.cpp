@@ -252,6 +252,31 @@ TEST(ShadedFlip, ComparesTheFramesAsTheyAreShown) {
   EXPECT_TRUE(std::isnan(shaded_flip(floor, light, camera, lit, lit))) << "no surface, so nothing can differ";
 }
 
+// Only blocks of the picture near a difference are shaded. That may not show.
+TEST(ShadedFlip, IsThatOfTheWholeFramesWhereverTheyDiffer) {
+  constexpr int width = 203, height = 121;
+  const Scene scene = make_scene({.name = "plane"});
+  const LightFrame light = make_light_frame(scene, {});
+  const CameraFrame camera = make_camera_frame({.eye_m = {0, 5, 5}, .target_m = {0, 0, 0}}, width, height);
+  ReceiverImage floor = floor_receivers(width, height, camera, 0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if ((x * x + 7 * y) % 31 < 3) floor.primitive.at(x, y) = no_primitive;
+  Image<float> truth(width, height, 1);
+  for (size_t i = 0; i < truth.size(); ++i) truth[i] = static_cast<float>(i % 5) / 4;
+  const auto shown = [&](const Image<float>& visibility) {
+    return shown_frame(floor, shaded_frame(floor, light, camera, visibility));
+  };
+  for (const auto& [x, y] : {std::pair(0, 0), {202, 120}, {8, 8}, {15, 16}, {100, 64}, {111, 63}}) {
+    Image<float> drawn = truth;
+    floor.primitive.at(x, y) = 0;
+    drawn.at(x, y) = truth.at(x, y) == 1 ? 0.0f : 1.0f;
+    const double found = shaded_flip(floor, light, camera, truth, drawn);
+    EXPECT_EQ(found, flip(shown(truth), shown(drawn)).mean) << x << ", " << y;
+    EXPECT_GT(found, 0);
+  }
+}
+
 TEST(ShadedRmse, IsThatOfTheTwoFramesWhereThereIsASurface) {
   const Scene scene = make_scene({.name = "plane"});
   const LightFrame light = make_light_frame(scene, {});

@@ -192,5 +192,18 @@ TEST(Receivers, AnEmptySceneIsAllBackground) {
   for (uint32_t primitive : image.primitive.pixels) EXPECT_EQ(primitive, no_primitive);
 }
 
+TEST(PixelRays, AreThoseOfEachPixelBitForBit) {
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    const CameraFrame frame = make_camera_frame(some_camera(projection), 31, 17);
+    const PixelRays rays(frame, 31, 17);
+    for (int y = 0; y <= 17; ++y)
+      for (int x = 0; x <= 31; ++x) {
+        const Ray one = rays.at(x, y), expected = frame.pixel_ray(x, y, 31, 17);
+        ASSERT_EQ(one.origin, expected.origin) << x << ", " << y;
+        ASSERT_EQ(one.direction, expected.direction) << x << ", " << y;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace noonmark

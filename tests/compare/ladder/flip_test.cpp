@@ -46,6 +46,7 @@ TEST(Flip, OfAlikePicturesIsZeroAndOfTwoTheSameBothWays) {
   EXPECT_GT(found.mean, 0);
   EXPECT_EQ(found.error.pixels, flip(b, a).error.pixels);
   // FLIP's filters reach 10 pixels at 67 pixels per degree, so a difference changes nothing further away.
+  EXPECT_EQ(flip_reach(), 10);
   for (int y = 0; y < 90; ++y)
     for (int x = 0; x < 150; ++x) {
       const bool near = std::max(std::abs(x - 70), std::abs(y - 40)) <= 10;
@@ -73,6 +74,26 @@ TEST(Flip, OfAPointIsTheSameWhereverItLies) {
   EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0.1f);
   for (const auto& [x, y] : {std::pair(63, 63), {64, 64}, {65, 40}, {70, 127}, {128, 60}, {118, 74}})
     EXPECT_EQ(around(x, y), expected) << x << ", " << y;
+}
+
+// Outside the picture lies more of its border. A picture with some of that around it has the same errors within.
+TEST(Flip, GoesOnBeyondTheBorderWithItsColours) {
+  constexpr int width = 75, height = 37, more = 24;  // twice the reach and more
+  const auto colors = [](int x, int y) { return glm::ivec3((7 * x) % 256, (x * y) % 256, (11 * y) % 256); };
+  const auto wrong = [](int x, int y) { return (5 * x + 3 * y) % 97 == 0; };
+  const auto flipped = [&](int around) {
+    const auto picture = [&](bool differs) {
+      return painted(width + 2 * around, height + 2 * around, [=](int i, int j) {
+        const int x = std::clamp(i - around, 0, width - 1), y = std::clamp(j - around, 0, height - 1);
+        return differs && wrong(x, y) ? glm::ivec3(255, 0, 90) : colors(x, y);
+      });
+    };
+    return flip(picture(false), picture(true)).error;
+  };
+  const Image<float> alone = flipped(0), within = flipped(more);
+  EXPECT_GT(alone.at(0, 0), 0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) ASSERT_EQ(alone.at(x, y), within.at(x + more, y + more)) << x << ", " << y;
 }
 
 // The further away, the less is seen of fine lines.

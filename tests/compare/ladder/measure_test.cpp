@@ -12,12 +12,66 @@
 #include "base/error.h"
 #include "compare/ladder/law_metrics.h"
 #include "compare/ladder/numbers.h"
+#include "compare/ladder/step_blocks.h"
 #include "compare/results/metrics.h"
 #include "scenes/receivers.h"
 #include "tests/compare/ladder/measured_picture.h"
 
 namespace noonmark {
 namespace {
+
+// A picture of many blocks: the sums leave out those without steps, and no step.
+TEST(StepBlocks, HaveAllStepsOfACause) {
+  Picture p(67, 53);
+  const auto pixels = static_cast<int>(p.ladder.flags.size());
+  Image<float>& acne = p.ladder[Cause::acne];
+  acne[0] = 0.5f;
+  acne[static_cast<size_t>(pixels - 1)] = -0.25f;
+  acne[static_cast<size_t>(pixels / 2)] = std::numeric_limits<float>::quiet_NaN();
+  p.ladder[Cause::peter_panning][700] = -0.0f;
+  const StepBlocks steps(p.ladder);
+  ASSERT_GT(steps.blocks(), 5u);
+  std::set<size_t> seen;
+  size_t last = 0, visited = 0;
+  steps.each(static_cast<size_t>(Cause::acne), [&](size_t i) {
+    EXPECT_TRUE(visited++ == 0 || i == last + 1 || i == steps.first(StepBlocks::block_of(i)));
+    EXPECT_TRUE(visited == 1 || i > last);
+    last = i;
+    if (acne[i] != 0) seen.insert(i);
+  });
+  EXPECT_EQ(seen, (std::set<size_t>{0, static_cast<size_t>(pixels / 2), static_cast<size_t>(pixels - 1)}));
+  EXPECT_LT(visited, p.ladder.flags.size());
+  steps.each(static_cast<size_t>(Cause::peter_panning), [](size_t i) { ADD_FAILURE() << i; });
+  size_t stepped = 0;
+  for (size_t block = 0; block < steps.blocks(); ++block) stepped += steps.any(block);
+  EXPECT_EQ(stepped, 3u);
+}
+
+TEST(StepBlocks, GiveTheSumsOfAllPixels) {
+  Picture p(67, 53);
+  std::mt19937 random(7);
+  double acne = 0, aliasing = 0, squares = 0, panning = 0, edge = 0;
+  for (size_t i = 0; i < p.ladder.flags.size(); ++i) {
+    const auto set = [&](Cause cause) {
+      return p.ladder[cause][i] = static_cast<float>(random() % 1000) / 1000 - 0.5f;
+    };
+    if (i % 1500 < 40 || i + 1 == p.ladder.flags.size()) acne += std::abs(static_cast<double>(set(Cause::acne)));
+    if (i % 900 == 700) panning += std::abs(static_cast<double>(set(Cause::peter_panning)));
+    if (i % 1100 < 3) {
+      const double step = set(i % 2 ? Cause::aliasing_dark : Cause::aliasing_light);
+      p.edge[i] = static_cast<float>(i % 17);
+      aliasing += std::abs(step), squares += step * step, edge = std::max<double>(edge, p.edge[i]);
+    }
+  }
+  const auto count = static_cast<double>(p.ladder.flags.size());
+  const std::map<std::string, double> found = p.metrics();
+  EXPECT_NEAR(found.at("acne"), acne / count, 1e-15);
+  EXPECT_NEAR(found.at("peter_panning"), panning / count, 1e-15);
+  EXPECT_NEAR(found.at("aliasing"), aliasing / count, 1e-15);
+  EXPECT_NEAR(found.at("aliasing_rms"), std::sqrt(squares / count), 1e-15);
+  EXPECT_GT(edge, 10);
+  EXPECT_EQ(found.at("edge_displacement_texels"), edge);
+}
 
 TEST(Measure, GivesSharesOfTheCountedReceivers) {
   Picture p(4, 3);
