@@ -75,13 +75,24 @@ std::vector<PixelRange> strips_of(const Technique& technique, size_t kept_bytes)
 
 void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
                    const EachStrip& each_strip) {
+  each_strip_while(renderer, lookup, truth, technique, [&](const LookupEvidence& evidence, PixelRange strip) {
+    each_strip(evidence, strip);
+    return true;
+  });
+}
+
+bool each_strip_while(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
+                      const WhileStrip& go_on) {
   const ShownStage nothing;
   const LookupEvidence evidence = evidence_of(lookup, truth, nothing, technique);
+  bool on = true;
   for (const PixelRange& strip : lookup.strips) {
     if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
-    each_strip(evidence, strip);
+    on = go_on(evidence, strip);
+    if (!on) break;
   }
   keep_small_index(renderer, technique.frame);
+  return on;
 }
 
 gl::Renderer::CastersOf casters_of(const Scene& scene, const Technique& technique) {
@@ -181,12 +192,14 @@ MapResults Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, s
 
 ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
                               std::span<const AskedMap> asked, std::span<const Technique> techniques,
-                              const ChosenCascades* chosen, bool keep_fetched) {
+                              const ChosenCascades* chosen, bool keep_fetched, Checks checks) {
   ShownMaps shown;
+  shown.checks = checks;
   shown.moments.resize(asked.size());
   shown.ties.resize(asked.size());
   const ShownStage nothing;
   const auto check_stages = [&](const gl::ShadowMap& of, const MapResults& results, const auto& depths_of) {
+    if (checks == Checks::none) return;
     for (size_t k = 0; k < asked.size() && techniques[k].moments; ++k) {
       const MapDepths& depths = depths_of(k);
       MomentEvidence moments = renderer.read_moments(of, techniques, *depths.texels, k);
@@ -197,7 +210,9 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
   };
   shown.r5 = look_up(renderer, *map.map, techniques);
   for (size_t k = 0; k < asked.size(); ++k)
-    shown.stored.push_back(renderer.read_map(*map.map, asked[k].lookup.exact_depth.texels, static_cast<int>(k)));
+    shown.stored.push_back(checks == Checks::none
+                               ? MapDepths()
+                               : renderer.read_map(*map.map, asked[k].lookup.exact_depth.texels, static_cast<int>(k)));
   check_stages(*map.map, shown.r5, [&](size_t k) -> const MapDepths& { return shown.stored[k]; });
   keep_small(renderer, map.map);
 
@@ -211,7 +226,7 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
   shown.r4 = look_up(renderer, *exact_map, techniques);
   check_stages(*exact_map, shown.r4, exact_of);
   keep_small(renderer, exact_map);
-  if (techniques.front().moments) return shown;
+  if (techniques.front().moments || checks == Checks::none) return shown;
 
   for (size_t k = 0; k < asked.size(); ++k)
     shown.ties[k] = tie_map(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k]));
@@ -229,7 +244,8 @@ ShownStage ShownMaps::take(const ChosenCascades* chosen, size_t map) {
           std::move(stored[map]),
           std::move(ties[map]),
           moments[map],
-          fetched.empty() ? Image<glm::vec4>() : std::move(fetched[map])};
+          fetched.empty() ? Image<glm::vec4>() : std::move(fetched[map]),
+          checks};
 }
 
 ShownStage Pipeline::show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
@@ -244,8 +260,19 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
                                const TruthStage& truth, const ShownStage& shown, const Technique& technique,
                                const BiasPart* varied, const EachStrip& each_strip) {
   const LookupEvidence evidence = evidence_of(lookup, truth, shown, technique);
-  SoundnessCheck soundness(
-      {evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers, technique.frame, view.camera.eye_m});
+  const bool checked = shown.checks == Checks::all;
+  std::optional<SoundnessCheck> soundness;
+  if (checked)
+    soundness.emplace(SoundnessInput{evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers,
+                                     technique.frame, view.camera.eye_m});
+  const auto read = [&](PixelRange strip, auto&... judges) {
+    if (checked)
+      read_taps(evidence, strip, judges..., *soundness);
+    else
+      read_taps(evidence, strip, judges...);
+  };
+  const bool known = lookup.kept_steps && !lookup.kept_steps->empty();
+  if (lookup.kept_steps && !known) lookup.kept_steps->resize(truth.receivers.facing.size());
   Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height(),
                                technique.moments ? cause_count : compared_cause_count),
                   {},
@@ -256,11 +283,17 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   if (varied) climbed.counts.emplace(lookup.probe, *varied);
   if (lookup.rays) lookup.tap_stage = {};
   for (const PixelRange& strip : lookup.strips) {
+    if (known && !checked) {
+      MomentClimb climbing(evidence, strip, climbed.ladder, &*lookup.kept_steps);
+      climbing.climb_again(strip);
+      climbed.reductions.add(climbing.reductions());
+      continue;
+    }
     if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
     climbed.tap_answers += lookup.taps.answers;
     if (technique.moments) {
-      MomentClimb climbing(evidence, strip, climbed.ladder);
-      read_taps(evidence, strip, climbing, soundness);
+      MomentClimb climbing(evidence, strip, climbed.ladder, lookup.kept_steps ? &*lookup.kept_steps : nullptr);
+      read(strip, climbing);
       below_comparison = larger_residual(below_comparison, climbing.below_comparison());
       climbed.reductions.add(climbing.reductions());
       if (each_strip) each_strip(evidence, strip);
@@ -269,15 +302,15 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
     Climb climbing(evidence, strip, climbed.ladder);
     if (climbed.counts) {
       BiasCounts::Adding counting(*climbed.counts, evidence, shown.stored);
-      read_taps(evidence, strip, climbing, soundness, counting);
+      read(strip, climbing, counting);
     } else {
-      read_taps(evidence, strip, climbing, soundness);
+      read(strip, climbing);
     }
     if (each_strip) each_strip(evidence, strip);
   }
   keep_small_index(renderer, technique.frame);
-  climbed.soundness = soundness.metrics();
-  if (technique.moments) {
+  if (checked) climbed.soundness = soundness->metrics();
+  if (checked && technique.moments) {
     climbed.soundness.merge(moment_contract_metrics(shown.moments));
     if (technique.moments->kind().bound) climbed.soundness["below_comparison"] = below_comparison;
   }

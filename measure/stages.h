@@ -25,6 +25,7 @@
 #include "compare/judge/soundness.h"
 #include "compare/ladder/bias_curves.h"
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/moment_climb.h"
 #include "compare/ladder/reduction_window.h"
 #include "gl/renderer.h"
 #include "measure/memory_estimate.h"
@@ -72,7 +73,13 @@ struct LookupStage {
   StageTime texel_stage, tap_stage;
   TruthAnswers texel_answers{};
   size_t seen_texels = 0;  // those of exact_depth that receivers read whose result the map has a part in
+  // Of a lookup in a map of moments that is climbed several times with no other change than its reduction: if it is there and
+  // empty, climb_strips() writes what it finds of each pixel, and afterwards climbs from that, without taps.
+  std::optional<std::vector<MomentSteps>> kept_steps{};
 };
+
+// Whether show_maps() and climb_strips() also check what OpenGL did: compare/judge/soundness.h, compare/judge/moment_contract.h.
+enum class Checks { all, none };
 
 // What OpenGL shows in one map: the technique on its own map, on the exact map and on the tie map.
 struct ShownStage {
@@ -81,6 +88,7 @@ struct ShownStage {
   MapDepths ties;
   MomentContractCounts moments{};  // of a lookup in a map of moments, which has no tie map
   Image<glm::vec4> fetched{};      // the moments that its lookups fetched; empty unless asked for
+  Checks checks = Checks::all;     // with none, only r5 and r4 are there
 };
 
 // The same in all maps of a point, each kind of them looked up in one pass.
@@ -89,6 +97,7 @@ struct ShownMaps {
   std::vector<MapDepths> stored, ties;  // of each map
   std::vector<MomentContractCounts> moments;
   std::vector<Image<glm::vec4>> fetched;  // from the drawn maps of moments; empty unless asked for
+  Checks checks = Checks::all;
 
   // What is shown in one of them, whose depths it takes. chosen: null with one map.
   ShownStage take(const ChosenCascades* chosen, size_t map);
@@ -102,13 +111,14 @@ struct AskedMap {
 
 struct Climbed {
   Ladder ladder;
-  std::map<std::string, double> soundness;  // compare/judge/soundness.h
+  std::map<std::string, double> soundness;  // compare/judge/soundness.h; empty with Checks::none
   std::optional<BiasCounts> counts;         // if a part is varied
   TruthAnswers tap_answers{};
   ReductionWindow reductions{};  // of a lookup in a map of moments
 };
 
 using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
+using WhileStrip = std::function<bool(const LookupEvidence&, PixelRange)>;
 
 // The whole picture, if the truth of its taps takes at most kept_bytes. Otherwise strips of whole rows: as many as have
 // room for their taps in a sixteenth of that (strips_in_kept_taps), at least one.
@@ -117,6 +127,9 @@ std::vector<PixelRange> strips_of(const Technique& technique, size_t kept_bytes)
 // Traces the taps of a lookup strip by strip. The evidence has no pictures of OpenGL: its r4 and r5 are empty.
 void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
                    const EachStrip& each_strip);
+// The same until go_on() is false. Returns whether it never was.
+bool each_strip_while(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
+                      const WhileStrip& go_on);
 
 // The casters of the technique's maps, if the bias moves them. The scene must outlive the result.
 gl::Renderer::CastersOf casters_of(const Scene& scene, const Technique& technique);
@@ -145,14 +158,15 @@ class Pipeline {
   // One lookup of all receivers, in all maps. show_maps() calls it for the drawn, the exact and the tie maps.
   virtual MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques);
   // map: has its maps; afterwards they and the exact maps on the device are kept only if they are small. exact_map: those of
-  // an earlier call for the same lookups, or none. chosen: null with one map. keep_fetched: of maps of moments.
+  // an earlier call for the same lookups, or none. chosen: null with one map. keep_fetched: of maps of moments, with all checks.
   ShownMaps show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
                       std::span<const AskedMap> asked, std::span<const Technique> techniques,
-                      const ChosenCascades* chosen, bool keep_fetched = false);
+                      const ChosenCascades* chosen, bool keep_fetched = false, Checks checks = Checks::all);
   // The same of one map, whose exact map is not kept.
   ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
                   const Technique& technique);
-  // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
+  // Traces the taps strip by strip and books them, and checks what `shown` has been checked for. varied: the part of the bias that
+  // a curve varies, or null; it needs all checks.
   // each_strip: called for each strip while its taps are at hand, or empty.
   virtual Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,
                                const TruthStage& truth, const ShownStage& shown, const Technique& technique,
