@@ -163,6 +163,8 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   // A snapped map is drawn cell by cell and then put in order; the next frame of a motion has maps of its own.
   const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? maps : 0));
   const double motion = s.view.motion.any() ? pixels * per_flicker_pixel : 0;
+  const double kept = maps * (strip + map + moments) + more_maps;
+  const bool keeps_maps = kept <= static_cast<double>(most_beside_live_bytes);
   double live = 0;
   if (input.pictures && maps == 1) {
     const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
@@ -170,22 +172,25 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
         why_no_live_picture(s).empty() ? per_live_answer * (2.0 * pattern.taps + 1) : per_stacked_answer * most_stacked;
     live = live_pixels * (per_pixel + sizeof(std::vector<LiveAnswer>) + answers);
   }
-  return {{
-      {"the live picture", "lower filter.size, or set pictures = \"none\"", live},
-      {"the placements of the map's grid", "lower map.placements", placements},
-      {"the program itself", "use a machine with more memory, or raise its limit", program},
-      {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},
-      {"the picture", "lower view.width_px and view.height_px",
-       pixels * (per_pixel + (maps - 1) * per_cascade_pixel + (input.pictures ? per_picture_pixel : 0)) + motion},
-      {"the taps",
-       curve > outside ? "lower filter.size, view.width_px or view.height_px, or set curve.enabled = false"
-                       : "lower filter.size, view.width_px or view.height_px, or widen map.extent_m",
-       maps * (strip + outside) + beside - outside},
-      {"the shadow map",
-       maps > 1 ? "lower map.resolution, cascades.resolutions or cascades.count" : "lower map.resolution",
-       maps * map + more_maps},
-      {"the map of moments", "lower map.resolution, or set map.moments = 16f", maps * moments},
-  }};
+  return {
+      {
+          {"the live picture", "lower filter.size, or set pictures = \"none\"", live},
+          {"the placements of the map's grid", "lower map.placements", placements},
+          {"the program itself", "use a machine with more memory, or raise its limit", program},
+          {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},
+          {"the picture", "lower view.width_px and view.height_px",
+           pixels * (per_pixel + (maps - 1) * per_cascade_pixel + (input.pictures ? per_picture_pixel : 0)) + motion},
+          {"the taps",
+           curve > outside ? "lower filter.size, view.width_px or view.height_px, or set curve.enabled = false"
+                           : "lower filter.size, view.width_px or view.height_px, or widen map.extent_m",
+           maps * (strip + outside) + beside - outside},
+          {"the shadow map",
+           maps > 1 ? "lower map.resolution, cascades.resolutions or cascades.count" : "lower map.resolution",
+           maps * map + more_maps},
+          {"the map of moments", "lower map.resolution, or set map.moments = 16f", maps * moments},
+          {"the maps that wait for the next point", "set pictures = \"none\"", input.pictures && keeps_maps ? kept : 0},
+      },
+      keeps_maps};
 }
 
 double outside_texels(const Scene& scene, const Technique& technique) {

@@ -39,6 +39,9 @@ inline constexpr size_t most_kept_map_bytes = size_t{128} << 20;
 // of a larger one are uploaded again for the next lookup.
 inline constexpr size_t most_kept_pixels = size_t{1} << 21;
 
+// The most bytes of a point's maps and taps that are kept while a small picture is drawn, which needs its own.
+inline constexpr size_t most_beside_live_bytes = size_t{128} << 20;
+
 struct MemoryInput {
   const Settings& settings;
   LightKind light = LightKind::directional;
@@ -57,7 +60,8 @@ struct MemoryShare {
 
 struct MemoryEstimate {
   std::vector<MemoryShare> shares;
-  double bytes() const;  // the sum of the shares: the peak of the whole program
+  bool keeps_maps = false;  // while the small picture for the page is drawn, because the next point may use them
+  double bytes() const;     // the sum of the shares: the peak of the whole program
   const MemoryShare& largest() const;
 };
 

@@ -75,13 +75,24 @@ std::vector<PixelRange> strips_of(const Technique& technique, size_t kept_bytes)
 
 void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
                    const EachStrip& each_strip) {
+  each_strip_while(renderer, lookup, truth, technique, [&](const LookupEvidence& evidence, PixelRange strip) {
+    each_strip(evidence, strip);
+    return true;
+  });
+}
+
+bool each_strip_while(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
+                      const WhileStrip& go_on) {
   const ShownStage nothing;
   const LookupEvidence evidence = evidence_of(lookup, truth, nothing, technique);
+  bool on = true;
   for (const PixelRange& strip : lookup.strips) {
     if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
-    each_strip(evidence, strip);
+    on = go_on(evidence, strip);
+    if (!on) break;
   }
   keep_small_index(renderer, technique.frame);
+  return on;
 }
 
 gl::Renderer::CastersOf casters_of(const Scene& scene, const Technique& technique) {
@@ -216,7 +227,7 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
   shown.r4 = look_up(renderer, *exact_map, techniques);
   check_stages(*exact_map, shown.r4, exact_of);
   keep_small(renderer, exact_map);
-  if (techniques.front().moments) return shown;
+  if (techniques.front().moments || checks == Checks::none) return shown;
 
   for (size_t k = 0; k < asked.size(); ++k)
     shown.ties[k] = tie_map(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k]));
@@ -261,6 +272,8 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
                                      technique.frame, view.camera.eye_m,
                                      known ? &lookup.checked_probe->first : nullptr});
   }
+  const bool known = lookup.kept_steps && !lookup.kept_steps->empty();
+  if (lookup.kept_steps && !known) lookup.kept_steps->resize(truth.receivers.facing.size());
   Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height(),
                                technique.moments ? cause_count : compared_cause_count),
                   {},
@@ -271,6 +284,12 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   if (varied) climbed.counts.emplace(lookup.probe, *varied);
   if (lookup.rays) lookup.tap_stage = {};
   for (const PixelRange& strip : lookup.strips) {
+    if (known && !soundness) {
+      MomentClimb climbing(evidence, strip, climbed.ladder, &*lookup.kept_steps);
+      climbing.climb_again(strip);
+      climbed.reductions.add(climbing.reductions());
+      continue;
+    }
     if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
     climbed.tap_answers += lookup.taps.answers;
     const auto judge = [&](auto&... judges) {
@@ -280,7 +299,7 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
         read_taps(evidence, strip, judges...);
     };
     if (technique.moments) {
-      MomentClimb climbing(evidence, strip, climbed.ladder);
+      MomentClimb climbing(evidence, strip, climbed.ladder, lookup.kept_steps ? &*lookup.kept_steps : nullptr);
       judge(climbing);
       below_comparison = larger_residual(below_comparison, climbing.below_comparison());
       climbed.reductions.add(climbing.reductions());

@@ -25,6 +25,7 @@
 #include "compare/judge/soundness.h"
 #include "compare/ladder/bias_curves.h"
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/moment_climb.h"
 #include "compare/ladder/reduction_window.h"
 #include "gl/renderer.h"
 #include "measure/memory_estimate.h"
@@ -75,6 +76,9 @@ struct LookupStage {
   // What climb_strips() found when it checked the probe, and whether the bias read tan(theta) then. The amounts of a bias of
   // the compared depth change nothing else that is checked of the probe, so it is compared once for all of them.
   std::optional<std::pair<ProbeErrors, bool>> checked_probe{};
+  // Of a lookup in a map of moments that is climbed several times with no other change than its reduction: if it is there and
+  // empty, climb_strips() writes what it finds of each pixel, and afterwards climbs from that, without taps.
+  std::optional<std::vector<MomentSteps>> kept_steps{};
 };
 
 // Whether a measurement checks its renderer too (compare/judge/soundness.h). With none OpenGL draws the maps and looks them
@@ -112,13 +116,14 @@ struct AskedMap {
 
 struct Climbed {
   Ladder ladder;
-  std::map<std::string, double> soundness;  // compare/judge/soundness.h
+  std::map<std::string, double> soundness;  // compare/judge/soundness.h; empty with Checks::none
   std::optional<BiasCounts> counts;         // if a part is varied
   TruthAnswers tap_answers{};
   ReductionWindow reductions{};  // of a lookup in a map of moments
 };
 
 using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
+using WhileStrip = std::function<bool(const LookupEvidence&, PixelRange)>;
 
 // The whole picture, if the truth of its taps takes at most kept_bytes. Otherwise strips of whole rows: as many as have
 // room for their taps in a sixteenth of that (strips_in_kept_taps), at least one.
@@ -127,6 +132,9 @@ std::vector<PixelRange> strips_of(const Technique& technique, size_t kept_bytes)
 // Traces the taps of a lookup strip by strip. The evidence has no pictures of OpenGL: its r4 and r5 are empty.
 void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
                    const EachStrip& each_strip);
+// The same until go_on() is false. Returns whether it never was.
+bool each_strip_while(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
+                      const WhileStrip& go_on);
 
 // The casters of the technique's maps, if the bias moves them. The scene must outlive the result.
 gl::Renderer::CastersOf casters_of(const Scene& scene, const Technique& technique);
@@ -163,7 +171,8 @@ class Pipeline {
   // The same of one map, whose exact map is not kept.
   ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
                   const Technique& technique);
-  // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
+  // Traces the taps strip by strip and books them, and checks what `shown` has been checked for. varied: the part of the bias that
+  // a curve varies, or null; it needs all checks.
   // each_strip: called for each strip while its taps are at hand, or empty.
   virtual Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,
                                const TruthStage& truth, const ShownStage& shown, const Technique& technique,

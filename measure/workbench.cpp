@@ -71,7 +71,11 @@ const std::string& Workbench::scene_identity(const SceneSettings& settings) {
 }
 
 MemoryEstimate Workbench::memory(const Settings& settings, bool curve, bool pictures) {
-  const Impl::Asked asked = impl_->begin(settings);
+  return impl_->memory(settings, curve, pictures);
+}
+
+MemoryEstimate Workbench::Impl::memory(const Settings& settings, bool curve, bool pictures) {
+  const Asked asked = begin(settings);
   const Scene& scene = *asked.loaded.scene;
   return estimate_memory({settings, asked.technique.frame.kind, scene_size(scene), asked.loaded.open_edges,
                           outside_texels(scene, asked.technique), curve, pictures});

@@ -111,6 +111,8 @@ struct Workbench::Impl {
     return {loaded, Technique(*loaded.scene, settings), std::move(keys)};
   }
 
+  MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);
+
   struct Looked {
     const ViewStage& view;
     const TruthStage& truth;

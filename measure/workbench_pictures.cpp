@@ -13,6 +13,21 @@ namespace {
 // Of the file of a live picture or of a stack of pictures. The page holds it as base64, with a third more bytes, and shall stay below 4 MB.
 constexpr size_t most_live_bytes = 2'000'000;
 
+// Whether a picture of so many pixels fits, whatever the answers of its taps are.
+bool fits_surely(size_t pixels, int taps) {
+  return live_array_bytes(pixels * (2 * static_cast<size_t>(taps) + 1), pixels) <= most_live_bytes;
+}
+
+// Bands of rows from the top, each with as many rows as all before it. A picture that has too many answers shows it in one of
+// the first, so that its other taps need no truth.
+std::vector<PixelRange> growing_bands(size_t width, size_t height) {
+  constexpr size_t first_band = 16;  // of the height
+  std::vector<PixelRange> bands;
+  for (size_t row = 0, end = (height + first_band - 1) / first_band; row < height; row = end, end = 2 * row)
+    bands.push_back({row * width, std::min(end, height) * width});
+  return bands;
+}
+
 }  // namespace
 
 // What a small picture is drawn from: its maps, each with the truth of its receivers. As of the point itself, but nothing that
@@ -48,7 +63,7 @@ struct Workbench::Impl::SmallPicture {
   BiasScale scale;
 };
 
-// One attempt at a live picture, of the picture's size in the settings.
+// One attempt at a live picture, of the picture's size in the settings. A picture that does not fit may miss receivers.
 LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings& settings) {
   SmallPicture small(*this, loaded, settings);
   const BiasPart& varied = *curve_part(settings);
@@ -59,7 +74,8 @@ LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings&
   picture.scale = small.scale;
   for (size_t i = 0; i < picture.flags.size(); ++i)
     if (small.seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
-  for (size_t k = 0; k < small.techniques.size(); ++k) {
+  bool fits = true;
+  for (size_t k = 0; k < small.techniques.size() && fits; ++k) {
     const Technique& technique = small.techniques[k];
     TruthStage& truth = small.truths[k];
     for (size_t i = 0; i < truth.receivers.share.size(); ++i)  // without a blend band each receiver is of one map
@@ -67,8 +83,11 @@ LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings&
     LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, small.seen, truth, technique);
     const MapDepths stored =
         renderer.read_map(*stages->draw_map(renderer, *loaded.scene, technique).map, asked.exact_depth.texels);
-    each_strip_of(renderer, asked, truth, technique, [&](const LookupEvidence& evidence, PixelRange strip) {
-      add_live_strip(picture, evidence, stored, settings.bias, varied, strip);
+    if (asked.strips.size() == 1 && !fits_surely(picture.flags.size(), picture.taps))
+      asked.strips = growing_bands(static_cast<size_t>(picture.flags.width), static_cast<size_t>(picture.flags.height));
+    fits = each_strip_while(renderer, asked, truth, technique, [&](const LookupEvidence& evidence, PixelRange strip) {
+      add_live_strip(picture, evidence, stored, varied, strip);
+      return live_array_bytes(picture) <= most_live_bytes;
     });
   }
   return picture;
@@ -99,17 +118,17 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
       at.bias[part->name] = value;
     else
       at.lookup["reduction"] = value;
-    const StageKeys keys(at);
     const std::vector<Technique> techniques = small.at(*loaded.scene, at);
     std::vector<const TruthStage*> truths;
     for (const TruthStage& truth : small.truths) truths.push_back(&truth);
     const ChosenCascades* const of_receivers = small.chosen ? &*small.chosen : nullptr;
-    ShownMaps shown = show_maps({loaded, techniques.front(), keys}, small.seen, kept, truths, techniques, of_receivers,
-                                MetricSet::searched, false, Checks::none);
+    ShownMaps shown = show_maps({loaded, techniques.front(), StageKeys(at)}, small.seen, kept, truths, techniques,
+                                of_receivers, MetricSet::searched, false, Checks::none);
     std::optional<Ladder> ladder;
     for (size_t k = 0; k < techniques.size(); ++k) {
       const TruthStage& truth = small.truths[k];
       LookupStage& asked = *kept.each[k].lookup.value();
+      if (!part && !asked.kept_steps) asked.kept_steps.emplace();  // the pictures differ in the reduction alone
       const ShownStage one = shown.take(of_receivers, k);
       Climbed climbed = stages->climb_strips(renderer, asked, small.seen, truth, one, techniques[k], nullptr);
       if (!stack) stack = empty_picture_stack(small.seen.receivers, small.all.receivers, asked.probe, parameter);
@@ -130,7 +149,7 @@ template <class Draw, class Write>
 auto Workbench::Impl::draw_small(const Settings& settings, const Draw& draw, const Write& write) {
   const SceneStage& loaded = load(settings);
   // The picture needs a map and a lookup of its own. There may be no memory for two of each.
-  forget_maps();
+  if (!memory(settings, false, true).keeps_maps) forget_maps();
   receivers_on_device.clear();
   Settings small = settings;
   const double shrink = std::min({1.0, static_cast<double>(most_live_width_px) / small.view.width_px,

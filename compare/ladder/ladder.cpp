@@ -109,14 +109,17 @@ Climb::Climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder) :
 }
 
 void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
+  const bool given = !e_.probe.pattern.bilinear() && e_.r4.size() != 0;
+  receiver(i, taps, {e_.bias.at(e_.probe, i), given ? std::optional(e_.r4[i]) : std::nullopt, e_.r5[i]}, worst);
+}
+
+void Climb::receiver(size_t i, const ReceiverTaps& taps, const Shown& shown, Part& worst) const {
   const LookupEvidence& e = e_;
   Ladder& ladder = ladder_;
-  const bool computed = e.probe.pattern.bilinear() || e.r4.size() == 0;
   const double whole = whole_weight(e.probe);
   if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside_of_map(e.probe, i, e.exact_map))
     ladder.flags[i] |= flag_outside;
 
-  const float bias = e.bias.at(e.probe, i);
   double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0, unsure = 0;
   // The undecided parts of three steps: from R1 to the exact places, from there to the places looked up, and from
   // there to R4. They are signed.
@@ -137,20 +140,20 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
     if (cause == Cause::undecided) before_r4 += step(tap.moved_lit, lit);
   };
   if (taps.alike()) {  // those that are lit are booked at once, and so are those that are dark
-    const size_t lit = taps.lit_on(e.exact_map, bias);
+    const size_t lit = taps.lit_on(e.exact_map, shown.bias);
     if (lit > 0) book(taps[0], true, static_cast<double>(lit));
     if (lit < taps.size()) book(taps[0], false, static_cast<double>(taps.size() - lit));
   } else {
     for (size_t t = 0; t < taps.size(); ++t) {
       const Tap tap = taps[t];
-      book(tap, tap.lit(bias), tap.weight);
+      book(tap, tap.lit(shown.bias), tap.weight);
     }
   }
   if (unsure > 0) ladder.flags[i] |= flag_undecided;
   // Computed in double and rounded once to float: the shader's own count / N is the same quotient in float.
   const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
-  const float r[std::size(rung_names)] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]),  share(exact_lit),
-                                          share(texel_lit), computed ? share(all_lit) : e.r4[i], e.r5[i]};
+  const float r[std::size(rung_names)] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
+                                          share(texel_lit), shown.r4.value_or(share(all_lit)),  shown.r5};
   for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
 
   const auto set = [&](Cause cause, float value) { ladder[cause][i] = value; };

@@ -183,6 +183,13 @@ class Climb {
   };
   Climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);  // both must outlive this
   void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
+  // The same with another bias of the compared depth, and with what OpenGL shows of the receiver then.
+  struct Shown {
+    float bias = 0;           // Bias::at()
+    std::optional<float> r4;  // empty: the share of the taps that are lit
+    float r5 = 0;
+  };
+  void receiver(size_t i, const ReceiverTaps& taps, const Shown& shown, Part& part) const;
   void join(const Part& part);
   void end_batch() const {}
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 
 #include "compare/ladder/live_arrays.h"
 #include "compare/ladder/receiver_taps.h"
@@ -18,73 +18,78 @@ namespace {
 // reads, so the threads share the images.
 class Answers {
  public:
-  struct Part {};
-  Answers(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map, const BiasSettings& bias,
-          const BiasPart& varied)
+  struct Part {  // memory that is used again
+    std::vector<float> on_exact_map, on_stored_map, changes;
+    std::vector<LiveAnswer> answers;
+    Climb::Part residuals;
+  };
+  Answers(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map, const BiasPart& varied,
+          PixelRange strip)
       : picture_(picture),
         e_(evidence),
         stored_map_(stored_map),
-        settings_(bias),
         varied_(varied),
-        r4_(picture.flags.width, picture.flags.height, 0),
-        r5_(r4_),
-        ladder_(empty_ladder(picture.flags.width, picture.flags.height)) {}
+        ladder_(empty_ladder(picture.flags.width, picture.flags.height)),
+        climb_(evidence, strip, ladder_) {}
 
-  void receiver(size_t i, const ReceiverTaps& taps, Part&) const {
+  void receiver(size_t i, const ReceiverTaps& taps, Part& part) const {
     const TapThreshold threshold(e_.probe, e_.bias, varied_, i);
-    std::vector<float> changes{0};
-    for (size_t t = 0; t < taps.size(); ++t)
-      for (const float at : {threshold(taps[t]), threshold(stored(taps, t))})
-        if (std::isfinite(at)) changes.push_back(at);
-    std::sort(changes.begin(), changes.end());
-    changes.erase(std::unique(changes.begin(), changes.end()), changes.end());
-    std::vector<LiveAnswer>& answers = picture_.answers[i];
-    for (const float bias : changes) {
-      const LiveAnswer answer = answer_at(bias, i, taps);
+    part.on_exact_map.clear(), part.on_stored_map.clear();
+    for (size_t t = 0; t < taps.size(); ++t) {
+      add(threshold(taps[t]), part.on_exact_map);
+      add(threshold(stored(taps, t)), part.on_stored_map);
+    }
+    std::sort(part.on_exact_map.begin(), part.on_exact_map.end());
+    std::sort(part.on_stored_map.begin(), part.on_stored_map.end());
+    part.changes.assign(1, 0);
+    std::merge(part.on_exact_map.begin(), part.on_exact_map.end(), part.on_stored_map.begin(), part.on_stored_map.end(),
+               std::back_inserter(part.changes));
+    part.changes.erase(std::unique(part.changes.begin(), part.changes.end()), part.changes.end());
+    part.answers.clear();
+    size_t on_exact = 0, shown = 0;  // lit taps
+    for (const float amount : part.changes) {
+      while (on_exact < part.on_exact_map.size() && part.on_exact_map[on_exact] <= amount) ++on_exact;
+      while (shown < part.on_stored_map.size() && part.on_stored_map[shown] <= amount) ++shown;
+      const LiveAnswer answer = answer_at(amount, threshold.bias_at(amount), {on_exact, shown}, i, taps, part);
       const auto same = [&](const LiveAnswer& a) {
         return a.lit == answer.lit && a.cause == answer.cause && a.acne == answer.acne &&
                a.peter_panning == answer.peter_panning;
       };
-      if (answers.empty() || !same(answers.back())) answers.push_back(answer);
+      if (part.answers.empty() || !same(part.answers.back())) part.answers.push_back(answer);
     }
+    picture_.answers[i].assign(part.answers.begin(), part.answers.end());
   }
   void join(const Part&) {}
   void end_batch() const {}
 
  private:
+  struct Lit {
+    size_t on_exact_map, shown;
+  };
   Tap stored(const ReceiverTaps& taps, size_t t) const { return taps.on(stored_map_, e_.map.format, t); }
+  static void add(float threshold, std::vector<float>& thresholds) {
+    if (std::isfinite(threshold)) thresholds.push_back(threshold);
+  }
 
   // The ladder itself says what the causes are. R4 and R5 are given to it as OpenGL's lookup computes them: the lit
   // taps, divided once by their number in float.
-  LiveAnswer answer_at(float amount, size_t i, const ReceiverTaps& taps) const {
-    BiasSettings settings = settings_;
-    settings[varied_.name] = amount;
-    const Bias bias(settings);
-    const float depth = bias.at(e_.probe, i);
+  LiveAnswer answer_at(float amount, float bias, Lit lit, size_t i, const ReceiverTaps& taps, Part& part) const {
     const auto whole = static_cast<float>(taps.size());
-    int on_exact_map = 0, shown = 0;
-    for (size_t t = 0; t < taps.size(); ++t) {
-      on_exact_map += taps[t].lit(depth);
-      shown += stored(taps, t).lit(depth);
-    }
-    r4_[i] = static_cast<float>(on_exact_map) / whole;
-    r5_[i] = static_cast<float>(shown) / whole;
-    const LookupEvidence evidence{e_.truth, e_.probe, e_.taps, e_.exact_map, e_.map, bias, r4_, r5_};
-    Climb::Part residuals;
-    Climb(evidence, {i, i + 1}, ladder_).receiver(i, taps, residuals);
+    const float r4 = static_cast<float>(lit.on_exact_map) / whole, r5 = static_cast<float>(lit.shown) / whole;
+    climb_.receiver(i, taps, {bias, r4, r5}, part.residuals);
     const auto taps_of = [&](Cause cause) {
       return static_cast<uint8_t>(std::lround(std::abs(ladder_[cause][i]) * whole));
     };
-    return {amount, static_cast<uint8_t>(shown), ladder_.cause[i], taps_of(Cause::acne), taps_of(Cause::peter_panning)};
+    return {amount, static_cast<uint8_t>(lit.shown), ladder_.cause[i], taps_of(Cause::acne),
+            taps_of(Cause::peter_panning)};
   }
 
   LivePicture& picture_;
   const LookupEvidence& e_;
   const MapDepths& stored_map_;
-  const BiasSettings& settings_;
   const BiasPart& varied_;
-  mutable Image<float> r4_, r5_;
-  mutable Ladder ladder_;
+  Ladder ladder_;
+  Climb climb_;
 };
 
 std::string head_of(const LivePicture& picture, size_t answers) {
@@ -125,15 +130,26 @@ LivePicture empty_live_picture(int width, int height) {
 }
 
 void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map,
-                    const BiasSettings& bias, const BiasPart& varied, PixelRange strip) {
+                    const BiasPart& varied, PixelRange strip) {
   const ReceiverTruth& truth = evidence.truth;
   for (size_t i = strip.first; i < strip.end; ++i) {
     picture.flags[i] |= static_cast<uint8_t>((truth.facing[i] ? live_facing : 0) | (truth.lit[i] != 0 ? live_lit : 0) |
                                              (truth.ambiguous[i] ? live_ambiguous : 0));
     picture.n_dot_l[i] = live_cosine(evidence.probe.n_dot_l[i]);
   }
-  Answers answers(picture, evidence, stored_map, bias, varied);
+  Answers answers(picture, evidence, stored_map, varied, strip);
   read_taps(evidence, strip, answers);
+}
+
+size_t live_array_bytes(size_t answers, size_t pixels) {
+  constexpr size_t of_answer = sizeof(float) + 4 * sizeof(uint8_t), of_pixel = 2 * sizeof(uint8_t) + sizeof(uint16_t);
+  return answers * of_answer + pixels * of_pixel;
+}
+
+size_t live_array_bytes(const LivePicture& picture) {
+  size_t answers = 0;
+  for (const std::vector<LiveAnswer>& of : picture.answers) answers += of.size();
+  return live_array_bytes(answers, picture.answers.size());
 }
 
 std::string live_file(const LivePicture& picture) {

@@ -2,7 +2,7 @@
 // changes, and its answer from each of them on. The report's page draws it without OpenGL.
 //
 //   LivePicture picture = empty_live_picture(width, height);
-//   add_live_strip(picture, evidence, stored_map, settings.bias, part, strip);  // for each strip of the picture
+//   add_live_strip(picture, evidence, stored_map, part, strip);  // for each strip of the picture
 //   write(live_file(picture));
 //
 // A tap's verdict changes only at its threshold (compare/ladder/tap_threshold.h), on the exact map or on the stored
@@ -51,9 +51,9 @@ std::string why_no_live_picture(const Settings& settings);
 LivePicture empty_live_picture(int width, int height);
 
 // Adds the receivers of a strip; of cascades one after the other those of each. evidence: holds the strip's taps; its r4 and r5 are not read. stored_map: the GPU's map
-// as its sampler returns it. bias: the settings from which evidence.bias was made. varied: the part that varies.
+// as its sampler returns it. varied: the part of evidence.bias that varies.
 void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map,
-                    const BiasSettings& bias, const BiasPart& varied, PixelRange strip);
+                    const BiasPart& varied, PixelRange strip);
 
 // The file of a live picture: compare/ladder/live_file.h with these arrays:
 //   float from[answers]; uint8 lit[answers], cause[answers], acne[answers], peter_panning[answers];
@@ -61,5 +61,9 @@ void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const 
 // count is the number of a pixel's answers. The line has kind ("thresholds"), width, height, taps, answers, parameter,
 // unit, depth_per_unit, m_per_depth, texels_per_depth and the names of the causes.
 std::string live_file(const LivePicture& picture);
+
+// The bytes of the file's arrays: of so many answers and pixels, and of what a picture has so far. More receivers only add to them.
+size_t live_array_bytes(size_t answers, size_t pixels);
+size_t live_array_bytes(const LivePicture& picture);
 
 }  // namespace noonmark

@@ -1,5 +1,9 @@
 #include "compare/ladder/moment_climb.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -86,7 +90,7 @@ void find_bounds(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, Mo
   }
   const ExactBound bound = exact_bound(e, i, *e.moments, e.bias, scratch);
   steps.chain.bound = bound.lit;
-  steps.shown = bound.decided ? bound.lit : e.moments->reduced(bound.lit);
+  steps.decided = bound.decided;
   if (bound.decided) {
     steps.chain.bare = bound.lit;
     return;
@@ -139,23 +143,49 @@ MomentSteps moment_steps(const LookupEvidence& e, size_t i, const ReceiverTaps& 
     *sum /= whole;
   s.displacement = c.from - s.exact_lit - s.before_moved;
   find_bounds(e, i, taps, scratch, s);
-  s.parts = moment_parts(c, s.shown);
+  s.reduce(*e.moments);
   return s;
 }
 
-MomentClimb::MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder)
-    : e_(evidence), ladder_(ladder) {
+void MomentSteps::reduce(const MomentLookup& lookup) {
+  shown = decided ? chain.bound : lookup.reduced(chain.bound);
+  parts = moment_parts(chain, shown);
+}
+
+MomentClimb::MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder,
+                         std::vector<MomentSteps>* kept)
+    : e_(evidence), ladder_(ladder), kept_(kept) {
   for (size_t i = strip.first; i < strip.end; ++i)
     ladder.flags[i] = static_cast<uint8_t>((evidence.truth.facing[i] ? flag_facing : 0) |
                                            (evidence.truth.ambiguous[i] ? flag_ambiguous : 0));
 }
 
-void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
+void MomentClimb::receiver(size_t i, const ReceiverTaps& taps, Part& part) const {
+  const MomentSteps steps = moment_steps(e_, i, taps, part.scratch);
+  if (kept_) (*kept_)[i] = steps;
+  book(i, steps, part);
+}
+
+void MomentClimb::climb_again(PixelRange strip) {
+  tbb::combinable<Part> found;
+  tbb::parallel_for(tbb::blocked_range<size_t>(strip.first, strip.end, 8192),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      Part& part = found.local();
+                      for (size_t i = range.begin(); i != range.end(); ++i) {
+                        if (!e_.truth.facing[i]) continue;
+                        MomentSteps steps = (*kept_)[i];
+                        steps.reduce(*e_.moments);
+                        book(i, steps, part);
+                      }
+                    });
+  found.combine_each([&](const Part& part) { join(part); });
+}
+
+void MomentClimb::book(size_t i, const MomentSteps& s, Part& worst) const {
   const LookupEvidence& e = e_;
   Ladder& ladder = ladder_;
   if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside_of_map(e.probe, i, e.exact_map))
     ladder.flags[i] |= flag_outside;
-  const MomentSteps s = moment_steps(e, i, taps, worst.scratch);
   if (s.chain.unsure > 0) ladder.flags[i] |= flag_undecided;
   worst.below_comparison = larger_residual(worst.below_comparison, s.below_comparison);
 

@@ -39,6 +39,10 @@ struct MomentSteps {
   MomentParts parts;  // of R4 - D
   // How much the bare bound is darker than the comparison of the same depths (law 13); negative if it is lighter.
   double below_comparison = 0;
+  bool decided = false;  // ExactBound::decided: then nothing is reduced
+
+  // Finds `shown` and `parts` from the chain, with this lookup's reduction.
+  void reduce(const MomentLookup& lookup);
 
   double all_undecided() const { return before_exact + before_moved + parts.undecided; }
 };
@@ -74,7 +78,11 @@ class MomentClimb {
     MomentScratch scratch;
     ReductionWindow reductions;  // of the counted receivers
   };
-  MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);  // both must outlive this
+  // All must outlive this. kept: null, or one for each pixel of the picture, to which what is found of the receivers is written.
+  MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder,
+              std::vector<MomentSteps>* kept = nullptr);
+  // Climbs the strip from what another climb has kept, in place of read_taps: of a lookup that differed in its reduction alone.
+  void climb_again(PixelRange strip);
   void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
   void join(const Part& part);
   void end_batch() const {}
@@ -83,8 +91,11 @@ class MomentClimb {
   const ReductionWindow& reductions() const { return reductions_; }
 
  private:
+  void book(size_t i, const MomentSteps& steps, Part& part) const;
+
   const LookupEvidence& e_;
   Ladder& ladder_;
+  std::vector<MomentSteps>* kept_;
   double below_comparison_ = 0;
   ReductionWindow reductions_;
 };

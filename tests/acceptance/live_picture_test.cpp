@@ -99,6 +99,25 @@ TEST(LivePicture, IsLeftOutWhereItWouldNotBeExact) {
             "bias.normal_offset moves the lookup, so each of its values needs a lookup pass of its own");
 }
 
+// Of a picture that is too large only the first rows are drawn. What is shown in the end is a whole one.
+TEST(LivePicture, IsSmallerWhereItWouldNotFit) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings settings =
+      with({{"filter.kind", "box"}, {"filter.size", "11"}, {"bias.constant", "0"}}, small("cube-room", 320, 180));
+  const std::optional<LivePicture> live = bench.live_picture(settings);
+  ASSERT_TRUE(live);
+  EXPECT_LT(live->flags.width, 320);
+  const std::string file = live_file(*live);
+  EXPECT_LE(file.size(), 2e6);
+  EXPECT_EQ(live_array_bytes(*live), file.size() - (file.find('\n') + 1));
+  size_t facing_below = 0;
+  for (size_t i = 0; i < live->answers.size(); ++i) {
+    EXPECT_EQ((live->flags[i] & live_facing) != 0, !live->answers[i].empty());
+    facing_below += i > live->answers.size() / 2 && !live->answers[i].empty();
+  }
+  EXPECT_GT(facing_below, live->answers.size() / 8);
+}
+
 TEST(LivePicture, IsOfTheSameViewWithFewerPixels) {
   Workbench bench(gl::DebugMode::fatal);
   const std::optional<LivePicture> live = bench.live_picture(small("cube-room", 640, 300));

@@ -97,6 +97,16 @@ INSTANTIATE_TEST_SUITE_P(
                    {{"map.resolution", "256"}, {"lookup.kind", "vsm"}, {"filter.kind", "box"}, {"filter.size", "5"}}},
                   "lookup.reduction",
                   ""},
+        StackCase{{"moments_in_cascades",
+                   "street",
+                   {{"cascades.count", "2"},
+                    {"cascades.blend", "0.4"},
+                    {"map.fit", "sphere"},
+                    {"map.resolution", "128"},
+                    {"lookup.kind", "evsm2"},
+                    {"filter.kind", "box"}}},
+                  "bias.constant",
+                  "depth"},
         StackCase{{"blended_cascades",
                    "street",
                    {{"cascades.count", "3"},
@@ -108,6 +118,23 @@ INSTANTIATE_TEST_SUITE_P(
                   "bias.constant",
                   "texel"}),
     testing::PrintToStringParamName());
+
+// The measured points check the same lookups.
+TEST(PictureStack, LooksUpOnlyWhatItShows) {
+  struct CountedPasses : Pipeline {
+    explicit CountedPasses(size_t& count) : count_(count) {}
+    MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map,
+                       std::span<const Technique> techniques) override {
+      ++count_;
+      return Pipeline::look_up(renderer, map, techniques);
+    }
+    size_t& count_;
+  };
+  size_t passes = 0;
+  Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<CountedPasses>(passes));
+  bench.picture_stack(with({{"filter.kind", "hardware"}}, small("cube-room", 40, 24)), {});
+  EXPECT_EQ(passes, 2 * most_stacked) << "the drawn map and the exact one, and no tie map";
+}
 
 TEST(PictureStack, HasTheSetValueAndTheMarks) {
   const BiasPart& part = bias_part("constant");

@@ -59,6 +59,44 @@ TEST_P(Strips, ChangeNoResult) {
   }
 }
 
+TEST(StripsOfAPicture, ChangeNoFile) {
+  Workbench whole(gl::DebugMode::fatal), in_strips(gl::DebugMode::fatal, {}, std::make_unique<Pipeline>(1));
+  const Settings box = with({{"filter.kind", "box"}, {"map.resolution", "200"}}, small("cube-room", 80, 50)),
+                 cube = with({{"filter.kind", "cube_grid"}, {"map.resolution", "100"}}, small("point-room", 80, 50)),
+                 moments = with({{"lookup.kind", "vsm"}, {"filter.kind", "box"}, {"map.resolution", "200"}},
+                                small("cube-room", 80, 50));
+  for (const Settings& settings : {box, cube})
+    EXPECT_TRUE(live_file(*whole.live_picture(settings)) == live_file(*in_strips.live_picture(settings)));
+  EXPECT_TRUE(stack_file(whole.picture_stack(moments, {})) == stack_file(in_strips.picture_stack(moments, {})));
+}
+
+// What the next point may use is there after a small picture, and is of the point and not of the picture.
+TEST(LookupsOfAPoint, OutliveItsSmallPicture) {
+  struct CountedLookups : Pipeline {
+    explicit CountedLookups(int& count) : count_(count) {}
+    LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
+                               const TruthStage& truth, const Technique& technique) override {
+      ++count_;
+      return Pipeline::prepare_lookup(renderer, tracer, view, truth, technique);
+    }
+    int& count_;
+  };
+  int lookups = 0;
+  Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<CountedLookups>(lookups));
+  for (const Settings& settings :
+       {with({{"filter.kind", "box"}, {"map.resolution", "200"}}, small("cube-room", 400, 200)),
+        with({{"filter.kind", "cube_grid"}, {"map.resolution", "100"}}, small("point-room", 400, 200))}) {
+    const Ladder first = bench.measure(settings, std::nullopt).ladder;
+    ASSERT_TRUE(bench.live_picture(settings));
+    lookups = 0;
+    const Ladder again = bench.measure(settings, std::nullopt).ladder;
+    EXPECT_EQ(lookups, 0);
+    for (size_t n = 0; n < first.rungs.size(); ++n)
+      EXPECT_EQ(again.rungs[n].lit.pixels, first.rungs[n].lit.pixels) << n;
+    EXPECT_EQ(again.cause.pixels, first.cause.pixels);
+  }
+}
+
 // A lookup of several strips keeps its rays, which refer to the scene's tracer. When another scene has been loaded in
 // between, the rays must be made anew, although the settings are the same as before.
 TEST(StripsOfAScene, AreForgottenWithIt) {

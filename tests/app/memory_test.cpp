@@ -154,6 +154,27 @@ TEST_F(Estimate, KnowsTheLivePicture) {
   EXPECT_GT(live(), 57600 * 13 * 8.0) << "an answer for each picture";
 }
 
+// Beside the small picture's own, so that they are counted twice.
+TEST_F(Estimate, KeepsSmallMapsForTheNextPoint) {
+  const auto waiting = [&](bool pictures) {
+    const MemoryEstimate found = estimate(LightKind::directional, {100, 100}, true, pictures);
+    EXPECT_EQ(found.shares.back().what, std::string("the maps that wait for the next point"));
+    return std::pair(found.keeps_maps, found.shares.back().bytes);
+  };
+  settings_.map.resolution = 512;
+  EXPECT_EQ(waiting(false).second, 0) << "nothing is drawn between two points";
+  const auto [keeps, small] = waiting(true);
+  EXPECT_TRUE(keeps);
+  EXPECT_GT(small, 2.0 * 512 * 512 * 4) << "the drawn map and the exact one";
+  EXPECT_LT(small, static_cast<double>(most_beside_live_bytes));
+  settings_.filter.kind = "box";
+  settings_.filter["size"] = 15;
+  EXPECT_EQ(waiting(true), std::pair(false, 0.0)) << "207 million taps";
+  settings_.filter["size"] = 1;
+  settings_.map.resolution = 8192;
+  EXPECT_EQ(waiting(true), std::pair(false, 0.0)) << "maps of 256 MB";
+}
+
 TEST_F(Estimate, IsRefusedWithTheSettingToChange) {
   settings_.map.resolution = 16384;
   const MemoryEstimate cube = estimate(LightKind::point);
