@@ -457,10 +457,12 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     recorded.maps.push_back(
         {map.technique.frame, map.lookup.probe, map.technique.bias, map.lookup.edge_distance_texels});
   m.record = record_of(recorded);
-  if (metrics == MetricSet::all)
-    for (const auto& [name, value] :
-         b.footprint.get(asked.keys.truth + asked.keys.lookup, [&] { return footprint_of(recorded); }))
+  if (metrics == MetricSet::all) {
+    // Which cascade a receiver is in depends on the lookup.
+    const std::string key = asked.keys.truth + (cascaded ? asked.keys.lookup : asked.keys.map);
+    for (const auto& [name, value] : b.footprint.get(key, [&] { return footprint_of(recorded); }))
       m.record.metrics[name] = value;
+  }
   if (cascaded) {
     Seam all;
     for (const Seam& seam : seams) all.add(seam);
