@@ -87,7 +87,7 @@ double map_bytes(double texels, double asked, bool cube) {
 
 }  // namespace
 
-double MemoryEstimate::bytes() const {
+double MemoryEstimate::needed() const {
   return std::accumulate(shares.begin(), shares.end(), 0.0,
                          [](double sum, const MemoryShare& share) { return sum + share.bytes; });
 }
@@ -164,7 +164,6 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? maps : 0));
   const double motion = s.view.motion.any() ? pixels * per_flicker_pixel : 0;
   const double kept = maps * (strip + map + moments) + more_maps;
-  const bool keeps_maps = kept <= static_cast<double>(most_beside_live_bytes);
   double live = 0;
   if (input.pictures && maps == 1) {
     const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
@@ -188,9 +187,8 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
            maps > 1 ? "lower map.resolution, cascades.resolutions or cascades.count" : "lower map.resolution",
            maps * map + more_maps},
           {"the map of moments", "lower map.resolution, or set map.moments = 16f", maps * moments},
-          {"the maps that wait for the next point", "set pictures = \"none\"", input.pictures && keeps_maps ? kept : 0},
       },
-      keeps_maps};
+      input.pictures && kept <= static_cast<double>(most_beside_live_bytes) ? kept : 0};
 }
 
 double outside_texels(const Scene& scene, const Technique& technique) {
@@ -236,14 +234,18 @@ AvailableMemory memory_of_program(const AvailableMemory& space_at_start, uint64_
 }
 
 bool fits(const MemoryEstimate& estimate, const AvailableMemory& of_program) {
-  return estimate.bytes() <= static_cast<double>(of_program.bytes);
+  return estimate.needed() <= static_cast<double>(of_program.bytes);
+}
+
+bool fits_waiting(const MemoryEstimate& estimate, const AvailableMemory& of_program) {
+  return estimate.waiting > 0 && estimate.bytes() <= static_cast<double>(of_program.bytes);
 }
 
 void require_memory(const MemoryEstimate& estimate, const AvailableMemory& of_program, const std::string& point) {
   if (fits(estimate, of_program)) return;
   const MemoryShare& most = estimate.largest();
   throw Error(ErrorKind::usage, fmt::format("{} would take about {} of memory, {} of it for {}, and {}; {}", point,
-                                            bytes_text(estimate.bytes()), bytes_text(most.bytes), most.what,
+                                            bytes_text(estimate.needed()), bytes_text(most.bytes), most.what,
                                             of_program.text(), most.remedy));
 }
 

@@ -59,9 +59,12 @@ struct MemoryShare {
 };
 
 struct MemoryEstimate {
-  std::vector<MemoryShare> shares;
-  bool keeps_maps = false;  // while the small picture for the page is drawn, because the next point may use them
-  double bytes() const;     // the sum of the shares: the peak of the whole program
+  std::vector<MemoryShare> shares;  // what the point needs
+  // The maps and taps that are kept while the small picture for the page is drawn, because the next point may use them. Only
+  // where there is room for them.
+  double waiting = 0;
+  double needed() const;                               // the sum of the shares
+  double bytes() const { return needed() + waiting; }  // the peak of the whole program
   const MemoryShare& largest() const;
 };
 
@@ -79,7 +82,9 @@ double outside_texels(const Scene& scene, const Technique& technique);
 // points do not change it, although the C library keeps freed memory.
 AvailableMemory memory_of_program(const AvailableMemory& space_at_start, uint64_t room);
 
+// Whether there is room for what the point needs; and for what waits for the next one too.
 bool fits(const MemoryEstimate& estimate, const AvailableMemory& of_program);
+bool fits_waiting(const MemoryEstimate& estimate, const AvailableMemory& of_program);
 
 // Throws Error(usage) if the estimate does not fit, with `point`, the largest share and the setting to change.
 void require_memory(const MemoryEstimate& estimate, const AvailableMemory& of_program, const std::string& point);

@@ -81,8 +81,10 @@ MemoryEstimate Workbench::Impl::memory(const Settings& settings, bool curve, boo
                           outside_texels(scene, asked.technique), curve, pictures});
 }
 
-AvailableMemory Workbench::memory_of_program(bool pictures) const {
-  return noonmark::memory_of_program(impl_->space_at_start, room_to_start(pictures));
+AvailableMemory Workbench::memory_of_program(bool pictures) const { return impl_->memory_of_program(pictures); }
+
+AvailableMemory Workbench::Impl::memory_of_program(bool pictures) const {
+  return noonmark::memory_of_program(space_at_start, room_to_start(pictures));
 }
 
 PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured,

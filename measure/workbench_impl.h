@@ -112,6 +112,7 @@ struct Workbench::Impl {
   }
 
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);
+  AvailableMemory memory_of_program(bool pictures) const;
 
   struct Looked {
     const ViewStage& view;

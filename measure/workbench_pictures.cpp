@@ -149,7 +149,7 @@ template <class Draw, class Write>
 auto Workbench::Impl::draw_small(const Settings& settings, const Draw& draw, const Write& write) {
   const SceneStage& loaded = load(settings);
   // The picture needs a map and a lookup of its own. There may be no memory for two of each.
-  if (!memory(settings, false, true).keeps_maps) forget_maps();
+  if (!fits_waiting(memory(settings, false, true), memory_of_program(true))) forget_maps();
   receivers_on_device.clear();
   Settings small = settings;
   const double shrink = std::min({1.0, static_cast<double>(most_live_width_px) / small.view.width_px,

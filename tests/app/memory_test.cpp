@@ -158,21 +158,35 @@ TEST_F(Estimate, KnowsTheLivePicture) {
 TEST_F(Estimate, KeepsSmallMapsForTheNextPoint) {
   const auto waiting = [&](bool pictures) {
     const MemoryEstimate found = estimate(LightKind::directional, {100, 100}, true, pictures);
-    EXPECT_EQ(found.shares.back().what, std::string("the maps that wait for the next point"));
-    return std::pair(found.keeps_maps, found.shares.back().bytes);
+    EXPECT_EQ(found.bytes(), found.needed() + found.waiting);
+    return found.waiting;
   };
   settings_.map.resolution = 512;
-  EXPECT_EQ(waiting(false).second, 0) << "nothing is drawn between two points";
-  const auto [keeps, small] = waiting(true);
-  EXPECT_TRUE(keeps);
+  EXPECT_EQ(waiting(false), 0) << "nothing is drawn between two points";
+  const double small = waiting(true);
   EXPECT_GT(small, 2.0 * 512 * 512 * 4) << "the drawn map and the exact one";
   EXPECT_LT(small, static_cast<double>(most_beside_live_bytes));
   settings_.filter.kind = "box";
   settings_.filter["size"] = 15;
-  EXPECT_EQ(waiting(true), std::pair(false, 0.0)) << "207 million taps";
+  EXPECT_EQ(waiting(true), 0) << "207 million taps";
   settings_.filter["size"] = 1;
   settings_.map.resolution = 8192;
-  EXPECT_EQ(waiting(true), std::pair(false, 0.0)) << "maps of 256 MB";
+  EXPECT_EQ(waiting(true), 0) << "maps of 256 MB";
+}
+
+// They are kept to save time, so no point is refused for them.
+TEST_F(Estimate, RefusesNoPointForWhatWaits) {
+  settings_.map.resolution = 512;
+  const MemoryEstimate found = estimate(LightKind::directional, {100, 100}, true, true);
+  ASSERT_GT(found.waiting, 0);
+  const auto available = [](double bytes) { return AvailableMemory{static_cast<uint64_t>(bytes), "as given"}; };
+  const AvailableMemory enough = available(found.bytes() + 1), little = available(found.needed() + found.waiting / 2);
+  EXPECT_TRUE(fits(found, enough));
+  EXPECT_TRUE(fits_waiting(found, enough));
+  EXPECT_TRUE(fits(found, little));
+  EXPECT_FALSE(fits_waiting(found, little));
+  EXPECT_NO_THROW(require_memory(found, little, "this point"));
+  EXPECT_FALSE(fits(found, available(found.needed() - 1)));
 }
 
 TEST_F(Estimate, IsRefusedWithTheSettingToChange) {
