@@ -66,6 +66,8 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
   const Survey survey(bench, experiment, planned, listed);
   survey.tell();
   const std::vector<MemoryEstimate>& memory = survey.memory;
+  const AvailableMemory there = bench.memory_of_program(writes_pictures(experiment));
+  const auto peak = [&](const MemoryEstimate& of) { return fits_waiting(of, there) ? of.bytes() : of.needed(); };
   double all_taps = 0;
   for (const int64_t id : listed) {
     const auto i = static_cast<size_t>(id);
@@ -73,7 +75,7 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
     std::string text = part.part.empty() ? "" : "  " + part.part;
     for (const Swept& swept : part.swept)
       text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
-    fmt::print("{:5}{}  ({})\n", i, printable(text), bytes_text(memory[i].bytes()));
+    fmt::print("{:5}{}  ({})\n", i, printable(text), bytes_text(peak(memory[i])));
   }
   for (const Settings& point : planned) all_taps += taps(point);
   if (listed.empty()) {
@@ -82,11 +84,10 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
   }
   const auto most =
       std::max_element(memory.begin(), memory.end(),
-                       [](const MemoryEstimate& a, const MemoryEstimate& b) { return a.bytes() < b.bytes(); });
+                       [&](const MemoryEstimate& a, const MemoryEstimate& b) { return peak(a) < peak(b); });
   const MemoryShare& share = most->largest();
-  fmt::print("memory: at most {}, by point {} ({} of it for {}); {}\n", bytes_text(most->bytes()),
-             most - memory.begin(), bytes_text(share.bytes), share.what,
-             bench.memory_of_program(writes_pictures(experiment)).text());
+  fmt::print("memory: at most {}, by point {} ({} of it for {}); {}\n", bytes_text(peak(*most)), most - memory.begin(),
+             bytes_text(share.bytes), share.what, there.text());
   MemoryCheck room(bench, experiment, memory);
   for (const int64_t id : listed) room.require_room_for(static_cast<size_t>(id));
   const std::vector<PhasePlan> diagrams = phase_plans(experiment, planned);
