@@ -7,7 +7,7 @@
 //   std::map<std::string, double> metrics = placement_metrics(shares, stage->facts(worst_placement(shares)));
 //
 // Two placements are measured by themselves too, with OpenGL: the one of the settings, and the one with the largest
-// error. The counts must agree with both (with Checks::none they are not compared, and the second is not measured).
+// error. The counts must agree with both (with Checks::none they are not compared).
 //
 // Shifts of a grid that is compared share one lattice of rays. The turns of a cube share no texel, and a map of moments needs
 // the depths and weights of whole blurs: there each placement is measured by itself, and S x S placements take as long as

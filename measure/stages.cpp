@@ -267,13 +267,13 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   std::optional<SoundnessCheck> soundness;
   const bool reads_tan = technique.bias.reads_tan();
   if (shown.checks == Checks::all) {
-    const bool known = lookup.checked_probe && lookup.checked_probe->second == reads_tan;
+    const bool compared = lookup.checked_probe && lookup.checked_probe->second == reads_tan;
     soundness.emplace(SoundnessInput{evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers,
                                      technique.frame, view.camera.eye_m,
-                                     known ? &lookup.checked_probe->first : nullptr});
+                                     compared ? &lookup.checked_probe->first : nullptr});
   }
-  const bool known = lookup.kept_steps && !lookup.kept_steps->empty();
-  if (lookup.kept_steps && !known) lookup.kept_steps->resize(truth.receivers.facing.size());
+  const bool has_steps = lookup.kept_steps && !lookup.kept_steps->empty();
+  if (lookup.kept_steps && !has_steps) lookup.kept_steps->resize(truth.receivers.facing.size());
   Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height(),
                                technique.moments ? cause_count : compared_cause_count),
                   {},
@@ -284,7 +284,7 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
   if (varied) climbed.counts.emplace(lookup.probe, *varied);
   if (lookup.rays) lookup.tap_stage = {};
   for (const PixelRange& strip : lookup.strips) {
-    if (known && !soundness) {
+    if (has_steps && !soundness) {
       MomentClimb climbing(evidence, strip, climbed.ladder, &*lookup.kept_steps);
       climbing.climb_again(strip);
       climbed.reductions.add(climbing.reductions());

@@ -74,7 +74,8 @@ struct LookupStage {
   TruthAnswers texel_answers{};
   size_t seen_texels = 0;  // those of exact_depth that receivers read whose result the map has a part in
   // What climb_strips() found when it checked the probe, and whether the bias read tan(theta) then. The amounts of a bias of
-  // the compared depth change nothing else that is checked of the probe, so it is compared once for all of them.
+  // the compared depth change nothing else that ProbeCheck compares, so the probe is compared once for all of them. A part of
+  // the bias that reads another number of the probe must be told apart here too.
   std::optional<std::pair<ProbeErrors, bool>> checked_probe{};
   // Of a lookup in a map of moments that is climbed several times with no other change than its reduction: if it is there and
   // empty, climb_strips() writes what it finds of each pixel, and afterwards climbs from that, without taps.
@@ -83,7 +84,8 @@ struct LookupStage {
 
 // Whether a measurement checks its renderer too (compare/judge/soundness.h). With none OpenGL draws the maps and looks them
 // up (R5) as always. But R4 of a lookup that compares depths is computed from the taps, and no number of the renderer is
-// compared with its definition. For what is measured in order to be compared, and not kept: a search, a small picture.
+// compared with its definition. So measures a search, and a small picture of a page; what verifies the answer of a search is
+// checked.
 enum class Checks { all, none };
 
 // What OpenGL shows in one map: the technique on its own map, on the exact map and on the tie map.

@@ -67,7 +67,7 @@ struct PassTimes {
 void require_room_to_start(bool pictures);
 
 // Which metrics a record has. searched: without those that cost a pass over the picture or the map and that a search seldom reads:
-// shaded_rmse, flip, map_used, undersampled and perspective_aliasing. shaded: with the first two of them.
+// shaded_rmse, flip, map_used, undersampled and perspective_aliasing. shaded: as searched, with shaded_rmse and flip.
 enum class MetricSet { all, shaded, searched };
 MetricSet metric_set_for(std::string_view metric);  // what is needed to know this one
 
@@ -79,7 +79,7 @@ class Workbench {
   ~Workbench();
 
   // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). checks: with none the record has no
-  // metric of soundness, and of placements no error_worst_shown; all else is the same. The record has no metric that is a
+  // metric of soundness; all else is the same. The record has no metric that is a
   // time: see measure/pass_times.h. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
                       MetricSet metrics = MetricSet::all, Checks checks = Checks::all);

@@ -183,7 +183,8 @@ struct Workbench::Impl {
     double error_shown = 0;  // mean |R5 - R1| over the map's receivers
     std::map<std::string, double> soundness;
   };
-  WorstPlacement render_worst(const Asked& asked, const ViewStage& seen, const OneMap& map, PlacementStage& placements);
+  WorstPlacement render_worst(const Asked& asked, const ViewStage& seen, const OneMap& map, PlacementStage& placements,
+                              Checks checks);
   void add_placements(PointRecord& record, std::span<const OneMap> maps,
                       std::span<const std::unique_ptr<PlacementStage>> placements,
                       std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked, Checks checks);

@@ -172,14 +172,14 @@ void add_maps(PointRecord& record, std::span<const OneMap> maps, const MapStage&
     record.metrics["map_used"] = static_cast<double>(*drawn.used) / record.metrics.at("map_texels");
 }
 
-// The mean of |R5 - R1| over the receivers of a map, each weighted by the map's share in it. NaN without one.
-double error_of_map(const Ladder& ladder, const ReceiverTruth& truth) {
-  if (truth.share.size() == 0) return error_of(ladder);
+// The mean of |R5 - R1| over the counted receivers of a map, each weighted by the map's share in it. NaN without one.
+double error_of_map(const Image<float>& shown, const ReceiverTruth& truth) {
   double sum = 0, all = 0;
-  for (size_t i = 0; i < ladder.flags.size(); ++i) {
-    if (!is_counted(ladder, i)) continue;
-    sum += truth.share[i] * std::abs(static_cast<double>(ladder.shown()[i]) - static_cast<double>(ladder.truth()[i]));
-    all += truth.share[i];
+  for (size_t i = 0; i < shown.size(); ++i) {
+    if (!truth.facing[i] || truth.ambiguous[i]) continue;
+    const double share = truth.share.size() == 0 ? 1 : truth.share[i];
+    sum += share * std::abs(static_cast<double>(shown[i]) - static_cast<double>(truth.lit[i]));
+    all += share;
   }
   return all > 0 ? sum / all : not_a_number;
 }
@@ -259,14 +259,21 @@ ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, 
   return stages->show_maps(renderer, map, exact, of_each, techniques, of_receivers, keep_fetched, checks);
 }
 
-// OpenGL renders the worst placement of a map too: the counts are compared with it, and what it shows there is a metric of
-// its own.
+// OpenGL renders the worst placement of a map too: what it shows there is a metric of its own, and with checks the counts are
+// compared with it.
 Workbench::Impl::WorstPlacement Workbench::Impl::render_worst(const Asked& asked, const ViewStage& seen,
-                                                              const OneMap& map, PlacementStage& placements) {
+                                                              const OneMap& map, PlacementStage& placements,
+                                                              Checks checks) {
   see(asked);
   const int worst = worst_placement(placements.shares());
   const Technique moved = map.technique.at(placements.frame(worst));
   const SceneStage& loaded = asked.loaded;
+  const ReceiverTruth& truth = map.truth.receivers;
+  if (checks == Checks::none) {
+    const MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
+    const MapResults results = stages->look_up(renderer, *drawn.map, {&moved, 1});
+    return {error_of_map(result_in_map(results, nullptr, 0), truth), {}};
+  }
   LookupStage lookup_there = stages->prepare_lookup(renderer, *loaded.tracer, seen, map.truth, moved);
   MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
   const ShownStage shown = stages->show(renderer, drawn, lookup_there, map.truth, moved);
@@ -275,11 +282,11 @@ Workbench::Impl::WorstPlacement Workbench::Impl::render_worst(const Asked& asked
       [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
   climbed.soundness["residual"] = climbed.ladder.residual;
   climbed.soundness["tap_residual"] = climbed.ladder.tap_residual;
-  return {error_of_map(climbed.ladder, map.truth.receivers), std::move(climbed.soundness)};
+  return {error_of_map(shown.r5, truth), std::move(climbed.soundness)};
 }
 
-// Adds the metrics over all placements of a map, or of each of the cascades, whose worst placements are independent; with
-// checks, what OpenGL shows at the worst. of_maps: placement_metrics() of all of them.
+// Adds the metrics over all placements of a map, or of each of the cascades, whose worst placements are independent.
+// of_maps: placement_metrics() of all of them.
 void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap> maps,
                                      std::span<const std::unique_ptr<PlacementStage>> placements,
                                      std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked,
@@ -293,8 +300,8 @@ void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap
     time.milliseconds += stage.time().milliseconds;
     time.rays += stage.time().rays;
     const double share = stage.receivers() / receivers;
-    if (!(share > 0) || checks == Checks::none) continue;
-    const WorstPlacement worst = render_worst(asked, seen, maps[k], stage);
+    if (!(share > 0)) continue;
+    const WorstPlacement worst = render_worst(asked, seen, maps[k], stage, checks);
     error += share * worst.error_shown;
     disagreements += static_cast<double>(stage.disagreements());
     // A defect that only the worst placement shows makes the point unsound too.
@@ -302,10 +309,8 @@ void Workbench::Impl::add_placements(PointRecord& record, std::span<const OneMap
       if (const auto value = worst.soundness.find(limit.metric); value != worst.soundness.end())
         if (double& found = record.metrics[limit.metric]; !(value->second <= found)) found = value->second;
   }
-  if (checks == Checks::all) {
-    record.metrics["error_worst_shown"] = error;
-    record.metrics["placement_disagreements"] = disagreements;
-  }
+  record.metrics["error_worst_shown"] = error;
+  if (checks == Checks::all) record.metrics["placement_disagreements"] = disagreements;
   add_time(record, "placement", time);
 }
 

@@ -19,23 +19,25 @@ namespace noonmark {
 class StepBlocks {
  public:
   explicit StepBlocks(const Ladder& ladder)
-      : pixels_(ladder.flags.size()), causes_(ladder.causes.size()), any_((pixels_ + side - 1) / side * causes_) {
+      : pixels_(ladder.flags.size()),
+        causes_(ladder.causes.size()),
+        any_((pixels_ + of_block - 1) / of_block * causes_) {
     tbb::parallel_for(tbb::blocked_range<size_t>(0, blocks(), 16), [&](const tbb::blocked_range<size_t>& range) {
       for (size_t block = range.begin(); block != range.end(); ++block)
         for (size_t c = 0; c < causes_; ++c) any_[block * causes_ + c] = has_step(ladder.causes[c].step, block);
     });
   }
 
-  size_t blocks() const { return (pixels_ + side - 1) / side; }
+  size_t blocks() const { return (pixels_ + of_block - 1) / of_block; }
   // Whether a pixel of the block has a step of the cause other than 0; NaN is one.
   bool any(size_t block, size_t cause) const { return any_[block * causes_ + cause] != 0; }
   bool any(size_t block) const {
     const auto first = any_.begin() + static_cast<std::ptrdiff_t>(block * causes_);
     return std::any_of(first, first + static_cast<std::ptrdiff_t>(causes_), [](uint8_t has) { return has != 0; });
   }
-  static size_t block_of(size_t pixel) { return pixel / side; }
-  size_t first(size_t block) const { return block * side; }
-  size_t end(size_t block) const { return std::min(pixels_, (block + 1) * side); }
+  static size_t block_of(size_t pixel) { return pixel / of_block; }
+  size_t first(size_t block) const { return block * of_block; }
+  size_t end(size_t block) const { return std::min(pixels_, (block + 1) * of_block); }
 
   // Calls visit(i) for each pixel of the blocks with a step of the cause, in the picture's order.
   template <class Visit>
@@ -46,7 +48,7 @@ class StepBlocks {
   }
 
  private:
-  static constexpr size_t side = 512;  // pixels of a block, one after the other: a part of a row, or some rows
+  static constexpr size_t of_block = 512;  // pixels, one after the other: a part of a row, or some rows
 
   bool has_step(const Image<float>& step, size_t block) const {
     uint32_t bits = 0;
