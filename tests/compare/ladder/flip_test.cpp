@@ -76,7 +76,7 @@ TEST(Flip, OfAPointIsTheSameWhereverItLies) {
     EXPECT_EQ(around(x, y), expected) << x << ", " << y;
 }
 
-// Outside the picture lies more of its border. A picture with some of that around it has the same errors within.
+// Outside the picture FLIP repeats the pixels at its border. So a picture with such a border around it has the same errors inside.
 TEST(Flip, GoesOnBeyondTheBorderWithItsColours) {
   constexpr int width = 75, height = 37, more = 24;  // twice the reach and more
   const auto colors = [](int x, int y) { return glm::ivec3((7 * x) % 256, (x * y) % 256, (11 * y) % 256); };
