@@ -176,11 +176,12 @@ struct Seen {
   double edge, point;  // strengths
 };
 
-// Which strips of which rows of a tile are to be computed. Rows and columns count from the margin's corner.
+// Which strips of a tile are to be computed, a byte for each row with a bit for each strip.
 struct Wanted {
-  std::array<uint8_t, tile_side> pixels{};  // by row of the tile: strips in which a pixel's filters read a difference
-  std::vector<uint8_t> differ,
-      sums;  // by row with the margin: strips whose row of taps reads a difference; that are needed
+  std::array<uint8_t, tile_side>
+      pixels{};                 // rows of the tile: the filters of a pixel read a difference of the pictures
+  std::vector<uint8_t> differ;  // rows of the tile and its margin: the filters read a difference in this row
+  std::vector<uint8_t> sums;    // the same rows: a pixel needs the sums along this row
 };
 static_assert(most_strips <= 8, "a strip is a bit of a byte");
 
@@ -204,7 +205,7 @@ class Evaluator {
     explicit Planes(int pixels)
         : y(place_for(pixels)), cx(place_for(pixels)), cz(place_for(pixels)), brightness(place_for(pixels)) {}
   };
-  // Of one strip and each row of the tile with its margin, what the filters' factors across give.
+  // The sums along the rows of one strip: the horizontal factor of each separable filter, for all rows of the tile and its margin.
   struct Rows {
     enum Sum { y, cx, cz_narrow, cz_wide, smooth, edge, point, count };
     std::array<std::vector<Lanes>, count> sums;

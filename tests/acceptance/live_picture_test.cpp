@@ -99,7 +99,7 @@ TEST(LivePicture, IsLeftOutWhereItWouldNotBeExact) {
             "bias.normal_offset moves the lookup, so each of its values needs a lookup pass of its own");
 }
 
-// Of a picture that is too large only the first rows are drawn. What is shown in the end is a whole one.
+// A picture whose file would be too large is given up after its first rows, and drawn with fewer pixels. The page shows a whole one.
 TEST(LivePicture, IsSmallerWhereItWouldNotFit) {
   Workbench bench(gl::DebugMode::fatal);
   const Settings settings =

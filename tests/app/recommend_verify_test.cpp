@@ -8,7 +8,7 @@
 namespace noonmark {
 namespace {
 
-// A lookup whose result is the reverse of what its map says.
+// A lookup that returns 1 - visibility.
 struct Reversed : Pipeline {
   MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques) override {
     MapResults results = Pipeline::look_up(renderer, map, techniques);
