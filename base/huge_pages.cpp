@@ -3,8 +3,10 @@
 // (/sys/kernel/mm/transparent_hugepage/enabled = madvise), and libraries do not ask. Mesa's llvmpipe takes its textures, and
 // Embree its trees, from posix_memalign; the program takes its images from operator new.
 //
-//   - Large memory (least_large) begins a huge page. It lies in pages of its own, which the kernel gets back when it is freed,
-//     unless it fits into what is free in the heap: freed large memory between small pieces would stay with the program.
+//   - Large memory (least_large) begins a huge page. It lies in pages of its own, which the kernel gets back when it is freed
+//     for good, unless it fits into what is free in the heap: freed large memory between small pieces would stay with the program.
+//   - Large memory of operator new that is freed waits for the next request of about its size (KeptMemory), because each
+//     measurement makes the same images anew. What waits never makes the program hold more than it had in use before.
 //   - All else lies in the heap. It grows by many pages at once, and the huge pages are asked for when operator new sees that it
 //     has grown. It keeps some memory that is free at its end, for the next point. The heaps of threads other than the first
 //     are left as they are.
@@ -20,6 +22,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 
 // AddressSanitizer brings functions of its own, which know what was allocated how.
@@ -44,7 +47,7 @@ constexpr size_t least_large =
     huge_page * most_lost / (most_lost + 1) + 1;  // from this size on, its last huge page is whole
 
 // Null if there is no memory. Leaves errno as it was.
-void* large_memory(size_t alignment, size_t bytes) {
+void* memory_of_system(size_t alignment, size_t bytes) {
   const int before = errno;
   if (const size_t lost = (huge_page - bytes % huge_page) % huge_page;
       lost <= bytes / most_lost && bytes <= PTRDIFF_MAX)
@@ -55,6 +58,79 @@ void* large_memory(size_t alignment, size_t bytes) {
   errno = before;
   return made;
 }
+
+// Freed large memory of operator new that waits for the next request. Pieces in use and pieces that wait are together never
+// more than was in use at one time. Trivial to destroy, because memory is freed until the process ends.
+class KeptMemory {
+ public:
+  // A piece that waits, or a new one. Null if there is no memory.
+  void* take(size_t bytes) {
+    const std::scoped_lock lock(mutex_);
+    void* made = waiting_for(bytes);
+    if (!made) {
+      const size_t may_wait = most_ - in_use_;
+      shrink(may_wait - std::min(may_wait, bytes));
+      made = memory_of_system(1, bytes);
+    }
+    if (made) in_use_ += malloc_usable_size(made);
+    most_ = std::max(most_, in_use_);
+    return made;
+  }
+
+  void put(void* memory, size_t bytes) {
+    const std::scoped_lock lock(mutex_);
+    in_use_ -= std::min(in_use_, bytes);
+    if (count_ == most_pieces) shrink(waiting_ - pieces_[0].bytes);
+    pieces_[count_++] = {memory, bytes};
+    waiting_ += bytes;
+  }
+
+  // False if nothing waits.
+  bool free_all() {
+    const std::scoped_lock lock(mutex_);
+    const bool any = count_ > 0;
+    shrink(0);
+    return any;
+  }
+
+ private:
+  struct Piece {
+    void* memory;
+    size_t bytes;
+  };
+  static constexpr size_t most_pieces = 64;
+
+  // The smallest piece that does, the newest of equal ones. One that is larger by more than is lost at its end is no use.
+  void* waiting_for(size_t bytes) {
+    size_t best = count_;
+    for (size_t i = 0; i < count_; ++i)
+      if (pieces_[i].bytes >= bytes && pieces_[i].bytes - bytes <= bytes / most_lost + huge_page &&
+          (best == count_ || pieces_[i].bytes <= pieces_[best].bytes))
+        best = i;
+    return best < count_ ? remove(best) : nullptr;
+  }
+
+  // Frees the oldest pieces until at most `bytes` wait.
+  void shrink(size_t bytes) {
+    while (waiting_ > bytes) std::free(remove(0));
+  }
+
+  void* remove(size_t i) {
+    void* const memory = pieces_[i].memory;
+    waiting_ -= pieces_[i].bytes;
+    std::copy(pieces_ + i + 1, pieces_ + count_, pieces_ + i);
+    --count_;
+    return memory;
+  }
+
+  std::mutex mutex_;
+  Piece pieces_[most_pieces] = {};                          // the oldest first
+  size_t count_ = 0, waiting_ = 0, in_use_ = 0, most_ = 0;  // the last three in bytes
+};
+constinit KeptMemory kept_memory;
+
+// Before a library gets memory of this size, all that waits is freed. The textures of large shadow maps are such memory.
+constexpr size_t least_of_texture = size_t{64} << 20;
 
 #ifdef __GLIBC__
 // The heap grows by heap_step, and keeps up to heap_kept that is free at its end. Measured with 200 points of 64 x 64 pixels:
@@ -90,7 +166,11 @@ void advise_heap() {}
 extern "C" __attribute__((visibility("default"))) int posix_memalign(void** memory, size_t alignment, size_t bytes) {
   if (alignment % sizeof(void*) != 0 || alignment == 0 || (alignment & (alignment - 1)) != 0) return EINVAL;
   const int before = errno;
-  void* const made = bytes >= least_large ? large_memory(alignment, bytes) : std::aligned_alloc(alignment, bytes);
+  if (bytes >= least_of_texture) kept_memory.free_all();
+  void* made;
+  do {
+    made = bytes >= least_large ? memory_of_system(alignment, bytes) : std::aligned_alloc(alignment, bytes);
+  } while (!made && kept_memory.free_all());
   errno = before;
   if (!made) return ENOMEM;
   *memory = made;
@@ -100,13 +180,21 @@ extern "C" __attribute__((visibility("default"))) int posix_memalign(void** memo
 void* operator new(size_t bytes) {
   advise_heap();
   for (;;) {
-    if (void* const made = bytes >= least_large ? large_memory(1, bytes) : std::malloc(std::max<size_t>(bytes, 1)))
+    if (void* const made = bytes >= least_large ? kept_memory.take(bytes) : std::malloc(std::max<size_t>(bytes, 1)))
       return made;
+    if (kept_memory.free_all()) continue;
     const std::new_handler handler = std::get_new_handler();
     if (!handler) throw std::bad_alloc();
     handler();
   }
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+
+void operator delete(void* memory) noexcept {
+  const bool may_be_large = memory && reinterpret_cast<uintptr_t>(memory) % huge_page == 0;
+  if (const size_t bytes = may_be_large ? malloc_usable_size(memory) : 0; bytes >= least_large)
+    kept_memory.put(memory, bytes);
+  else
+    std::free(memory);
+}
+void operator delete(void* memory, size_t) noexcept { operator delete(memory); }
 #endif

@@ -1,6 +1,9 @@
 // Large memory of the executable (base/huge_pages.cpp, which is part of this test).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
@@ -10,6 +13,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 // With AddressSanitizer that file has no functions.
@@ -53,8 +57,6 @@ TEST(HugePages, AreAskedForWhereMemoryIsLarge) {
   EXPECT_TRUE(asks_for_huge_pages(image.get() + 63 * MiB));
 }
 
-constexpr size_t more_than_the_heap_keeps = 64 * MiB;
-
 // A picture of 1280 x 720 floats has 1.76 huge pages.
 TEST(HugePages, LastOneIsWholeIfLittleIsLost) {
   if (!kernel_has_huge_pages()) GTEST_SKIP() << "the kernel has none";
@@ -64,13 +66,83 @@ TEST(HugePages, LastOneIsWholeIfLittleIsLost) {
   EXPECT_TRUE(asks_for_huge_pages(picture.get() + bytes - 1));
 }
 
-TEST(HugePages, LargeMemoryGoesBackToTheKernel) {
-  auto between = std::make_unique<char[]>(more_than_the_heap_keeps);
-  const auto after = std::make_unique<char[]>(more_than_the_heap_keeps), small = std::make_unique<char[]>(1000);
-  const char* const middle = between.get() + more_than_the_heap_keeps / 2;
-  EXPECT_TRUE(flags_at(middle));
-  between.reset();
-  EXPECT_FALSE(flags_at(middle));
+// Address space of this process in MiB.
+double mapped_MiB() {
+  std::ifstream file("/proc/self/statm");
+  double pages = 0;
+  file >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / static_cast<double>(MiB);
+}
+
+// Address space when nothing waits.
+double mapped_at_first() {
+  void* texture = nullptr;
+  EXPECT_EQ(posix_memalign(&texture, 64, 64 * MiB), 0);
+  std::free(texture);
+  return mapped_MiB();
+}
+
+// More than other tests have in use, so that what waits is of this test. It is never touched.
+constexpr size_t most = 512 * MiB;
+
+TEST(KeptMemory, IsWhatTheNextImageOfItsSizeGets) {
+  const size_t bytes = 1280 * 720 * sizeof(float);
+  auto first = std::make_unique<char[]>(bytes);
+  const char* const place = first.get();
+  first.reset();
+  EXPECT_TRUE(flags_at(place)) << "it waits";
+  EXPECT_EQ(std::make_unique<char[]>(bytes - 1000).get(), place);
+  const auto second = std::make_unique<char[]>(bytes), third = std::make_unique<char[]>(bytes);
+  EXPECT_EQ(second.get(), place);
+  EXPECT_NE(third.get(), place) << "in use";
+  EXPECT_TRUE(begins_huge_page(third.get()));
+  EXPECT_TRUE(std::all_of(second.get(), second.get() + bytes, [](char c) { return c == 0; }))
+      << "make_unique clears it";
+}
+
+TEST(KeptMemory, IsNeverMoreThanWasInUse) {
+  const double before = mapped_at_first();
+  operator delete(operator new(most));
+  EXPECT_NEAR(mapped_MiB(), before + 512, 8) << "it waits";
+  void* const other = operator new(most / 4);
+  EXPECT_NEAR(mapped_MiB(), before + 128, 8) << "512 MiB that wait and 128 in use would be more";
+  operator delete(operator new(most / 4));
+  void* const same = operator new(most / 4 - MiB);
+  EXPECT_NEAR(mapped_MiB(), before + 256, 8);
+  operator delete(other);
+  operator delete(same);
+  EXPECT_NEAR(mapped_MiB(), before + 256, 8) << "both wait: 512 were in use";
+  const std::unique_ptr<void, void (*)(void*)> large(operator new(most), [](void* memory) { operator delete(memory); });
+  EXPECT_NEAR(mapped_MiB(), before + 512, 8) << "the two went back to the kernel";
+}
+
+TEST(KeptMemory, GoesBackBeforeALargeTexture) {
+  const double before = mapped_at_first();
+  operator delete(operator new(most));
+  void* texture = nullptr;
+  ASSERT_EQ(posix_memalign(&texture, 64, 63 * MiB), 0);
+  EXPECT_NEAR(mapped_MiB(), before + 512 + 63, 8);
+  std::free(texture);
+  ASSERT_EQ(posix_memalign(&texture, 64, 64 * MiB), 0);
+  EXPECT_NEAR(mapped_MiB(), before + 64, 8);
+  std::free(texture);
+}
+
+TEST(KeptMemory, BelongsToOneThreadAtATime) {
+  std::vector<std::thread> threads;
+  std::atomic<int> wrong{0};
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&wrong, t] {
+      for (int i = 0; i < 20000; ++i) {
+        const size_t bytes = (2 + static_cast<size_t>((i + t) % 3)) * MiB;
+        const std::unique_ptr<char[]> image(new char[bytes]);
+        const char own = static_cast<char>(t + 1);
+        image[0] = image[bytes / 2] = image[bytes - 1] = own;
+        wrong += image[0] != own || image[bytes / 2] != own || image[bytes - 1] != own;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(HugePages, AreAskedForWhereTheHeapGrows) {
