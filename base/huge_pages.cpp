@@ -6,7 +6,7 @@
 //   - Large memory (least_large) begins a huge page. It lies in pages of its own, which the kernel gets back when it is freed
 //     for good, unless it fits into what is free in the heap: freed large memory between small pieces would stay with the program.
 //   - Large memory of operator new that is freed waits for the next request of about its size (KeptMemory), because each
-//     measurement makes the same images anew. What waits never makes the program hold more than it had in use before.
+//     measurement makes the same images anew. With what waits the program holds never more of it than it had in use before.
 //   - All else lies in the heap. It grows by many pages at once, and the huge pages are asked for when operator new sees that it
 //     has grown. It keeps some memory that is free at its end, for the next point. The heaps of threads other than the first
 //     are left as they are.
@@ -24,6 +24,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
+#include <type_traits>
 
 // AddressSanitizer brings functions of its own, which know what was allocated how.
 #if defined(__SANITIZE_ADDRESS__)
@@ -60,7 +61,7 @@ void* memory_of_system(size_t alignment, size_t bytes) {
 }
 
 // Freed large memory of operator new that waits for the next request. Pieces in use and pieces that wait are together never
-// more than was in use at one time. Trivial to destroy, because memory is freed until the process ends.
+// more than was in use at one time. When memory is short, operator new and posix_memalign free what waits; malloc() does not.
 class KeptMemory {
  public:
   // A piece that waits, or a new one. Null if there is no memory.
@@ -68,8 +69,9 @@ class KeptMemory {
     const std::scoped_lock lock(mutex_);
     void* made = waiting_for(bytes);
     if (!made) {
-      const size_t may_wait = most_ - in_use_;
-      shrink(may_wait - std::min(may_wait, bytes));
+      // Less what the new piece takes at most, with what is lost at its ends.
+      const size_t may_wait = most_ - in_use_, beside = may_wait - std::min(may_wait, bytes);
+      shrink(beside - std::min(beside, bytes / most_lost + 2 * huge_page));
       made = memory_of_system(1, bytes);
     }
     if (made) in_use_ += malloc_usable_size(made);
@@ -100,7 +102,8 @@ class KeptMemory {
   };
   static constexpr size_t most_pieces = 64;
 
-  // The smallest piece that does, the newest of equal ones. One that is larger by more than is lost at its end is no use.
+  // The smallest piece that does, the newest of equal ones. One that is larger by more than a quarter and a huge page is no use:
+  // the rest of it would be held for nothing.
   void* waiting_for(size_t bytes) {
     size_t best = count_;
     for (size_t i = 0; i < count_; ++i)
@@ -128,6 +131,7 @@ class KeptMemory {
   size_t count_ = 0, waiting_ = 0, in_use_ = 0, most_ = 0;  // the last three in bytes
 };
 constinit KeptMemory kept_memory;
+static_assert(std::is_trivially_destructible_v<KeptMemory>, "memory is freed until the process ends");
 
 // Before a library gets memory of this size, all that waits is freed. The textures of large shadow maps are such memory.
 constexpr size_t least_of_texture = size_t{64} << 20;
