@@ -5,8 +5,8 @@
 //
 //   - Large memory (least_large) begins a huge page. It lies in pages of its own, which the kernel gets back when it is freed
 //     for good, unless it fits into what is free in the heap: freed large memory between small pieces would stay with the program.
-//   - Large memory of operator new that is freed waits for the next request of about its size (KeptMemory), because each
-//     measurement makes the same images anew. With what waits the program holds never more of it than it had in use before.
+//   - Large memory of operator new is kept when it is freed, for the next request of about its size (KeptMemory): each
+//     measurement makes the same images anew. Kept memory and memory in use are together at most what was in use at one time.
 //   - All else lies in the heap. It grows by many pages at once, and the huge pages are asked for when operator new sees that it
 //     has grown. It keeps some memory that is free at its end, for the next point. The heaps of threads other than the first
 //     are left as they are.
@@ -60,17 +60,17 @@ void* memory_of_system(size_t alignment, size_t bytes) {
   return made;
 }
 
-// Freed large memory of operator new that waits for the next request. Pieces in use and pieces that wait are together never
-// more than was in use at one time. When memory is short, operator new and posix_memalign free what waits; malloc() does not.
+// Freed large memory of operator new, kept for the next request. The pieces in use and the kept ones are together at most what
+// was in use at one time. When memory is short, operator new and posix_memalign free the kept ones; malloc() does not.
 class KeptMemory {
  public:
-  // A piece that waits, or a new one. Null if there is no memory.
+  // A kept piece, or a new one. Null if there is no memory.
   void* take(size_t bytes) {
     const std::scoped_lock lock(mutex_);
-    void* made = waiting_for(bytes);
+    void* made = kept_for(bytes);
     if (!made) {
-      // Less what the new piece takes at most, with what is lost at its ends.
-      const size_t may_wait = most_ - in_use_, beside = may_wait - std::min(may_wait, bytes);
+      // A new piece takes more than was asked: its last huge page may be whole, and its alignment costs one more.
+      const size_t may_keep = most_ - in_use_, beside = may_keep - std::min(may_keep, bytes);
       shrink(beside - std::min(beside, bytes / most_lost + 2 * huge_page));
       made = memory_of_system(1, bytes);
     }
@@ -82,12 +82,12 @@ class KeptMemory {
   void put(void* memory, size_t bytes) {
     const std::scoped_lock lock(mutex_);
     in_use_ -= std::min(in_use_, bytes);
-    if (count_ == most_pieces) shrink(waiting_ - pieces_[0].bytes);
+    if (count_ == most_pieces) shrink(kept_bytes_ - pieces_[0].bytes);
     pieces_[count_++] = {memory, bytes};
-    waiting_ += bytes;
+    kept_bytes_ += bytes;
   }
 
-  // False if nothing waits.
+  // False if nothing is kept.
   bool free_all() {
     const std::scoped_lock lock(mutex_);
     const bool any = count_ > 0;
@@ -104,7 +104,7 @@ class KeptMemory {
 
   // The smallest piece that does, the newest of equal ones. One that is larger by more than a quarter and a huge page is no use:
   // the rest of it would be held for nothing.
-  void* waiting_for(size_t bytes) {
+  void* kept_for(size_t bytes) {
     size_t best = count_;
     for (size_t i = 0; i < count_; ++i)
       if (pieces_[i].bytes >= bytes && pieces_[i].bytes - bytes <= bytes / most_lost + huge_page &&
@@ -113,27 +113,27 @@ class KeptMemory {
     return best < count_ ? remove(best) : nullptr;
   }
 
-  // Frees the oldest pieces until at most `bytes` wait.
+  // Frees the oldest kept pieces until at most `bytes` are kept.
   void shrink(size_t bytes) {
-    while (waiting_ > bytes) std::free(remove(0));
+    while (kept_bytes_ > bytes) std::free(remove(0));
   }
 
   void* remove(size_t i) {
     void* const memory = pieces_[i].memory;
-    waiting_ -= pieces_[i].bytes;
+    kept_bytes_ -= pieces_[i].bytes;
     std::copy(pieces_ + i + 1, pieces_ + count_, pieces_ + i);
     --count_;
     return memory;
   }
 
   std::mutex mutex_;
-  Piece pieces_[most_pieces] = {};                          // the oldest first
-  size_t count_ = 0, waiting_ = 0, in_use_ = 0, most_ = 0;  // the last three in bytes
+  Piece pieces_[most_pieces] = {};                             // the oldest first
+  size_t count_ = 0, kept_bytes_ = 0, in_use_ = 0, most_ = 0;  // the last three in bytes
 };
 constinit KeptMemory kept_memory;
 static_assert(std::is_trivially_destructible_v<KeptMemory>, "memory is freed until the process ends");
 
-// Before a library gets memory of this size, all that waits is freed. The textures of large shadow maps are such memory.
+// Before a library gets memory of this size, all kept memory is freed. The textures of large shadow maps are such memory.
 constexpr size_t least_of_texture = size_t{64} << 20;
 
 #ifdef __GLIBC__

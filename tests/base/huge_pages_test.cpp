@@ -73,7 +73,7 @@ double mapped_MiB() {
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / static_cast<double>(MiB);
 }
 
-// Address space when nothing waits.
+// Address space when nothing is kept.
 double mapped_at_first() {
   void* texture = nullptr;
   EXPECT_EQ(posix_memalign(&texture, 64, 64 * MiB), 0);
@@ -81,7 +81,7 @@ double mapped_at_first() {
   return mapped_MiB();
 }
 
-// More than other tests have in use, so that what waits is of this test. It is never touched.
+// More than other tests have in use, so that what is kept is of this test. It is never touched.
 constexpr size_t most = 512 * MiB;
 
 TEST(KeptMemory, IsWhatTheNextImageOfItsSizeGets) {
@@ -89,7 +89,7 @@ TEST(KeptMemory, IsWhatTheNextImageOfItsSizeGets) {
   auto first = std::make_unique<char[]>(bytes);
   const char* const place = first.get();
   first.reset();
-  EXPECT_TRUE(flags_at(place)) << "it waits";
+  EXPECT_TRUE(flags_at(place)) << "it is kept";
   EXPECT_EQ(std::make_unique<char[]>(bytes - 1000).get(), place);
   const auto second = std::make_unique<char[]>(bytes), third = std::make_unique<char[]>(bytes);
   EXPECT_EQ(second.get(), place);
@@ -100,15 +100,15 @@ TEST(KeptMemory, IsWhatTheNextImageOfItsSizeGets) {
 TEST(KeptMemory, IsNeverMoreThanWasInUse) {
   const double before = mapped_at_first();
   operator delete(operator new(most));
-  EXPECT_NEAR(mapped_MiB(), before + 512, 8) << "it waits";
+  EXPECT_NEAR(mapped_MiB(), before + 512, 8) << "it is kept";
   void* const other = operator new(most / 4);
-  EXPECT_NEAR(mapped_MiB(), before + 128, 8) << "512 MiB that wait and 128 in use would be more";
+  EXPECT_NEAR(mapped_MiB(), before + 128, 8) << "512 MiB that are kept and 128 in use would be more";
   operator delete(operator new(most / 4));
   void* const same = operator new(most / 4 - MiB);
   EXPECT_NEAR(mapped_MiB(), before + 256, 8);
   operator delete(other);
   operator delete(same);
-  EXPECT_NEAR(mapped_MiB(), before + 256, 8) << "both wait: 512 were in use";
+  EXPECT_NEAR(mapped_MiB(), before + 256, 8) << "both are kept: 512 were in use";
   const std::unique_ptr<void, void (*)(void*)> large(operator new(most), [](void* memory) { operator delete(memory); });
   EXPECT_NEAR(mapped_MiB(), before + 512, 8) << "the two went back to the kernel";
 }
