@@ -17,7 +17,7 @@ def on_page_markdown(markdown, page, config, files):
 
 
 def on_post_build(config):
-    """The index of the search as a script too, which a page that is opened as a file can load (search_from_file.js)."""
-    folder = Path(config["site_dir"]) / "search"
-    index = (folder / "search_index.json").read_text()
-    (folder / "search_index.js").write_text(f"window.search_index = {index};\n")
+    """The index of the search as a script, which a page that is opened as a file can load (theme/site/search.js)."""
+    index = Path(config["site_dir"]) / "search/search_index.json"
+    index.with_suffix(".js").write_text(f"const search_index = {index.read_text()};\n")
+    index.unlink()
