@@ -36,7 +36,23 @@ int64_t first_of_part(const Experiment& experiment, const Experiment& part) {
   return first;
 }
 
+// Whether the user names no fit of the map.
+bool leaves_fit_open(const Experiment& part) {
+  const auto fit = [](const Swept& swept) { return swept.name == "map.fit"; };
+  return part.base.map.fit == MapSettings().fit && !part.locations.contains("map.fit") &&
+         std::none_of(part.swept.begin(), part.swept.end(), fit);
+}
+
 }  // namespace
+
+bool fits_cascades(const Experiment& experiment) {
+  const auto several = [](const Swept& swept) {
+    return swept.name == "cascades.count" && swept.values != std::vector<std::string>{"1"};
+  };
+  if (std::any_of(experiment.parts.begin(), experiment.parts.end(), fits_cascades)) return true;
+  return leaves_fit_open(experiment) &&
+         (experiment.base.cascades.count > 1 || std::any_of(experiment.swept.begin(), experiment.swept.end(), several));
+}
 
 void apply_override(Experiment& experiment, std::string_view assignment) {
   const size_t equals = assignment.find('=');
@@ -290,6 +306,7 @@ std::vector<Settings> points(const Experiment& experiment) {
       const std::vector<size_t> at = digits(part, index);
       for (size_t i = 0; i < at.size(); ++i)
         find_setting(part.swept[i].name).set(settings, part.swept[i].values[at[i]]);
+      if (settings.cascades.count > 1 && leaves_fit_open(part)) find_setting("map.fit").set(settings, fit_of_cascades);
       at_point(experiment, static_cast<int64_t>(all.size()), [&] {
         validate(settings);
         if (experiment.frames.empty() && settings.given.frame != GivenSettings().frame)

@@ -138,8 +138,13 @@ std::vector<std::string> condition_names(const Experiment& experiment);
 int64_t point_count(const Experiment& experiment);
 
 // The points in order: the last swept setting changes fastest. Each point is checked as far as that is possible without
-// its scene. Throws Error(usage) as at_point() does.
+// its scene. A point with several cascades has this map.fit where the experiment gives none: of the fits that cascades
+// can have, it is the one whose size does not change with the camera. Throws Error(usage) as at_point() does.
 std::vector<Settings> points(const Experiment& experiment);
+constexpr std::string_view fit_of_cascades = "sphere";
+
+// Whether points() chooses that fit for some point, whose experiment or part then does not give map.fit.
+bool fits_cascades(const Experiment& experiment);
 
 // The settings that distinguish the point, for people: "map.resolution = 512, filter.kind = box". Empty without a sweep.
 std::string swept_text(const Experiment& experiment, int64_t id);

@@ -103,8 +103,10 @@ class Writer {
         group = of_row;
         header(fmt::format("[{}{}]", prefix, group));
       }
-      text_ +=
-          fmt::format("{} = {}  # {}\n", row.name.substr(dot + 1), value(row, row.get(e.base)), row.range_with_unit());
+      // Written out, the default would be a fit that is given, and points with cascades cannot have it.
+      const char* comment = row.name == "map.fit" && fits_cascades(e) ? "# one map for all: " : "";
+      text_ += fmt::format("{}{} = {}  # {}\n", comment, row.name.substr(dot + 1), value(row, row.get(e.base)),
+                           row.range_with_unit());
     }
     for (const bool condition : {true, false}) {
       bool any = false;

@@ -120,6 +120,9 @@ Experiment experiment_from(const std::string& path, const ExperimentArguments& a
   take_all_lights(experiment);
   if (!arguments.parts.empty()) choose_parts(experiment, arguments.parts);
   for (const std::string& note : experiment.notes) fmt::print(stderr, "warning: {}\n", printable(note));
+  if (fits_cascades(experiment))
+    fmt::print(stderr, "note: no map.fit is given, so each cascade is fitted to its slice of the view: map.fit = {}\n",
+               fit_of_cascades);
   return experiment;
 }
 

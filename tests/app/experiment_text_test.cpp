@@ -167,5 +167,35 @@ TEST(Experiment, EveryFileInTheRepositoryIsGood) {
   EXPECT_GT(files, 0);
 }
 
+// `cascades.count = 4` works by itself: a fit that nobody gave becomes one that cascades can have. One that is given stays.
+TEST(ExperimentText, CascadesHaveAFitWhereNoneIsGiven) {
+  using Texts = std::vector<std::string>;
+  const auto parse = [](const std::string& toml) { return parse_experiment(toml, "folder/x.toml"); };
+  const auto fits = [](const Experiment& e) {
+    Texts texts;
+    for (const Settings& settings : points(e)) texts.push_back(find_setting("map.fit").get(settings));
+    return texts;
+  };
+  const std::string chosen(fit_of_cascades);
+  EXPECT_EQ(fits(parse("cascades.count = 4")), Texts{chosen});
+  EXPECT_EQ(fits(parse("cascades.count = 4\nmap.fit = \"view\"")), Texts{"view"});
+  EXPECT_EQ(fits(parse("[sweep]\ncascades.count = [1, 4]")), (Texts{"scene", chosen}));
+  EXPECT_EQ(fits(parse("[[part]]\nname = \"a\"\ncascades.count = 2\n[[part]]\nname = \"b\"")),
+            (Texts{chosen, "scene"}));
+  EXPECT_THROW(parse("cascades.count = 4\nmap.fit = \"scene\""), Error);
+  EXPECT_THROW(parse("map.fit = \"scene\"\n[[part]]\nname = \"a\"\ncascades.count = 2"), Error);
+  EXPECT_THROW(parse("cascades.count = 4\n[sweep]\nmap.fit = [\"scene\", \"view\"]"), Error);
+
+  Experiment typed = parse("");
+  EXPECT_FALSE(fits_cascades(typed));
+  apply_override(typed, "cascades.count=4");
+  EXPECT_TRUE(fits_cascades(typed));
+  EXPECT_EQ(fits(typed), Texts{chosen});
+  EXPECT_EQ(fits(parse_experiment(experiment_text(typed), typed.path)), Texts{chosen}) << "--print-config gives a fit";
+  apply_override(typed, "map.fit=scene");
+  EXPECT_FALSE(fits_cascades(typed));
+  EXPECT_THROW(points(typed), Error);
+}
+
 }  // namespace
 }  // namespace noonmark
