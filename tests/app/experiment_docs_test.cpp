@@ -1,10 +1,14 @@
 // docs/reference/experiment.md is the reference of the keys of an experiment file. The program must read its examples like a
 // user's file, and it must name every key, choice and function that the program knows.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <iterator>
+#include <regex>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -30,19 +34,21 @@ struct Block {
 
 std::vector<Block> blocks_of(const std::string& markdown) {
   std::vector<Block> blocks;
-  bool inside = false;
+  size_t indent = std::string::npos;  // of the block's fences; of none outside
   int number = 0;
   std::istringstream lines(markdown);
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    if (line.starts_with("```")) {
-      inside = !inside;
-      if (inside) blocks.push_back({line.substr(3), "", number});
+    const size_t text = line.find_first_not_of(' ');
+    const bool inside = indent != std::string::npos;
+    if (text != std::string::npos && line.compare(text, 3, "```") == 0) {
+      if (!inside) blocks.push_back({line.substr(text + 3), "", number});
+      indent = inside ? std::string::npos : text;
     } else if (inside) {
-      blocks.back().text += line + "\n";
+      blocks.back().text += line.substr(std::min(indent, line.size())) + "\n";
     }
   }
-  EXPECT_FALSE(inside) << "the last code block has no end";
+  EXPECT_EQ(indent, std::string::npos) << "the last code block has no end";
   return blocks;
 }
 
@@ -69,6 +75,48 @@ TEST(ExperimentDocuments, EveryExampleIsRead) {
     }
   }
   EXPECT_GT(examples, 20);
+}
+
+// The code of each line that is no block: "`map.snap = true`". It may go on in the next line.
+std::vector<std::string> codes_of(std::string markdown) {
+  markdown = std::regex_replace(markdown, std::regex(" *```[^`]*```"), "");
+  std::vector<std::string> codes;
+  const std::regex code("`([^`]+)`"), spaces("\\s+");
+  for (std::sregex_iterator found(markdown.begin(), markdown.end(), code), end; found != end; ++found)
+    codes.push_back(std::regex_replace((*found)[1].str(), spaces, " "));
+  return codes;
+}
+
+// The experiment of one code: "name = value" or "--set name=value --set name=value"; empty if it gives no setting. A line
+// writes a word with and without quotes.
+std::string given_by(const std::string& code) {
+  std::string toml;
+  const std::regex given("(?:^|--set )([a-z_]+\\.[a-z_]+) ?= ?(\"[^\"]*\"|[^ ].*?)(?= --set |$)");
+  for (std::sregex_iterator found(code.begin(), code.end(), given), end; found != end; ++found) {
+    const std::string name = (*found)[1], value = (*found)[2];
+    const std::span<const Setting> rows = settings_table();
+    if (std::none_of(rows.begin(), rows.end(), [&](const Setting& row) { return row.name == name; })) continue;
+    const bool word = std::isalpha(static_cast<unsigned char>(value[0])) && value != "true" && value != "false";
+    toml += fmt::format("{}{} = {}{}{}\n", value.starts_with("[[") ? "[over]\n" : "", name, word ? "\"" : "", value,
+                        word ? "\"" : "");
+  }
+  return toml;
+}
+
+// What a reader types from a line works by itself, without what stands in the lines around it.
+TEST(ExperimentDocuments, EverySettingThatALineGivesIsRead) {
+  int given = 0;
+  std::vector<std::string> pages = {"README.md", "docs/tutorial/own-model.md"};
+  for (const auto& entry : std::filesystem::directory_iterator(noonmark::test::source_dir() + "/docs/how-to"))
+    pages.push_back("docs/how-to/" + entry.path().filename().string());
+  for (const std::string& page : pages)
+    for (const std::string& code : codes_of(document(page))) {
+      const std::string toml = given_by(code);
+      if (toml.empty()) continue;
+      ++given;
+      EXPECT_EQ(refusal(toml), "") << page << ": `" << code << "`";
+    }
+  EXPECT_GT(given, 10);
 }
 
 // A block "toml-refused" is followed by a block "text" that holds the message.

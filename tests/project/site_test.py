@@ -87,8 +87,10 @@ class Chromium:
         return self.call("Runtime.evaluate", expression=expression, returnByValue=True)["result"].get("value")
 
     def click(self, selector, until=None):
-        self.value(f"document.querySelector({json.dumps(selector)}).scrollIntoView({{block: 'nearest'}})")
-        box = self.value(f"(b => [b.x + b.width / 2, b.y + b.height / 2])(document.querySelector({json.dumps(selector)}).getBoundingClientRect())")
+        box = self.value(f"""(one => {{ one?.scrollIntoView({{block: 'nearest'}}); const b = one?.getBoundingClientRect();
+            return b && [b.x + b.width / 2, b.y + b.height / 2]; }})(document.querySelector({json.dumps(selector)}))""")
+        if not box:
+            sys.exit("\n".join([*wrong, f"{self.value('location.href')} has no {selector}"]))
         self.call("Input.dispatchMouseEvent", type="mousePressed", x=box[0], y=box[1], button="left", clickCount=1)
         self.call("Input.dispatchMouseEvent", until=until, type="mouseReleased", x=box[0], y=box[1], button="left", clickCount=1)
 
