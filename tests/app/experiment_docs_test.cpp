@@ -77,13 +77,32 @@ TEST(ExperimentDocuments, EveryExampleIsRead) {
   EXPECT_GT(examples, 20);
 }
 
-// The code of each line that is no block: "`map.snap = true`". It may go on in the next line.
-std::vector<std::string> codes_of(std::string markdown) {
-  markdown = std::regex_replace(markdown, std::regex(" *```[^`]*```"), "");
+// What stands between backticks outside of the blocks: "map.snap = true". It may go on in the next line, not in the next
+// paragraph.
+std::vector<std::string> codes_of(const std::string& markdown) {
   std::vector<std::string> codes;
-  const std::regex code("`([^`]+)`"), spaces("\\s+");
-  for (std::sregex_iterator found(markdown.begin(), markdown.end(), code), end; found != end; ++found)
-    codes.push_back(std::regex_replace((*found)[1].str(), spaces, " "));
+  std::string paragraph;
+  bool fenced = false;
+  const auto end = [&] {
+    for (size_t open = paragraph.find('`'); open != std::string::npos;) {
+      const size_t close = paragraph.find('`', open + 1);
+      if (close == std::string::npos) break;
+      codes.push_back(paragraph.substr(open + 1, close - open - 1));
+      open = paragraph.find('`', close + 1);
+    }
+    paragraph.clear();
+  };
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    const size_t text = std::min(line.find_first_not_of(' '), line.size());
+    const bool fence = line.compare(text, 3, "```") == 0;
+    if (fence) fenced = !fenced;
+    if (fence || fenced || text == line.size())
+      end();
+    else
+      paragraph += (paragraph.empty() ? "" : " ") + line.substr(text);
+  }
+  end();
   return codes;
 }
 
