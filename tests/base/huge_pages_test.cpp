@@ -173,7 +173,8 @@ TEST(HugePages, MemoryIsAlignedAsItIsAskedFor) {
     EXPECT_EQ(memory, before) << "nothing was made";
     EXPECT_THROW(static_cast<void>(::operator new(too_much)), std::bad_alloc);
   }
-  EXPECT_NE(std::unique_ptr<char[]>(new char[0]).get(), nullptr);
+  volatile size_t none = 0;
+  EXPECT_NE(std::unique_ptr<char[]>(new char[none]).get(), nullptr);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/builtin.h"
@@ -17,7 +18,7 @@ inline std::vector<Scene> all_scenes() {
   return scenes;
 }
 
-inline const Scene& named(const std::vector<Scene>& scenes, const std::string& name) {
+inline const Scene& named(const std::vector<Scene>& scenes, std::string_view name) {
   return *std::find_if(scenes.begin(), scenes.end(), [&](const Scene& s) { return s.name == name; });
 }
 
