@@ -96,11 +96,12 @@ void require_room(const SceneSettings& settings, const Scene& scene) {
 void require_shape(Scene& scene, const Placement& placement) {
   const PlacedShape shape = placed_shape(scene, placement);
   const glm::dvec3 by = placement.move_m;
-  const std::string there = fmt::format("scene.move_m = {},{},{} moves {} to where float coordinates are {:g} m apart",
-                                        by.x, by.y, by.z, scene.name, shape.step_m);
-  if (shape.triangles > 0 && shape.lost == shape.triangles)
-    throw Error(ErrorKind::usage, fmt::format("{}: none of its {} triangles has an area there; move it less far", there,
-                                              shape.triangles));
+  const std::string there = fmt::format(
+      "scene.move_m = {},{},{} moves {}, which measures {:.3g} m, to where float coordinates are {:g} m apart", by.x,
+      by.y, by.z, scene.name, shape.size_m, shape.step_m);
+  if (shape.triangles > 0 && (shape.lost == shape.triangles || shape.step_m >= shape.size_m))
+    throw Error(ErrorKind::usage, fmt::format("{}: {} of its {} triangles have no area there; move it less far", there,
+                                              shape.lost, shape.triangles));
   if (!shape.in_world)
     throw Error(ErrorKind::usage, fmt::format("{}, and a coordinate is at most {:g} m; move it less far", there,
                                               ranges::coordinate_m.most));

@@ -230,9 +230,6 @@ class StructureChecker {
   }
 
   void light(const tinygltf::Light& l, const std::string& place) const {
-    if (!ranges::intensity.holds(l.intensity))
-      fail(place + ".intensity",
-           fmt::format("{} is not from {} to {}", l.intensity, ranges::intensity.least, ranges::intensity.most));
     if (l.type != "spot") return;
     const double inner = l.spot.innerConeAngle, outer = l.spot.outerConeAngle;
     // Exporters write a right angle as a float, which is 4e-8 more than pi / 2, or with five digits.

@@ -30,7 +30,7 @@ const std::vector<Lines>& bases() {
   static const std::vector<Lines> made = {
       {{"scene.name", "cube-room"}},
       {{"scene.name", "cube-room"}, {"light.kind", "spot"}, {"light.radius_m", "0.1"}, {"filter.kind", "poisson"}},
-      {{"scene.name", "cube-room"}, {"light.kind", "point"}, {"filter.kind", "three_point"}},
+      {{"scene.name", "cube-room"}, {"light.kind", "point"}, {"filter.kind", "cube_disk"}},
       {{"scene.name", "crease"},
        {"light.angular_diameter_deg", "1"},
        {"bias.reference", "receiver_plane"},
@@ -147,7 +147,7 @@ void run(const std::string& bytes) {
     const std::span<const Setting> table = settings_table();
     if (std::none_of(table.begin(), table.end(), [&](const Setting& row) { return row.name == name; })) continue;
     const Setting& row = find_setting(name);
-    if (row.type == ValueType::text || row.type == ValueType::choice || row.type == ValueType::flag) continue;
+    if (row.type == ValueType::text) continue;
     Settings tried = settings;
     if (!take(tried, name, value)) continue;
     const std::vector<std::string> numbers = parts_of(row.get(tried));
@@ -156,7 +156,7 @@ void run(const std::string& bytes) {
         takes_too_long(row, row.get(tried)))
       continue;
     settings = tried;
-    any = true;
+    any = any || (row.type != ValueType::choice && row.type != ValueType::flag);
   }
   if (!any) return;
   try {
@@ -171,16 +171,25 @@ void run(const std::string& bytes) {
   }
 }
 
-// A base that reads the row: the first after `from`.
-size_t base_that_reads(const Setting& row, size_t from) {
-  for (size_t i = 0; i < bases().size(); ++i) {
-    const size_t base = (from + i) % bases().size();
-    Settings settings;
-    for (const auto& [name, value] : bases()[base]) find_setting(name).set(settings, value);
-    const LightKind light = chosen_light(make_scene(settings.scene), settings.light).light.kind;
-    if (!row.why_idle || row.why_idle(settings, light).empty()) return base;
-  }
-  return from % bases().size();  // only in a scene from a file
+bool reads(const Setting& row, const Lines& lines) {
+  Settings settings;
+  for (const auto& [name, value] : lines) find_setting(name).set(settings, value);
+  const LightKind light = chosen_light(make_scene(settings.scene), settings.light).light.kind;
+  return !row.why_idle || row.why_idle(settings, light).empty();
+}
+
+// The first lines of an input that reads the row: one of the bases, from this one on, or a filter or a lookup of its own.
+std::string first_lines(const Setting& row, size_t from) {
+  for (size_t i = 0; i < bases().size(); ++i)
+    if (const size_t base = (from + i) % bases().size(); reads(row, bases()[base]))
+      return fmt::format("base = {}\n", base);
+  for (const char* kind : {"filter.kind", "lookup.kind"})
+    for (const std::string_view choice : find_setting(kind).choices) {
+      Lines lines = bases()[0];
+      lines.emplace_back(kind, choice);
+      if (reads(row, lines)) return fmt::format("base = 0\n{} = {}\n", kind, choice);
+    }
+  return fmt::format("base = {}\n", from % bases().size());  // only in a scene from a file
 }
 
 std::vector<std::string> seeds() {
@@ -191,7 +200,7 @@ std::vector<std::string> seeds() {
     const double most = most_of(row);
     for (const double end : {row.min, most}) numbers.push_back(fmt::format("{}", end));
     const auto add = [&](const std::string& value) {
-      all.push_back(fmt::format("base = {}\n{} = {}\n", base_that_reads(row, next++), row.name, value));
+      all.push_back(fmt::format("{}{} = {}\n", first_lines(row, next++), row.name, value));
     };
     switch (row.type) {
       case ValueType::integer:
