@@ -12,9 +12,14 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/memory.h"
+#include "frames/frame_keys.h"
+#include "frames/frame_memory.h"
 #include "frames/judge.h"
 #include "frames/noonmark.h"
 #include "scenes/library.h"
+#include "scenes/number_ranges.h"
+#include "scenes/scene_size.h"
 
 using namespace noonmark;
 
@@ -64,14 +69,23 @@ noonmark_scene* made(const auto& make) noexcept {
   return scene;
 }
 
+void require_room(const std::string& what, double bytes) {
+  if (const AvailableMemory available = available_memory(); bytes > static_cast<double>(available.bytes))
+    throw Error(ErrorKind::device, what + " takes " + bytes_text(bytes) + " of memory, and " + available.text());
+}
+
 Scene scene_of(const float* positions, size_t vertices, const uint32_t* indices, size_t triangles) {
   if (!positions || !indices || vertices == 0 || triangles == 0) wrong_call("a scene has at least one triangle");
+  if (triangles > max_scene_triangles || vertices > std::numeric_limits<uint32_t>::max())
+    wrong_call("a scene has at most " + std::to_string(max_scene_triangles) +
+               " triangles, and vertices that 32-bit indices can name");
+  require_room("the scene", scene_bytes({.vertices = vertices, .triangles = triangles}));
   Scene scene;
   scene.name = "triangles";
   for (size_t i = 0; i < vertices; ++i) {
     const glm::vec3 p(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      wrong_call("position " + std::to_string(i) + " is not finite");
+    if (!is_in_world(p))
+      wrong_call("position " + std::to_string(i) + " is not finite, or more than 1e9 m from the origin");
     scene.positions.push_back(p);
   }
   for (size_t i = 0; i < triangles; ++i) {
@@ -101,7 +115,8 @@ Light light_of(const noonmark_frame& f) {
   }
   light.position_m = {f.light_position[0], f.light_position[1], f.light_position[2]};
   if (light.kind != LightKind::point) {
-    if (!(glm::length(way) > 0)) wrong_call("light_direction has no length; set it to the way the light travels");
+    for (const double part : f.light_direction) require_in_range("light.direction", part);
+    if (!has_direction(way)) wrong_call("light_direction has no length; set it to the way the light travels");
     light.target_m = light.position_m + glm::normalize(way);
   }
   if (light.kind == LightKind::spot) light.cone_deg = f.light_cone_deg;
@@ -116,13 +131,24 @@ glm::dmat4 matrix_of(const double* numbers) {
   return m;
 }
 
+ViewMatrix view_of(const noonmark_frame& f) {
+  try {
+    return ViewMatrix(
+        from_convention(matrix_of(f.clip_from_world), {f.depth_0_to_1 != 0, f.reversed != 0, f.y_down != 0}));
+  } catch (const Error& error) {
+    wrong_call(std::string("clip_from_world: ") + error.what());
+  }
+}
+
 GivenFrame frame_of(const noonmark_frame& f) {
   if (f.width < 1 || f.height < 1 || !f.visibility) wrong_call("a frame has a width, a height and visibility");
+  require_room("a frame of " + std::to_string(f.width) + " x " + std::to_string(f.height) + " pixels",
+               frame_bytes(f.width, f.height));
+  for (const double number : f.clip_from_world) require_in_range("camera.clip_from_world", number);
   GivenFrame frame{.name = "frame",
                    .visibility = Image<float>(f.width, f.height),
                    .positions = {},
-                   .view = ViewMatrix(from_convention(matrix_of(f.clip_from_world),
-                                                      {f.depth_0_to_1 != 0, f.reversed != 0, f.y_down != 0})),
+                   .view = view_of(f),
                    .light = light_of(f)};
   for (size_t i = 0; i < frame.visibility.size(); ++i) {
     const float value = f.visibility[i];
@@ -141,10 +167,9 @@ GivenFrame frame_of(const noonmark_frame& f) {
 
 JudgeRules rules_of(const noonmark_frame& f) {
   JudgeRules rules;
-  if (!(f.edge_pixels > 0)) wrong_call("edge_pixels is not above 0");
   rules.edge_pixels = f.edge_pixels;
-  if (f.edge_m > 0) rules.edge_m = f.edge_m;
-  if (f.contact_m > 0) rules.contact_m = f.contact_m;
+  if (f.edge_m != 0) rules.edge_m = f.edge_m;
+  if (f.contact_m != 0) rules.contact_m = f.contact_m;
   std::istringstream names(f.accept ? f.accept : "");
   for (std::string name; std::getline(names, name, ',');) rules.accepted.insert(name);
   return rules;

@@ -14,6 +14,7 @@
 #include "frames/frame_keys.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
+#include "scenes/number_ranges.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -22,18 +23,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Kind = FrameKeyKind;
 
-std::string full_name(const FrameKey& key) {
-  return key.object.empty() ? std::string(key.name) : fmt::format("{}.{}", key.object, key.name);
-}
-
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
   throw Error(ErrorKind::file, path + ": " + what);
 }
 
-bool is_number(const Json& value) { return value.is_number() && std::isfinite(value.get<double>()); }
-
-bool are_numbers(const Json& value, size_t count) {
-  return value.is_array() && value.size() == count && std::all_of(value.begin(), value.end(), is_number);
+// What the key's numbers have to be; empty if they are. scale: the metres of a length of 1.
+std::string wanted_numbers(const FrameKey& key, const Json& value, size_t count, double scale) {
+  const FrameRange range = range_of(key);
+  const double unit = range.is_length() ? scale : 1;
+  const auto holds = [&](const Json& one) { return one.is_number() && range.numbers.holds(unit * one.get<double>()); };
+  const bool right = count == 1
+                         ? holds(value)
+                         : value.is_array() && value.size() == count && std::all_of(value.begin(), value.end(), holds);
+  if (right) return "";
+  return fmt::format("{}{}{}", count == 1 ? "a number, " : fmt::format("{} numbers, each ", count), range.text(),
+                     unit == 1 ? "" : fmt::format(" (times metres_per_unit = {})", scale));
 }
 
 bool is_axis(const Json& value) {
@@ -44,7 +48,7 @@ bool is_axis(const Json& value) {
 }
 
 // What the value has to be; empty if it is.
-std::string wanted(const FrameKey& key, const Json& value) {
+std::string wanted(const FrameKey& key, const Json& value, double scale) {
   switch (key.kind) {
     case Kind::object:
       return value.is_object() ? "" : "an object";
@@ -57,19 +61,17 @@ std::string wanted(const FrameKey& key, const Json& value) {
       return known ? "" : fmt::format("one of \"{}\"", fmt::join(choices, "\", \""));
     }
     case Kind::number:
-      return is_number(value) && value.get<double>() >= 0 ? "" : "a number of 0 or more";
-    case Kind::positive:
-      return is_number(value) && value.get<double>() > 0 ? "" : "a number above 0";
+      return wanted_numbers(key, value, 1, scale);
     case Kind::flag:
       return value.is_boolean() ? "" : "true or false";
     case Kind::vector3:
-      return are_numbers(value, 3) ? "" : "three numbers";
+      return wanted_numbers(key, value, 3, scale);
     case Kind::axes:
       return value.is_array() && value.size() == 3 && std::all_of(value.begin(), value.end(), is_axis)
                  ? ""
                  : "three of \"x\", \"y\", \"z\", each with or without a minus";
     case Kind::matrix:
-      return are_numbers(value, 16) ? "" : "16 numbers";
+      return wanted_numbers(key, value, 16, scale);
     case Kind::settings:
       return value.is_object() ? "" : "an object with names of settings and their values";
     case Kind::version:
@@ -78,7 +80,7 @@ std::string wanted(const FrameKey& key, const Json& value) {
   return "";
 }
 
-void check_object(const std::string& path, const Json& object, std::string_view name) {
+void check_object(const std::string& path, const Json& object, std::string_view name, double scale) {
   for (const auto& [member, value] : object.items()) {
     std::vector<std::string_view> names;
     const FrameKey* found = nullptr;
@@ -90,9 +92,9 @@ void check_object(const std::string& path, const Json& object, std::string_view 
     if (!found)
       refuse(path, fmt::format("there is no key '{}'{}{}", member, name.empty() ? "" : fmt::format(" in '{}'", name),
                                did_you_mean(member, names)));
-    if (const std::string want = wanted(*found, value); !want.empty())
-      refuse(path, fmt::format("'{}' must be {}", full_name(*found), want));
-    if (found->kind == Kind::object) check_object(path, value, member);
+    if (const std::string want = wanted(*found, value, scale); !want.empty())
+      refuse(path, fmt::format("'{}' must be {}", found->full_name(), want));
+    if (found->kind == Kind::object) check_object(path, value, member, scale);
   }
 }
 
@@ -228,7 +230,9 @@ void read_camera(const Object& camera, FrameFile& file) {
   }
   camera.require("eye", "give eye and target, or matrices");
   camera.require("target", "give eye and target, or matrices");
-  if (*camera.vector("eye") == *camera.vector("target")) camera.refuse_together("eye and target are the same place");
+  if (!has_direction(*camera.vector("target") - *camera.vector("eye")))
+    camera.refuse_together("eye and target are the same place");
+  if (camera.has("up") && !has_direction(*camera.vector("up"))) camera.refuse_together("up has no length");
   if (camera.has("fov_y_deg") == camera.has("height"))
     camera.refuse_together("give fov_y_deg of a perspective camera, or height of an orthographic one");
   const auto place = [&](const char* key) {
@@ -248,15 +252,13 @@ void read_camera(const Object& camera, FrameFile& file) {
   c.height_m = length("height").value_or(c.height_m);
   c.near_m = length("near");
   c.far_m = length("far");
-  if (c.projection == Projection::perspective && !(c.fov_y_deg < 180))
-    camera.refuse_together("fov_y_deg must be below 180");
+  if (c.near_m && c.far_m && !(*c.near_m < *c.far_m)) camera.refuse_together("near must be below far");
 }
 
 void read_light(const Object& light, FrameFile& file) {
   if (!light) return;
   const auto read_size = [&](Light& l, double scale) {
     l.angular_diameter_deg = light.number("angular_diameter_deg").value_or(0);
-    if (l.angular_diameter_deg > 90) light.refuse_together("angular_diameter_deg must be 90 or less");
     l.radius_m = light.number("radius").value_or(0) * scale;
     l.shape = light.is("shape", "disc") ? LightShape::disc : LightShape::sphere;
   };
@@ -284,10 +286,10 @@ void read_light(const Object& light, FrameFile& file) {
     if (light.has("target")) {
       light.require("position", "the light aims from it at its target");
       l.target_m = place("target");
+      if (!has_direction(l.target_m - l.position_m)) light.refuse_together("position and target are the same place");
     } else {
       const glm::dvec3 way = glm::dmat3(file.world_from_frame) * *light.vector("direction");
-      if (!(glm::length(way) > 0) || !std::isfinite(glm::length(way)))
-        light.refuse_together("the direction has no length, or one that is too large");
+      if (!has_direction(way)) light.refuse_together("the direction has no length");
       l.target_m = l.position_m + glm::normalize(way);
     }
   }
@@ -303,6 +305,8 @@ void read_rules(const Object& edge, const Object& contact, double scale, FrameFi
     if (edge.has("texels")) {
       edge.require("texel", "the width of a texel");
       file.edge_m = *edge.number("texels") * *edge.number("texel") * scale;
+      if (const FrameRange most = range_of("edge.distance"); !most.numbers.holds(*file.edge_m))
+        edge.refuse_together(fmt::format("texels times texel must be {}", most.text()).c_str());
     }
     if (edge.has("distance")) file.edge_m = *edge.number("distance") * scale;
     file.edge_pixels = edge.number("pixels");
@@ -334,7 +338,9 @@ FrameFile parse_frame_file(const std::string& path, std::string_view text) {
     }
   }();
   if (!json.is_object()) refuse(path, "must be a JSON object");
-  check_object(path, json, "");
+  // Lengths are checked in metres, so their unit is read before them. One that is no number is refused with the rest.
+  const auto unit = json.find("metres_per_unit");
+  check_object(path, json, "", unit != json.end() && unit->is_number() ? unit->get<double>() : 1);
   FrameFile file;
   file.path = path;
   const Object all(file.path, "", &json);
@@ -384,12 +390,14 @@ ViewMatrix FrameFile::view(const Scene& scene, int width, int height) const {
   Camera c = camera        ? *camera
              : camera_name ? named(path, "camera.name", [&] { return camera_named(scene, *camera_name); })
                            : scene.camera;
-  if (!c.near_m || !c.far_m) {
-    const Camera fitted = with_fitted_depths(scene, c, width, height);
-    c.near_m = c.near_m ? c.near_m : fitted.near_m;
-    c.far_m = c.far_m ? c.far_m : fitted.far_m;
-  }
-  return ViewMatrix(make_camera_frame(c, width, height).clip_from_world());
+  return named(path, "camera", [&] {
+    if (!c.near_m || !c.far_m) {
+      const Camera fitted = with_fitted_depths(scene, c, width, height);
+      c.near_m = c.near_m ? c.near_m : fitted.near_m;
+      c.far_m = c.far_m ? c.far_m : fitted.far_m;
+    }
+    return ViewMatrix(make_camera_frame(c, width, height).clip_from_world());
+  });
 }
 
 }  // namespace noonmark

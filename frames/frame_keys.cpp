@@ -1,9 +1,38 @@
 #include "frames/frame_keys.h"
 
+#include <fmt/format.h>
+
+#include <numbers>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "technique/settings.h"
+
 namespace noonmark {
 namespace {
 
 using Kind = FrameKeyKind;
+
+constexpr double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+
+// Of a camera of a frame, as of one of a scene file.
+constexpr NumberRange view_angle_deg{degrees(ranges::view_angle_rad.least), degrees(ranges::view_angle_rad.most)};
+// A matrix is the same times any number, so its numbers have no unit; products of two of these are finite.
+constexpr NumberRange of_matrix{-1e30, 1e30};
+constexpr NumberRange unit_m{1e-9, 1e6};  // from a nanometre on
+constexpr NumberRange edge_m{1e-9, ranges::coordinate_m.most};
+constexpr NumberRange edge_count{1e-3, 1e6};  // of pixels or texels: from none to all of a picture
+
+// The key is the same quantity as this setting.
+constexpr FrameKey as(FrameKey key, std::string_view setting) {
+  key.setting = setting;
+  return key;
+}
+constexpr FrameKey within(FrameKey key, const NumberRange& range, std::string_view unit) {
+  key.own = range;
+  key.own_unit = unit;
+  return key;
+}
 
 constexpr FrameKey key_rows[] = {
     {"", "noonmark_frame", Kind::version, "The version of this format: 1. Required."},
@@ -19,19 +48,22 @@ constexpr FrameKey key_rows[] = {
      "The scene's x, y and z (right-handed, Y up, as in glTF), each as an axis of the renderer with its sign: [\"x\", "
      "\"z\", "
      "\"-y\"] where the renderer has Z up. Handedness and up axis follow from it. Default: [\"x\", \"y\", \"z\"]."},
-    {"", "metres_per_unit", Kind::positive, "The length of the renderer's unit in metres. Default: 1."},
+    within({"", "metres_per_unit", Kind::number, "The length of the renderer's unit in metres. Default: 1."}, unit_m,
+           "m per unit"),
     {"", "camera", Kind::object, "The camera of the picture. Default: the first camera of the scene's file."},
     {"camera", "name", Kind::text, "A camera of the scene's file, by the name of its node. It needs no other key."},
-    {"camera", "eye", Kind::vector3, "Where the camera is."},
-    {"camera", "target", Kind::vector3, "A point in the middle of the picture."},
-    {"camera", "up", Kind::vector3, "A direction that is up in the picture. Default: the scene's Y."},
-    {"camera", "fov_y_deg", Kind::positive, "Perspective: the whole vertical angle."},
-    {"camera", "height", Kind::positive, "Orthographic: the height that the picture shows."},
-    {"camera", "near", Kind::positive, "The near plane, along the view. Default: fitted to the scene."},
-    {"camera", "far", Kind::positive, "The far plane. Default: fitted to the scene."},
-    {"camera", "view", Kind::matrix, "4 x 4 matrix from the world to the camera's axes, as 16 numbers."},
-    {"camera", "projection", Kind::matrix, "4 x 4 matrix from the camera's axes to clip space."},
-    {"camera", "clip_from_world", Kind::matrix, "The product of both, in place of them."},
+    as({"camera", "eye", Kind::vector3, "Where the camera is."}, "view.eye_m"),
+    as({"camera", "target", Kind::vector3, "A point in the middle of the picture."}, "view.target_m"),
+    as({"camera", "up", Kind::vector3, "A direction that is up in the picture. Default: the scene's Y."}, "view.up"),
+    within({"camera", "fov_y_deg", Kind::number, "Perspective: the whole vertical angle."}, view_angle_deg, "deg"),
+    as({"camera", "height", Kind::number, "Orthographic: the height that the picture shows."}, "view.height_m"),
+    as({"camera", "near", Kind::number, "The near plane, along the view. Default: fitted to the scene."},
+       "view.near_m"),
+    as({"camera", "far", Kind::number, "The far plane. Default: fitted to the scene."}, "view.far_m"),
+    within({"camera", "view", Kind::matrix, "4 x 4 matrix from the world to the camera's axes, as 16 numbers."},
+           of_matrix, ""),
+    within({"camera", "projection", Kind::matrix, "4 x 4 matrix from the camera's axes to clip space."}, of_matrix, ""),
+    within({"camera", "clip_from_world", Kind::matrix, "The product of both, in place of them."}, of_matrix, ""),
     {"camera", "order", Kind::choice,
      "Of the numbers of each matrix, which is multiplied with a column vector: column by column, or row by row. A "
      "matrix "
@@ -45,14 +77,17 @@ constexpr FrameKey key_rows[] = {
     {"light", "name", Kind::text,
      "A light of the scene's file, by the name of its node or its own. Beside it only a size can be given."},
     {"light", "kind", Kind::choice, "Required, unless the light is the scene's.", "directional|spot|point"},
-    {"light", "direction", Kind::vector3, "Directional, spot: the way the light travels."},
-    {"light", "position", Kind::vector3, "Spot, point: where the light is."},
-    {"light", "target", Kind::vector3,
-     "Directional, spot: a point that the light from `position` aims at, in place of the "
-     "direction."},
-    {"light", "cone_deg", Kind::positive, "Spot: the whole angle of the cone."},
-    {"light", "angular_diameter_deg", Kind::number, "Directional: of a sun with a size. Default: 0, a hard shadow."},
-    {"light", "radius", Kind::number, "Spot, point: of a lamp with a size. Default: 0."},
+    within({"light", "direction", Kind::vector3, "Directional, spot: the way the light travels."}, ranges::of_direction,
+           ""),
+    as({"light", "position", Kind::vector3, "Spot, point: where the light is."}, "light.position_m"),
+    as({"light", "target", Kind::vector3,
+        "Directional, spot: a point that the light from `position` aims at, in place of the "
+        "direction."},
+       "light.target_m"),
+    within({"light", "cone_deg", Kind::number, "Spot: the whole angle of the cone."}, ranges::cone_deg, "deg"),
+    as({"light", "angular_diameter_deg", Kind::number, "Directional: of a sun with a size. Default: 0, a hard shadow."},
+       "light.angular_diameter_deg"),
+    as({"light", "radius", Kind::number, "Spot, point: of a lamp with a size. Default: 0."}, "light.radius_m"),
     {"light", "shape", Kind::choice, "Of a lamp with a size.", "sphere|disc"},
     {"", "positions", Kind::object,
      "The world position of every receiver: what the renderer itself shaded. The best choice."},
@@ -79,9 +114,9 @@ constexpr FrameKey key_rows[] = {
      "= 1). "
      "Required.",
      "bottom|top"},
-    {"map", "view", Kind::matrix, "4 x 4 matrix from the world to the light's axes."},
-    {"map", "projection", Kind::matrix, "4 x 4 matrix from the light's axes to clip space."},
-    {"map", "clip_from_world", Kind::matrix, "The product of both, in place of them."},
+    within({"map", "view", Kind::matrix, "4 x 4 matrix from the world to the light's axes."}, of_matrix, ""),
+    within({"map", "projection", Kind::matrix, "4 x 4 matrix from the light's axes to clip space."}, of_matrix, ""),
+    within({"map", "clip_from_world", Kind::matrix, "The product of both, in place of them."}, of_matrix, ""),
     {"map", "order", Kind::choice, "As of the camera. Required.", "column|row"},
     {"map", "depth_range", Kind::choice, "As of the camera. Required.", "0..1|-1..1"},
     {"map", "reversed", Kind::flag, "As of the camera. Required."},
@@ -91,17 +126,45 @@ constexpr FrameKey key_rows[] = {
      "map.lit_beyond_far, map.depth_clamp, map.pancake. What is left out has its default, which is no bias and one "
      "tap."},
     {"", "edge", Kind::object, "How near to a true shadow edge an error is an error of the edge. Default: 2 pixels."},
-    {"edge", "pixels", Kind::positive, "In pixels of the picture, at the receiver."},
-    {"edge", "texels", Kind::positive, "In texels of the renderer's map; needs `texel`."},
-    {"edge", "texel", Kind::positive, "The width of a texel of a directional light's map: extent / resolution."},
-    {"edge", "distance", Kind::positive, "As a length, across the light's rays."},
+    within({"edge", "pixels", Kind::number, "In pixels of the picture, at the receiver."}, edge_count, "pixels"),
+    within({"edge", "texels", Kind::number, "In texels of the renderer's map; needs `texel`."}, edge_count, "texels"),
+    within({"edge", "texel", Kind::number, "The width of a texel of a directional light's map: extent / resolution."},
+           edge_m, "m"),
+    within({"edge", "distance", Kind::number, "As a length, across the light's rays."}, edge_m, "m"),
     {"", "contact", Kind::object, "How near an occluder is to the receiver where light leaks at a contact."},
-    {"contact", "distance", Kind::positive, "Along the light's ray. Default: 1% of the scene's diagonal."},
+    within({"contact", "distance", Kind::number, "Along the light's ray. Default: 1% of the scene's diagonal."}, edge_m,
+           "m"),
 };
 
 }  // namespace
 
+std::string FrameKey::full_name() const {
+  return object.empty() ? std::string(name) : fmt::format("{}.{}", object, name);
+}
+
 std::span<const FrameKey> frame_keys() { return key_rows; }
+
+FrameRange range_of(const FrameKey& key) {
+  if (key.setting.empty()) return {key.own, key.own_unit};
+  const Setting& same = find_setting(key.setting);
+  return {same.range(), same.unit};
+}
+
+FrameRange range_of(std::string_view full_name) {
+  for (const FrameKey& key : frame_keys())
+    if (key.full_name() == full_name) return range_of(key);
+  throw std::logic_error("frame.json has no key '" + std::string(full_name) + "'");
+}
+
+std::string FrameRange::text() const {
+  return fmt::format("{:.6g} ... {:.6g}{}{}", numbers.least, numbers.most, unit.empty() ? "" : " ", unit);
+}
+
+void require_in_range(std::string_view full_name, double value) {
+  const FrameRange range = range_of(full_name);
+  if (!range.numbers.holds(value))
+    throw Error(ErrorKind::usage, fmt::format("{} = {} is not allowed; it takes {}", full_name, value, range.text()));
+}
 
 std::vector<std::string_view> choices_of(const FrameKey& key) {
   std::vector<std::string_view> choices;

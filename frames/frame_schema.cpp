@@ -15,7 +15,16 @@ using Kind = FrameKeyKind;
 }  // namespace
 
 std::string frame_schema() {
-  const auto form = [](const FrameKey& key) -> Json {
+  // A length has the renderer's unit, and its range is in metres.
+  const auto number = [](const FrameKey& key) -> Json {
+    const FrameRange range = range_of(key);
+    if (!range.is_length())
+      return {{"type", "number"}, {"minimum", range.numbers.least}, {"maximum", range.numbers.most}};
+    if (range.numbers.least > 0) return {{"type", "number"}, {"exclusiveMinimum", 0}};
+    if (range.numbers.least == 0) return {{"type", "number"}, {"minimum", 0}};
+    return {{"type", "number"}};
+  };
+  const auto form = [&](const FrameKey& key) -> Json {
     switch (key.kind) {
       case Kind::object:
         return {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
@@ -27,20 +36,18 @@ std::string frame_schema() {
         return {{"enum", words}};
       }
       case Kind::number:
-        return {{"type", "number"}, {"minimum", 0}};
-      case Kind::positive:
-        return {{"type", "number"}, {"exclusiveMinimum", 0}};
+        return number(key);
       case Kind::flag:
         return {{"type", "boolean"}};
       case Kind::vector3:
-        return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
+        return {{"type", "array"}, {"items", number(key)}, {"minItems", 3}, {"maxItems", 3}};
       case Kind::axes:
         return {{"type", "array"},
                 {"items", {{"enum", {"x", "y", "z", "-x", "-y", "-z", "+x", "+y", "+z"}}}},
                 {"minItems", 3},
                 {"maxItems", 3}};
       case Kind::matrix:
-        return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 16}, {"maxItems", 16}};
+        return {{"type", "array"}, {"items", number(key)}, {"minItems", 16}, {"maxItems", 16}};
       case Kind::settings:
         return {{"type", "object"}, {"additionalProperties", {{"type", {"string", "number", "boolean", "array"}}}}};
       case Kind::version:

@@ -11,11 +11,28 @@
 
 #include "base/error.h"
 #include "frames/alignment.h"
+#include "frames/frame_keys.h"
 #include "frames/frame_memory.h"
+#include "scenes/number_ranges.h"
 #include "technique/settings.h"
 
 namespace noonmark {
 namespace {
+
+// The numbers of a frame that no file gave are those of one that a file could give.
+void require_ranges(const Light& light, const JudgeRules& rules) {
+  for (int axis = 0; axis < 3; ++axis) require_in_range("light.position", light.position_m[axis]);
+  // Of a light with a direction the target lies beside the position, which may be at the end of its range.
+  if (!(glm::distance(light.target_m, light.position_m) <= ranges::most_distance_m))
+    throw Error(ErrorKind::usage, fmt::format("light.target is more than {:g} m from light.position; set it nearer",
+                                              ranges::most_distance_m));
+  require_in_range("light.cone_deg", light.cone_deg);
+  require_in_range("light.angular_diameter_deg", light.angular_diameter_deg);
+  require_in_range("light.radius", light.radius_m);
+  require_in_range("edge.pixels", rules.edge_pixels);
+  if (rules.edge_m) require_in_range("edge.distance", *rules.edge_m);
+  if (rules.contact_m) require_in_range("contact.distance", *rules.contact_m);
+}
 
 // The frame of the light alone. A map is laid about the scene, because a frame has one; nothing reads it.
 LightFrame light_frame_of(const Scene& scene, const Light& light) {
@@ -61,6 +78,13 @@ raytrace::OnSurface find_receivers(const Scene& scene, const raytrace::Tracer& t
   for (size_t i = 0; i < present.size(); ++i) {
     const glm::dvec3 p = frame.positions[i];
     present[i] = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    if (present[i] && !is_in_world(p))
+      throw Error(
+          ErrorKind::file,
+          fmt::format("{}: the receiver of the pixel x = {}, y = {} lies at ({:.4g}, {:.4g}, {:.4g}) m, and a "
+                      "coordinate is at most {:g} m; check positions, depths and metres_per_unit",
+                      frame.name, i % static_cast<size_t>(frame.positions.width),
+                      i / static_cast<size_t>(frame.positions.width), p.x, p.y, p.z, ranges::coordinate_m.most));
   }
   return tracer.on_surface(frame.positions, present, frame.view);
 }
@@ -155,6 +179,7 @@ bool FrameVerdict::refused() const {
 FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, const GivenFrame& frame,
                          const JudgeRules& rules) {
   for (const std::string& name : rules.accepted) require_check(name);
+  require_ranges(frame.light, rules);
   const int width = frame.visibility.width, height = frame.visibility.height;
   require_frame_memory(frame.name, width, height);
   const Image<uint32_t> seen = tracer.seen_primitives(frame.view, width, height);

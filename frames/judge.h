@@ -74,8 +74,9 @@ struct FrameVerdict {
   bool refused() const;  // a check failed and was not accepted
 };
 
-// tracer: of the scene. Throws Error(file) if the sizes of the images differ, if the frame does not fit into memory, or if no
-// receiver is counted and no check says why; Error(usage) if the light has no direction.
+// tracer: of the scene. Throws Error(file) if the sizes of the images differ, if the frame does not fit into memory, if a given
+// position is not in the world, or if no receiver is counted and no check says why; Error(usage) if a number of the light or of
+// the rules is outside the range that it has in frame.json (frames/frame_keys.h), or the light has no direction.
 FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, const GivenFrame& frame,
                          const JudgeRules& rules);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "scenes/number_ranges.h"
 
 namespace noonmark {
 namespace {
@@ -79,6 +80,8 @@ MapFrame map_frame(const std::string& name, const LightFrame& light, const glm::
   if (!(frame.near_m < frame.far_m) || !std::isfinite(frame.far_m) ||
       (light.kind == LightKind::spot && !(frame.near_m > 0)))
     refuse_map(name, "the map's matrix has no near plane before a far plane; check 'depth_range' and 'reversed'");
+  if (!is_in_world(frame.origin_m) || !is_in_world({frame.near_m, frame.far_m, frame.extent_m}))
+    refuse_map(name, fmt::format("the map reaches further than {:g} m; check the matrix", ranges::coordinate_m.most));
   // The axes are made square to the light's own, because the truth's rays have that direction.
   frame.right = glm::normalize(x - glm::dot(x, light.forward) * light.forward);
   frame.up = glm::cross(frame.right, light.forward);

@@ -57,7 +57,7 @@ NOONMARK_API const char *noonmark_version(void);
 /* A built-in scene by its name, or a .gltf or .glb file. It has the status and messages of noonmark_scene_status() and is never
    NULL, but where there is no memory for it. */
 NOONMARK_API noonmark_scene *noonmark_scene_load(const char *name);
-/* Triangles of a program: positions are vertices x 3 floats in metres, right-handed and Y up; indices are triangles x 3, counter-
+/* Triangles of a program: positions are vertices x 3 floats in metres, each from -1e9 to 1e9, right-handed and Y up; indices are triangles x 3, counter-
    clockwise seen from outside. Both are copied. */
 NOONMARK_API noonmark_scene *noonmark_scene_from_triangles(const float *positions, size_t vertices, const uint32_t *indices,
                                                            size_t triangles);
@@ -66,7 +66,9 @@ NOONMARK_API int noonmark_scene_status(const noonmark_scene *scene);
 NOONMARK_API const char *noonmark_scene_message(const noonmark_scene *scene);
 NOONMARK_API void noonmark_scene_free(noonmark_scene *scene);
 
-/* What is judged. All arrays are row by row, the top row first, and are only read during the call. */
+/* What is judged. All arrays are row by row, the top row first, and are only read during the call. Numbers have the ranges of
+   the same keys of frame.json (docs/reference/frame.md): a call with another number, NaN or infinity is a NOONMARK_WRONG_CALL
+   that names it. */
 typedef struct noonmark_frame {
   size_t struct_size; /* set by noonmark_frame_init */
   int32_t width, height;
@@ -79,9 +81,9 @@ typedef struct noonmark_frame {
   int32_t light_kind;         /* NOONMARK_DIRECTIONAL ... */
   double light_position[3];   /* spot, point: metres */
   double light_direction[3];  /* directional, spot: the way the light travels, of any length but 0; required */
-  double light_cone_deg;      /* spot: the whole angle */
-  double light_angular_diameter_deg; /* directional: of a light with a size; 0: none */
-  double light_radius_m;             /* spot, point: of a light with a size; 0: none */
+  double light_cone_deg;      /* spot: the whole angle, up to 180 */
+  double light_angular_diameter_deg; /* directional: of a light with a size, up to 90; 0: none */
+  double light_radius_m;             /* spot, point: of a light with a size, up to 1e6; 0: none */
   double edge_pixels; /* how near to a true shadow edge an error belongs to the edge; by default 2 */
   double edge_m;      /* the same in metres across the light's rays; 0: by edge_pixels */
   double contact_m;   /* how near an occluder is at a contact; 0: 1% of the scene's diagonal */

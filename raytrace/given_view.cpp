@@ -14,6 +14,7 @@
 #include "raytrace/shadow_start.h"
 #include "raytrace/traced_scene.h"
 #include "raytrace/tracer.h"
+#include "scenes/number_ranges.h"
 
 namespace noonmark::raytrace {
 namespace {
@@ -77,9 +78,7 @@ Image<uint32_t> Tracer::seen_primitives(const ViewMatrix& view, int width, int h
       for (int x = 0; x < width; ++x) {
         const Ray ray = view.pixel_ray(x, y, width, height);
         // The near plane lies at infinity if the matrix has no far plane and its depths are not reversed as declared.
-        const double finite =
-            ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y + ray.direction.z;
-        if (!std::isfinite(finite)) continue;
+        if (!is_in_world(ray.origin) || !has_direction(ray.direction)) continue;
         const uint32_t hit = FirstSeen(*traced_, ray)();
         if (hit == no_primitive) continue;
         const Corners t(traced_->scene, hit);

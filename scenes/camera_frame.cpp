@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "scenes/number_ranges.h"
 
 namespace noonmark {
 
@@ -27,7 +28,7 @@ glm::dmat3 rotation_of(glm::dvec3 turn_deg) {
 
 CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   const glm::dvec3 view = camera.target_m - camera.eye_m;
-  if (!(glm::length(view) > 0))
+  if (!has_direction(view))
     throw Error(ErrorKind::usage, "the camera's eye is its target; set view.eye_m or view.target_m");
   if (camera.near_m && camera.far_m && !(*camera.near_m < *camera.far_m))
     throw Error(ErrorKind::usage,

@@ -15,6 +15,7 @@
 #include "scenes/builtin.h"
 #include "scenes/floor.h"
 #include "scenes/gltf/gltf.h"
+#include "scenes/number_ranges.h"
 #include "scenes/remesh.h"
 #include "scenes/scene_size.h"
 
@@ -91,6 +92,25 @@ void require_room(const SceneSettings& settings, const Scene& scene) {
                                               what, bytes_text(needed), available.text(), remedy));
 }
 
+// A move to where floats are further apart than the scene's corners leaves less of it, or nothing.
+void require_shape(Scene& scene, const Placement& placement) {
+  const PlacedShape shape = placed_shape(scene, placement);
+  const glm::dvec3 by = placement.move_m;
+  const std::string there = fmt::format(
+      "scene.move_m = {},{},{} moves {}, which measures {:.3g} m, to where float coordinates are {:g} m apart", by.x,
+      by.y, by.z, scene.name, shape.size_m, shape.step_m);
+  if (shape.triangles > 0 && (shape.lost == shape.triangles || shape.step_m >= shape.size_m))
+    throw Error(ErrorKind::usage, fmt::format("{}: {} of its {} triangles have no area there; move it less far", there,
+                                              shape.lost, shape.triangles));
+  if (!shape.in_world)
+    throw Error(ErrorKind::usage, fmt::format("{}, and a coordinate is at most {:g} m; move it less far", there,
+                                              ranges::coordinate_m.most));
+  if (shape.lost > 0)
+    scene.notes.push_back(
+        fmt::format("{}: {} of its {} triangles have no area there, and all corners are rounded by up to half of that",
+                    there, shape.lost, shape.triangles));
+}
+
 }  // namespace
 
 bool names_file(std::string_view scene_name) {
@@ -113,7 +133,9 @@ Scene make_scene(const SceneSettings& settings) {
   Scene scene = scene_as_built(settings);
   if (settings.floor) add_floor_under(scene);
   if (settings.mesh != MeshForm::as_built) require_room(settings, scene);
-  return remeshed(std::move(scene), settings.mesh, {settings.turn_deg, settings.move_m.value_or(glm::dvec3(0))});
+  const Placement placement{settings.turn_deg, settings.move_m.value_or(glm::dvec3(0))};
+  if (settings.move_m) require_shape(scene, placement);
+  return remeshed(std::move(scene), settings.mesh, placement);
 }
 
 }  // namespace noonmark

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -11,6 +13,7 @@
 #include <tuple>
 #include <utility>
 
+#include "scenes/number_ranges.h"
 #include "scenes/scene_size.h"
 
 namespace noonmark {
@@ -220,7 +223,35 @@ glm::dmat4 matrix(const Placement& placement) {
   return glm::rotate(moved, placement.turn_deg * std::numbers::pi / 180, glm::normalize(glm::dvec3(1, 2, 3)));
 }
 
+bool has_area(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  const glm::dvec3 at(a);
+  return glm::cross(glm::dvec3(b) - at, glm::dvec3(c) - at) != glm::dvec3(0);
+}
+
 }  // namespace
+
+PlacedShape placed_shape(const Scene& scene, const Placement& placement) {
+  const glm::dmat4 motion = matrix(placement);
+  const auto placed = [&](const glm::vec3& p) { return glm::dvec3(motion * glm::dvec4(p, 1)); };
+  PlacedShape shape;
+  double largest = 0;
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const glm::vec3& p : scene.positions) {
+    const glm::dvec3 at = placed(p);
+    shape.in_world = shape.in_world && is_in_world(at);
+    low = glm::min(low, at), high = glm::max(high, at);
+    largest = std::max({largest, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+  }
+  if (!scene.positions.empty()) shape.size_m = glm::length(high - low);
+  if (largest > 0) shape.step_m = std::ldexp(1, std::ilogb(largest) - std::numeric_limits<float>::digits + 1);
+  for (const glm::uvec3& t : scene.triangles) {
+    const glm::vec3 &a = scene.positions[t.x], &b = scene.positions[t.y], &c = scene.positions[t.z];
+    if (!has_area(a, b, c)) continue;
+    ++shape.triangles;
+    shape.lost += !has_area(glm::vec3(placed(a)), glm::vec3(placed(b)), glm::vec3(placed(c)));
+  }
+  return shape;
+}
 
 Scene remeshed(Scene scene, MeshForm form, const Placement& placement) {
   const glm::dmat4 motion = matrix(placement);

@@ -19,6 +19,16 @@ struct Placement {
   glm::dvec3 move_m{0};
 };
 
+// What float coordinates make of a scene that is placed there.
+struct PlacedShape {
+  double size_m = 0;       // the diagonal of its box
+  double step_m = 0;       // how far apart floats are at the scene's largest coordinate
+  uint64_t triangles = 0;  // with an area before
+  uint64_t lost = 0;       // of them, with none there
+  bool in_world = true;    // all coordinates are in ranges::coordinate_m
+};
+PlacedShape placed_shape(const Scene& scene, const Placement& placement);
+
 // as_built: unchanged.
 // one_mesh: one part; vertices with equal positions become one vertex. Order and positions of the triangles stay.
 // split:    each triangle in four at the middles of its edges. Triangles that share an edge get the same middle, to the

@@ -24,9 +24,11 @@ glm::dmat4 from_convention(const glm::dmat4& clip_from_world, const ClipConventi
 
 class ViewMatrix {
  public:
-  // clip_from_world: OpenGL's clip space. Throws Error(file) if it has no inverse or a number that is not finite.
+  // clip_from_world: OpenGL's clip space. Throws Error(file) if it has no inverse that leads back to the same place of the
+  // picture, and if neither its near nor its far plane lies in the world (ranges::coordinate_m).
   explicit ViewMatrix(const glm::dmat4& clip_from_world);
 
+  // As given, times a power of 2.
   const glm::dmat4& clip_from_world() const { return clip_from_world_; }
 
   // From the near plane on, through the centre of pixel (x, y) of a picture of this size; row 0 on top. The direction
@@ -41,6 +43,8 @@ class ViewMatrix {
   glm::dvec3 world_at(int x, int y, double clip_depth, int width, int height) const;
 
  private:
+  bool has_plane_in_world(double clip_depth) const;
+
   glm::dmat4 clip_from_world_, world_from_clip_;
 };
 

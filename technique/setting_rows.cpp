@@ -32,13 +32,14 @@ std::string without_brackets(const Setting& row, std::string_view text) {
 
 std::string number_text(double value) { return fmt::format("{}", value == 0 ? 0.0 : value); }
 
-double parse_real(const Setting& row, std::string_view text) {
+namespace {
+
+// whole: the text of which it is a part.
+double parse_real(const Setting& row, std::string_view text, std::string_view whole) {
   const std::optional<double> value = parse_number<double>(text);
-  if (!value || !std::isfinite(*value) || *value < row.min || *value > row.max) refuse(row, text);
+  if (!value || !row.range().holds(*value)) refuse(row, whole);
   return *value;
 }
-
-namespace {
 
 // Numbers with commas between them, each perhaps after spaces.
 std::vector<double> parse_numbers(const Setting& row, std::string_view text) {
@@ -47,15 +48,15 @@ std::vector<double> parse_numbers(const Setting& row, std::string_view text) {
     const size_t comma = rest.find(',');
     std::string_view part = rest.substr(0, comma);
     while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
-    const std::optional<double> value = parse_number<double>(part);
-    if (!value || !std::isfinite(*value)) refuse(row, text);
-    numbers.push_back(*value);
+    numbers.push_back(parse_real(row, part, text));
     if (comma == std::string_view::npos) return numbers;
     rest.remove_prefix(comma + 1);
   }
 }
 
 }  // namespace
+
+double parse_real(const Setting& row, std::string_view text) { return parse_real(row, text, text); }
 
 glm::dvec3 parse_point(const Setting& row, std::string_view text) {
   const std::vector<double> numbers = parse_numbers(row, text);
@@ -69,7 +70,7 @@ std::vector<double> parse_list(const Setting& row, std::string_view text) {
     const bool follows = row.type == ValueType::whole_list  ? numbers[i] == std::floor(numbers[i])
                          : row.type == ValueType::real_list ? true
                                                             : i == 0 || numbers[i] > numbers[i - 1];
-    if (numbers[i] < row.min || numbers[i] > row.max || !follows) refuse(row, text);
+    if (!follows) refuse(row, text);
   }
   return numbers;
 }

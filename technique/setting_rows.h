@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "scenes/number_ranges.h"
 #include "technique/settings.h"
 
 namespace noonmark::setting_rows {
@@ -88,9 +89,11 @@ Setting real(std::string_view name, std::string_view unit, double min, double ma
   return row;
 }
 
+// range: of each of the three numbers.
 template <class Member>
-Setting point(std::string_view name, std::string_view unit, std::string_view help, Member member) {
-  Setting row{name, unit, ValueType::point, 0, 0, true, {}, std::string(help), {}, {}};
+Setting point(std::string_view name, std::string_view unit, const NumberRange& range, std::string_view help,
+              Member member) {
+  Setting row{name, unit, ValueType::point, range.least, range.most, true, {}, std::string(help), {}, {}};
   row.get = [member](const Settings& s) {
     const auto& value = member(const_cast<Settings&>(s));
     return value ? point_text(*value) : std::string("auto");

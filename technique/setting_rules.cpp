@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/builtin.h"
 #include "scenes/library.h"
+#include "scenes/number_ranges.h"
 #include "technique/bias.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
@@ -178,7 +180,45 @@ std::string with_name_of_light(const Settings& s, LightKind) {
 }
 
 std::string no_direction_up(const Settings& s, std::optional<LightKind>) {
-  return s.view.up && *s.view.up == glm::dvec3(0) ? "view.up = 0,0,0 is no direction; give another, or auto" : "";
+  if (!s.view.up || has_direction(*s.view.up)) return "";
+  return fmt::format("view.up = {} is no direction; give another, or auto", find_setting("view.up").get(s));
+}
+
+namespace {
+
+// Frame n is n steps from the first, and its flicker is that to the next one.
+double steps(const MotionSettings& motion) { return motion.frame + 1.0; }
+
+std::string moved_away(const Settings& s, std::string_view setting, const std::optional<glm::dvec3>& each,
+                       double times) {
+  if (!each) return "";
+  const glm::dvec3 way = times * *each;
+  const double most = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
+  if (ranges::coordinate_m.holds(most)) return "";
+  return fmt::format(
+      "{} = {} moves by {:.4g} m up to the frame after motion.frame = {}, and a coordinate is at most {:g} m; "
+      "lower one of them",
+      setting, find_setting(setting).get(s), most, s.view.motion.frame, ranges::coordinate_m.most);
+}
+
+}  // namespace
+
+std::string camera_moved_away(const Settings& s, std::optional<LightKind>) {
+  return moved_away(s, "motion.move_m", s.view.motion.move_m, steps(s.view.motion));
+}
+std::string light_moved_away(const Settings& s, std::optional<LightKind>) {
+  const MotionSettings& motion = s.view.motion;
+  return moved_away(s, "motion.light_move_m", motion.light_move_m, motion.light_period > 0 ? 1 : steps(motion));
+}
+std::string zoomed_beyond_a_picture(const Settings& s, std::optional<LightKind>) {
+  const MotionSettings& motion = s.view.motion;
+  constexpr double most = 1e6;  // of what a picture shows then, a float's coordinates make a few steps
+  const double enlarged = std::pow(motion.zoom, steps(motion));
+  if (enlarged <= most && enlarged >= 1 / most) return "";
+  return fmt::format(
+      "motion.zoom = {} enlarges the picture by {:.4g} up to the frame after motion.frame = {}; it can be "
+      "from {:g} to {:g}; set motion.zoom nearer to 1, or lower motion.frame",
+      motion.zoom, enlarged, motion.frame, 1 / most, most);
 }
 
 // The texels of a mip level are means of whole blocks of texels.
@@ -292,7 +332,7 @@ std::string cube_shifted_along_v(const Settings& s, std::optional<LightKind> lig
   return shifted_cube("map.shift_v_texels", s.map.shift_v_texels, light);
 }
 
-// The length of a rotation vector is its angle. It is infinite where the squares of the components overflow.
+// The length of a rotation vector is its angle.
 std::string turn_beyond_a_circle(const Settings& s, std::optional<LightKind>) {
   if (!s.map.turn_deg || glm::length(*s.map.turn_deg) <= 360) return "";
   return fmt::format("map.turn_deg turns by {:.6g} degrees, the length of its vector; it can be at most 360",

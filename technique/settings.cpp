@@ -154,8 +154,8 @@ std::vector<Setting> make_table() {
       real("scene.turn_deg", "deg", -360, 360,
            "Rotates the scene with its camera and light about the axis (1, 2, 3), so that no plane lies along an axis.",
            MEMBER(scene.turn_deg)),
-      point("scene.move_m", "m", "Moves the scene with its camera and light, after the rotation; auto: no move.",
-            MEMBER(scene.move_m)),
+      point("scene.move_m", "m", ranges::coordinate_m,
+            "Moves the scene with its camera and light, after the rotation; auto: no move.", MEMBER(scene.move_m)),
       flag("scene.masks",
            "Whether alpha masks (of the scene foliage, and of a glTF file's materials: alphaMode MASK) are cut out of "
            "the triangles. false: "
@@ -178,10 +178,11 @@ std::vector<Setting> make_table() {
           .idle(without_time),
       integer("view.width_px", "px", 1, 8192, "Width of the picture.", MEMBER(view.width_px)),
       integer("view.height_px", "px", 1, 8192, "Height of the picture.", MEMBER(view.height_px)),
-      point("view.eye_m", "m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),
-      point("view.target_m", "m", "What the camera looks at; auto: the scene's.", MEMBER(view.target_m)),
-      point("view.up", "", "The direction that points up in the picture, of any length; auto: the scene's.",
-            MEMBER(view.up))
+      point("view.eye_m", "m", ranges::coordinate_m, "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),
+      point("view.target_m", "m", ranges::coordinate_m, "What the camera looks at; auto: the scene's.",
+            MEMBER(view.target_m)),
+      point("view.up", "", ranges::of_direction,
+            "The direction that points up in the picture, of any length; auto: the scene's.", MEMBER(view.up))
           .refused(no_direction_up),
       choice("view.projection", {"auto", "perspective", "orthographic"},
              "Projection of the camera. auto: the scene's; orthographic: parallel, as the plans and side views of "
@@ -195,16 +196,16 @@ std::vector<Setting> make_table() {
            "the "
            "height that is shown, unless view.height_m does.",
            MEMBER(view.fov_deg)),
-      real("view.height_m", "m", 1e-6, 1e9,
+      real("view.height_m", "m", ranges::length_m.least, ranges::length_m.most,
            "orthographic: how much of the world the picture shows in its height; auto: as view.projection says.",
            MEMBER(view.height_m))
           .idle(in_perspective_view),
-      real("view.near_m", "m", 1e-6, 1e9,
+      real("view.near_m", "m", ranges::length_m.least, ranges::length_m.most,
            "Distance of the camera's near plane along the view; auto: from the scene's file, or fitted so that nothing "
            "in view is cut off.",
            MEMBER(view.near_m))
           .refused(view_near_beyond_far),
-      real("view.far_m", "m", 1e-6, 1e9,
+      real("view.far_m", "m", ranges::length_m.least, ranges::length_m.most,
            "Distance of the camera's far plane along the view; auto: from the scene's file, or fitted so that nothing "
            "in view is cut off.",
            MEMBER(view.far_m)),
@@ -222,12 +223,12 @@ std::vector<Setting> make_table() {
               MEMBER(light.index))
           .idle(with_name_of_light),
       light_kind_row(),
-      point("light.position_m", "m",
+      point("light.position_m", "m", ranges::coordinate_m,
             "Position of a spot or point light. A directional light shines from here towards light.target_m, and the "
             "depth "
             "of its map is measured from here; auto: the scene's.",
             MEMBER(light.position_m)),
-      point("light.target_m", "m",
+      point("light.target_m", "m", ranges::coordinate_m,
             "The point that the light points at, which is the middle of its map; auto: the scene's.",
             MEMBER(light.target_m))
           .idle(where_light_has_no_target),
@@ -260,7 +261,7 @@ std::vector<Setting> make_table() {
              MEMBER(light.shape))
           .only_read_by({Stage::truth})
           .idle(with_parallel_rays),
-      real("light.cone_deg", "deg", 1, 170,
+      real("light.cone_deg", "deg", ranges::mapped_cone_deg.least, ranges::mapped_cone_deg.most,
            "spot: whole angle of the cone; outside it nothing is lit; auto: the scene's.", MEMBER(light.cone_deg))
           .idle(without_cone),
       integer("map.resolution", "texels", 1, 16384,
@@ -287,7 +288,7 @@ std::vector<Setting> make_table() {
           MEMBER(map.fit))
           .idle(where_map_is_given)
           .refused(moved_fit_without_parallel_rays),
-      real("map.reach_m", "m", 1e-6, 1e9,
+      real("map.reach_m", "m", ranges::length_m.least, ranges::length_m.most,
            "map.fit = sphere, corner_*: how far from the camera the map covers what is in view; auto: the diagonal of "
            "the "
            "scene's box, of corner_* the camera's far plane. With cascades, also of map.fit = view: where the last one "
@@ -306,7 +307,7 @@ std::vector<Setting> make_table() {
              "whatever the camera sees, so that depths are rounded alike in every frame.",
              MEMBER(map.depth_range))
           .idle(without_parallel_rays),
-      real("map.extent_m", "m", 1e-6, 1e9,
+      real("map.extent_m", "m", ranges::length_m.least, ranges::length_m.most,
            "directional: whole width of the area that the map covers; auto: by map.fit.", MEMBER(map.extent_m))
           .idle(without_parallel_rays),
       real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, whether it is given or fitted.",
@@ -336,7 +337,7 @@ std::vector<Setting> make_table() {
       real("map.shift_v_texels", "texels", -8, 8, "Moves the map with its texel grid up, as the light sees it.",
            MEMBER(map.shift_v_texels))
           .refused(cube_shifted_along_v),
-      point("map.turn_deg", "deg",
+      point("map.turn_deg", "deg", ranges::of_rotation_deg,
             "point: rotates the cube of the map about the light, and nothing else. The vector is the rotation's axis "
             "times "
             "its angle, of at most 360; auto: the cube's faces are square to the world's axes.",
@@ -352,12 +353,12 @@ std::vector<Setting> make_table() {
           "rays.",
           MEMBER(map.placements))
           .only_read_by({Stage::ladder}),
-      real("map.near_m", "m", -1e9, 1e9,
+      real("map.near_m", "m", ranges::coordinate_m.least, ranges::coordinate_m.most,
            "Near plane, measured from the light's position along its axis (point light: along the axis of each face); "
            "auto: by map.fit.",
            MEMBER(map.near_m))
           .refused(map_near_beyond_far),
-      real("map.far_m", "m", -1e9, 1e9,
+      real("map.far_m", "m", ranges::coordinate_m.least, ranges::coordinate_m.most,
            "Far plane, measured from the light's position along its axis; a point light's depth is distance / far; "
            "auto: by map.fit.",
            MEMBER(map.far_m)),
@@ -492,7 +493,7 @@ std::string Setting::bare_range() const {
     case ValueType::text:
       return "a name or a path";
     case ValueType::point:
-      return "x,y,z";
+      return fmt::format("x,y,z, each {:g} ... {:g}", min, max);
     case ValueType::list:
       return fmt::format("ascending numbers, {:g} ... {:g}", min, max);
     case ValueType::whole_list:

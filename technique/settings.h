@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/number_ranges.h"
 #include "scenes/scene_settings.h"
 #include "technique/bias_parts.h"
 #include "technique/kind_parameters.h"
@@ -210,7 +211,7 @@ struct Setting {
   std::string_view name;  // "map.resolution"
   std::string_view unit;  // "texels", "m", "deg", "" ...
   ValueType type;
-  double min = 0, max = 0;                // integer, real, and each number of a list: inclusive limits
+  double min = 0, max = 0;                // integer, real, and each number of a point or a list: inclusive limits
   bool may_be_auto = false;               // "auto" is a value
   std::vector<std::string_view> choices;  // choice
   std::string help;                       // one sentence
@@ -231,13 +232,15 @@ struct Setting {
   Setting refused(std::function<std::string(const Settings&, std::optional<LightKind>)> why) const;
   Setting only_read_by(Stages stages) const;
 
+  NumberRange range() const { return {min, max}; }
+
   // True if a value is several numbers: an experiment file may give them as an array.
   bool is_of_numbers() const {
     return type == ValueType::point || type == ValueType::list || type == ValueType::whole_list ||
            type == ValueType::real_list;
   }
 
-  std::string range_text() const;       // "1 ... 170 or auto", "16 | 24 | 32f", "x,y,z" ...
+  std::string range_text() const;       // "1 ... 170 or auto", "16 | 24 | 32f" ...
   std::string range_with_unit() const;  // "1 ... 170 deg, or auto"
 
  private:

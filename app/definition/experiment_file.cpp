@@ -419,10 +419,14 @@ class Reader : private SettingsReader {
     ParameterValues& over = experiment_.curve.over;
     if (over.setting.empty()) fail(node, name + " are values of curve.over, which is not given");
     over.values = amounts(node, name);
-    for (const double value : over.values) {
-      Settings unused;
+    require_values(node, name, over.setting, over.values);
+  }
+  // The values are those of a setting.
+  void require_values(const toml::node& node, const std::string& name, std::string_view setting,
+                      const std::vector<double>& values) const {
+    for (const double value : values) {
       try {
-        find_setting(over.setting).set(unused, fmt::format("{}", value));
+        canonical_text(find_setting(setting), fmt::format("{}", value));
       } catch (const Error& error) {
         fail(node, fmt::format("{}: {}", name, error.what()));
       }
@@ -475,6 +479,7 @@ class Reader : private SettingsReader {
   void read_biases(const toml::node& node, const std::string& name) {
     std::vector<double>& biases = experiment_.curve.bias_depth;
     biases = amounts(node, name);
+    require_values(node, name, "bias.constant", biases);
     if (biases.front() != 0) biases.insert(biases.begin(), 0.0);  // a curve starts without a bias
   }
 

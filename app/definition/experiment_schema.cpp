@@ -51,7 +51,10 @@ Json form_of(const Setting& row) {
       form = {{"type", "string"}, {"minLength", 1}};
       break;
     case ValueType::point:
-      form = any_of({{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}},
+      form = any_of({{{"type", "array"},
+                      {"items", {{"type", "number"}, {"minimum", row.min}, {"maximum", row.max}}},
+                      {"minItems", 3},
+                      {"maxItems", 3}},
                      {{"type", "string"}, {"pattern", "^[^,]+,[^,]+,[^,]+$"}}});
       break;
     case ValueType::list:

@@ -54,6 +54,15 @@ CLI::Validator above_zero() {
   });
 }
 
+CLI::Validator number_in(const NumberRange& range) {
+  return validator([=](std::string& text) -> std::string {
+    const std::optional<double> value = whole_text_as<double>(text);
+    return value && range.holds(*value)
+               ? ""
+               : fmt::format("'{}' is not a number from {:g} to {:g}", text, range.least, range.most);
+  });
+}
+
 CLI::Validator one_of(std::vector<std::string> words) {
   return validator([words = std::move(words)](std::string& text) -> std::string {
     if (std::find(words.begin(), words.end(), text) != words.end()) return "";

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/number_ranges.h"
+
 namespace noonmark {
 
 // Completion (app/shell/completion.bash) reads these words in the help and offers values by them; of FILE.toml the files
@@ -36,6 +38,7 @@ inline constexpr const char* metric = "METRIC=VALUE";  // a metric and its bound
 CLI::Validator not_empty();
 CLI::Validator whole_number(long least, long most = std::numeric_limits<long>::max());
 CLI::Validator above_zero();
+CLI::Validator number_in(const NumberRange& range);
 // One of these words; a wrong one suggests the nearest. joined(): the words as the option's kind, "one|other".
 CLI::Validator one_of(std::vector<std::string> words);
 std::string joined(const std::vector<std::string>& words);

@@ -27,6 +27,7 @@
 #include "compare/judge/bounds.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
+#include "frames/frame_keys.h"
 #include "frames/judge.h"
 #include "raytrace/tracer.h"
 #include "scenes/library.h"
@@ -299,15 +300,15 @@ RunVerb add_judge(CLI::App& verb) {
       ->type_name(joined(check_names()));
   verb.add_option("--edge-pixels", options->edge_pixels,
                   "How near to a true shadow edge an error belongs to the edge, in pixels at the receiver")
-      ->check(above_zero())
+      ->check(number_in(range_of("edge.pixels").numbers))
       ->type_name(value_kind::number)
       ->capture_default_str();
   verb.add_option("--edge-m", options->edge_m, "The same in metres across the light's rays")
-      ->check(above_zero())
+      ->check(number_in(range_of("edge.distance").numbers))
       ->type_name(value_kind::number);
   verb.add_option("--contact-m", options->contact_m,
                   "How near an occluder is where light leaks at a contact; without it 1% of the scene's diagonal")
-      ->check(above_zero())
+      ->check(number_in(range_of("contact.distance").numbers))
       ->type_name(value_kind::number);
   verb.add_flag("--without-map", options->without_map,
                 "Judge by place alone, though frame.json names the frame's shadow map; needs no OpenGL");

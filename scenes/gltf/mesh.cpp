@@ -17,6 +17,7 @@
 #include "scenes/gltf/morph.h"
 #include "scenes/gltf/notes.h"
 #include "scenes/gltf/skin.h"
+#include "scenes/number_ranges.h"
 #include "scenes/scene_size.h"
 
 namespace noonmark::gltf {
@@ -351,14 +352,14 @@ class Appender {
                            const glm::dvec3& local, uint32_t vertex) const {
     const glm::dvec3 world = glm::dvec3(world_from_mesh * glm::dvec4(local, 1));
     for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(world[axis]) <= max_coordinate_m) continue;  // false for NaN
+      if (ranges::coordinate_m.holds(world[axis])) continue;
       const std::string place = fmt::format("accessors[{}]", drawable.positions);
       const bool finite = std::isfinite(local.x) && std::isfinite(local.y) && std::isfinite(local.z);
       if (!finite)
         refuse(d_.file, place, fmt::format("vertex {} is not finite", vertex), "repair the mesh and export again");
       refuse(d_.file, place,
              fmt::format("vertex {} is {} m from the origin in nodes[{}]; at most {} m is allowed", vertex,
-                         std::abs(world[axis]), placed.node, max_coordinate_m),
+                         std::abs(world[axis]), placed.node, ranges::coordinate_m.most),
              "scale the scene to metres");
     }
     return glm::vec3(world);

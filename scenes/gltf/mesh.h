@@ -23,7 +23,7 @@ namespace noonmark::gltf {
 // A transform that mirrors reverses the winding, so that outsides stay outsides. A transform that flattens keeps the
 // order of the corners, and keeps only the triangles that still have an area. Triangles whose material is not
 // doubleSided are marked in scene.single_sided. Throws Error(file) for indices that are out of range or mean restart;
-// for positions that are not finite or beyond max_coordinate_m; for more triangles than max_triangles or than fit into
+// for positions that are not finite or not in ranges::coordinate_m; for more triangles than max_triangles or than fit into
 // the available memory (base/memory.h); and for everything that the files named above refuse. Returns how many
 // triangles without an area were left out.
 uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, bool masks,

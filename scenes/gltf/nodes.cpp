@@ -8,6 +8,7 @@
 
 #include "scenes/gltf/error.h"
 #include "scenes/gltf/notes.h"
+#include "scenes/number_ranges.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -115,10 +116,10 @@ bool visible(const tinygltf::Node& node) {
 
 void check_place(const Document& document, size_t node, const glm::dmat4& world) {
   if (!all_finite(world)) refuse(document.file, place_of(node), "its place in the world is not finite", node_remedy);
-  if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(world[3])), glm::dvec3(max_coordinate_m)))) {
-    refuse(document.file, place_of(node), fmt::format("stands more than {} m from the origin", max_coordinate_m),
+  if (!is_in_world(glm::dvec3(world[3])))
+    refuse(document.file, place_of(node),
+           fmt::format("stands more than {} m from the origin", ranges::coordinate_m.most),
            "scale the scene to metres");
-  }
 }
 
 // Places every node of the file.

@@ -9,10 +9,6 @@
 
 namespace noonmark::gltf {
 
-// The largest coordinate that a vertex or a node may have. It is the largest extent of a map that the settings allow
-// (map.extent_m).
-inline constexpr double max_coordinate_m = 1e9;
-
 struct PlacedNode {
   size_t node = 0;  // index into model.nodes
   glm::dmat4 world_from_node{1};
@@ -30,7 +26,7 @@ struct Placement {
 // The notes tell what the loader decided if the file leaves a choice or breaks a rule: the scene that was chosen; a
 // node that a scene lists although it is a child, which is drawn once, at the place that its parents give it; a node
 // that a scene lists twice. Throws Error(file) for cycles, for nodes with two parents, and for transforms that are not
-// finite or beyond max_coordinate_m.
+// finite or not in ranges::coordinate_m.
 Placement place_nodes(const Document& document, std::vector<std::string>& notes);
 
 // Whether the transform maps all of space into a plane, a line or a point.

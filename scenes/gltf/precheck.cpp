@@ -38,17 +38,27 @@ std::string check_camera(const std::string& file, const json& camera, const std:
   return "";
 }
 
-// What the schema of KHR_lights_punctual allows.
+// In lux or candela, and of a part of the colour: what both give at a micrometre is a float still.
+constexpr double most_intensity = 1e20, most_color = 1e6;
+
+// What the schema of KHR_lights_punctual allows, and no more than a float holds of a pixel's light.
 void check_light(const std::string& file, const json& light, const std::string& place) {
   const auto least = [&](const json& value, const std::string& name, bool above) {
     const double number = value.get<double>();
     if (above ? number > 0 : number >= 0) return;
-    refuse(file, place + "." + name, fmt::format("{} is not {} 0", number, above ? "above" : "at least"), precheck_remedy);
+    refuse(file, place + "." + name, fmt::format("{} is not {} 0", number, above ? "above" : "at least"),
+           precheck_remedy);
   };
-  if (const auto intensity = light.find("intensity"); intensity != light.end()) least(*intensity, "intensity", false);
+  const auto within = [&](const json& value, const std::string& name, double most) {
+    least(value, name, false);
+    if (const double number = value.get<double>(); number > most)
+      refuse(file, place + "." + name, fmt::format("{} is more than {:g}", number, most), precheck_remedy);
+  };
+  if (const auto intensity = light.find("intensity"); intensity != light.end())
+    within(*intensity, "intensity", most_intensity);
   if (const auto range = light.find("range"); range != light.end()) least(*range, "range", true);
   if (const auto color = light.find("color"); color != light.end())
-    for (const json& one : *color) least(one, "color", false);
+    for (const json& one : *color) within(one, "color", most_color);
   if (light["type"] == "spot" && !light.contains("spot")) refuse(file, place + ".spot", "is missing", precheck_remedy);
 }
 

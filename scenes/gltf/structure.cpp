@@ -7,6 +7,7 @@
 
 #include "scenes/gltf/element.h"
 #include "scenes/gltf/error.h"
+#include "scenes/number_ranges.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -202,13 +203,11 @@ class StructureChecker {
     if (c.type == "perspective") {
       const tinygltf::PerspectiveCamera& p = c.perspective;
       const std::string here = place + ".perspective";
-      // For narrower or wider angles, the tangent of half the angle cannot be used to divide or to multiply.
-      constexpr double least_yfov = 1e-4, largest_yfov = 3.1415;
-      if (!(p.yfov >= least_yfov && p.yfov <= largest_yfov)) {
+      if (const NumberRange& angle = ranges::view_angle_rad; !angle.holds(p.yfov))
         fail(here + ".yfov",
-             fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, least_yfov, largest_yfov));
-      }
+             fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, angle.least, angle.most));
       if (!(p.znear > 0)) fail(here + ".znear", fmt::format("{} is not positive", p.znear));
+      distance(p.znear, here + ".znear");
       // 0 means absent, which is an infinite projection.
       if (p.zfar != 0 && !(p.zfar > p.znear))
         fail(here + ".zfar", fmt::format("{} is not beyond znear {}", p.zfar, p.znear));
@@ -219,7 +218,15 @@ class StructureChecker {
       if (!(o.ymag > 0)) fail(here + ".ymag", fmt::format("{} is not positive", o.ymag));
       if (!(o.znear >= 0)) fail(here + ".znear", fmt::format("{} is negative", o.znear));
       if (!(o.zfar > o.znear)) fail(here + ".zfar", fmt::format("{} is not beyond znear {}", o.zfar, o.znear));
+      distance(o.xmag, here + ".xmag");
+      distance(o.ymag, here + ".ymag");
+      distance(o.znear, here + ".znear");
     }
+  }
+
+  void distance(double m, const std::string& place) const {
+    if (m > ranges::coordinate_m.most)
+      fail(place, fmt::format("{} m is more than the {} m that a scene may have", m, ranges::coordinate_m.most));
   }
 
   void light(const tinygltf::Light& l, const std::string& place) const {

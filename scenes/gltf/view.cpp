@@ -8,6 +8,7 @@
 #include "scenes/fit.h"
 #include "scenes/gltf/error.h"
 #include "scenes/gltf/notes.h"
+#include "scenes/number_ranges.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -28,6 +29,11 @@ const tinygltf::Light* light_of(const Document& document, const PlacedNode& plac
 double cone_deg(const tinygltf::SpotLight& spot) {
   const bool by_default = spot.outerConeAngle == tinygltf::SpotLight().outerConeAngle;
   return by_default ? 90 : 2 * glm::degrees(spot.outerConeAngle);
+}
+
+// A far plane that cuts nothing off is as none: it is fitted.
+std::optional<double> far_of(double zfar) {
+  return zfar <= ranges::most_distance_m ? std::optional(zfar) : std::nullopt;
 }
 
 Camera camera_at(const Document& document, const PlacedNode& placed, const Scene& scene) {
@@ -56,11 +62,11 @@ Camera camera_at(const Document& document, const PlacedNode& placed, const Scene
     camera.projection = Projection::orthographic;
     camera.height_m = 2 * from.orthographic.ymag;
     camera.near_m = from.orthographic.znear;
-    camera.far_m = from.orthographic.zfar;
+    camera.far_m = far_of(from.orthographic.zfar);
   } else {
     camera.fov_y_deg = glm::degrees(from.perspective.yfov);
     camera.near_m = from.perspective.znear;
-    if (from.perspective.zfar != 0) camera.far_m = from.perspective.zfar;
+    if (from.perspective.zfar != 0) camera.far_m = far_of(from.perspective.zfar);
   }
   return camera;
 }
@@ -100,12 +106,10 @@ Light light_at(const Document& document, const PlacedNode& placed, const Scene& 
   light.kind = LightKind::spot;
   light.target_m = light.position_m + forward * std::max(glm::dot(to_middle, forward), 1.0);
   light.cone_deg = cone_deg(from.spot);
-  // The same range as that of the setting light.cone_deg.
-  constexpr double least_cone_deg = 1, largest_cone_deg = 170;
-  if (!(light.cone_deg >= least_cone_deg && light.cone_deg <= largest_cone_deg)) {
+  if (const NumberRange& cone = ranges::mapped_cone_deg; !cone.holds(light.cone_deg)) {
     refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", placed.node),
            fmt::format("a spot light with a cone of {:.6g} degrees; a shadow map can cover {} to {}", light.cone_deg,
-                       least_cone_deg, largest_cone_deg),
+                       cone.least, cone.most),
            "change its outerConeAngle, or make it a point light");
   }
   return light;

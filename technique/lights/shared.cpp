@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/number_ranges.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark::lights {
@@ -35,9 +36,9 @@ double nearest_to_origin(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
 
 glm::dvec3 way_of(const Light& light) {
   const glm::dvec3 way = light.target_m - light.position_m;
-  if (!(glm::length(way) > 0) || !std::isfinite(glm::length(way)))
+  if (!has_direction(way))
     throw SettingConflict("light.position_m",
-                          "the light's position and target give no direction (they are one, or too far apart); set "
+                          "the light's position and target give no direction (they are one place); set "
                           "light.position_m or light.target_m");
   return glm::normalize(way);
 }

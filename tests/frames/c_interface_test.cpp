@@ -4,7 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frames/noonmark.h"
@@ -100,7 +104,7 @@ TEST_F(CInterface, WrongCallsAreSaid) {
   frame = frame_of(black);
   frame.edge_pixels = -1;
   judge(&frame);
-  EXPECT_NE(messages_of(verdict_).find("edge_pixels is not above 0"), std::string::npos) << messages_of(verdict_);
+  EXPECT_NE(messages_of(verdict_).find("edge.pixels = -1"), std::string::npos) << messages_of(verdict_);
   frame = frame_of(black);
   std::memset(frame.clip_from_world, 0, sizeof frame.clip_from_world);
   judge(&frame);
@@ -119,6 +123,115 @@ TEST_F(CInterface, WrongCallsAreSaid) {
   noonmark_scene_free(missing);
   EXPECT_EQ(noonmark_status(nullptr), NOONMARK_NO_DEVICE);
   EXPECT_EQ(noonmark_message(nullptr, 0), nullptr);
+}
+
+// Where the numbers of the struct are. A field that is missing here leaves a gap.
+struct Field {
+  const char* name;
+  size_t offset, count, size;
+  bool is_number;                  // a double; others are integers that say yes or no, sizes and pointers
+  std::set<int> not_read_by = {};  // kinds of light
+};
+#define FIELD(name, count, ...) \
+  { #name, offsetof(noonmark_frame, name), count, sizeof(noonmark_frame::name) / (count), __VA_ARGS__ }
+const Field fields[] = {FIELD(struct_size, 1, false),
+                        FIELD(width, 1, false),
+                        FIELD(height, 1, false),
+                        FIELD(visibility, 1, false),
+                        FIELD(positions, 1, false),
+                        FIELD(clip_from_world, 16, true),
+                        FIELD(depth_0_to_1, 1, false),
+                        FIELD(reversed, 1, false),
+                        FIELD(y_down, 1, false),
+                        FIELD(light_kind, 1, false),
+                        FIELD(light_position, 3, true),
+                        FIELD(light_direction, 3, true, {NOONMARK_POINT}),
+                        FIELD(light_cone_deg, 1, true, {NOONMARK_DIRECTIONAL, NOONMARK_POINT}),
+                        FIELD(light_angular_diameter_deg, 1, true),
+                        FIELD(light_radius_m, 1, true),
+                        FIELD(edge_pixels, 1, true),
+                        FIELD(edge_m, 1, true),
+                        FIELD(contact_m, 1, true),
+                        FIELD(accept, 1, false)};
+#undef FIELD
+
+// The call returns, whatever the numbers are: what cannot be is a wrong call that says which number it is, and no call is a
+// defect of ours.
+TEST_F(CInterface, NoNumberEndsTheProgram) {
+  size_t known = 0;
+  for (const Field& field : fields) {
+    EXPECT_EQ(field.offset, known) << "a field before " << field.name << " is not tested";
+    known = field.offset + field.count * field.size;
+  }
+  EXPECT_EQ(known, sizeof(noonmark_frame)) << "a field at the end is not tested";
+  const double infinity = std::numeric_limits<double>::infinity();
+  constexpr int small = 16;
+  const std::vector<float> white(small * small, 1);
+  std::map<std::string, int> taken, refused;
+  for (const int kind : {NOONMARK_DIRECTIONAL, NOONMARK_SPOT, NOONMARK_POINT})
+    for (const Field& field : fields)
+      for (size_t i = 0; field.is_number && i < field.count; ++i)
+        for (const double number : {0., -0., -1., 0.5, 1e-9, 4.9e-324, 1e9, -1e9, 1e15, 1e20, 1e38, 1e300, infinity,
+                                    -infinity, std::nan("")}) {
+          noonmark_frame frame = frame_of(white);
+          frame.width = frame.height = small;
+          frame.light_kind = kind;
+          frame.light_position[1] = 5;
+          frame.accept = "values,positions,alignment,coverage,inverted,shaded,intensity,match,encoding,levels";
+          std::memcpy(reinterpret_cast<char*>(&frame) + field.offset + i * sizeof number, &number, sizeof number);
+          judge(&frame);
+          const int status = noonmark_status(verdict_);
+          const std::string where =
+              std::string(field.name) + "[" + std::to_string(i) + "] = " + std::to_string(number) + ": ";
+          EXPECT_TRUE(status == NOONMARK_OK || status == NOONMARK_WRONG_CALL || status == NOONMARK_BAD_FILE)
+              << where << status << " " << messages_of(verdict_);
+          if ((!std::isfinite(number) || std::abs(number) > 1e30) && !field.not_read_by.contains(kind)) {
+            EXPECT_EQ(status, NOONMARK_WRONG_CALL) << where << messages_of(verdict_);
+          }
+          ++(status == NOONMARK_WRONG_CALL ? refused : taken)[field.name];
+          if (status == NOONMARK_OK) {
+            EXPECT_GE(noonmark_number(verdict_, "frame_error"), 0) << where;
+          }
+        }
+  for (const Field& field : fields) {
+    if (!field.is_number) continue;
+    EXPECT_GT(taken[field.name], 0) << field.name;
+    EXPECT_GT(refused[field.name], 0) << field.name;
+  }
+}
+
+TEST_F(CInterface, NumbersOutsideTheirRangesAreNamed) {
+  const std::vector<float> white(width * height, 1);
+  const auto says = [&](const auto& change, int kind = NOONMARK_SPOT) {
+    noonmark_frame frame = frame_of(white);
+    frame.light_kind = kind;
+    change(frame);
+    judge(&frame);
+    EXPECT_EQ(noonmark_status(verdict_), NOONMARK_WRONG_CALL) << messages_of(verdict_);
+    return messages_of(verdict_);
+  };
+  for (const auto& [message, name] : std::vector<std::pair<std::string, std::string>>{
+           {says([](noonmark_frame& f) { f.light_cone_deg = 400; }), "light.cone_deg = 400"},
+           {says([](noonmark_frame& f) { f.light_radius_m = -1; }), "light.radius = -1"},
+           {says([](noonmark_frame& f) { f.light_radius_m = std::nan(""); }), "light.radius = nan"},
+           {says([](noonmark_frame& f) { f.light_angular_diameter_deg = 1e9; }, NOONMARK_DIRECTIONAL),
+            "light.angular_diameter_deg"},
+           {says([](noonmark_frame& f) { f.light_position[0] = 1e20; }), "light.position"},
+           {says([](noonmark_frame& f) { f.edge_m = 1e40; }), "edge.distance"},
+           {says([](noonmark_frame& f) { f.contact_m = -1; }), "contact.distance"},
+           {says([](noonmark_frame& f) { f.clip_from_world[5] = 1e300; }), "clip_from_world"}})
+    EXPECT_NE(message.find(name), std::string::npos) << message << "\nwanted: " << name;
+}
+
+// Memory is asked for before the images are made.
+TEST_F(CInterface, AFrameLargerThanMemoryIsSaid) {
+  const float one = 1;
+  noonmark_frame frame = frame_of({});
+  frame.visibility = &one;  // never read
+  frame.width = frame.height = std::numeric_limits<int32_t>::max();
+  judge(&frame);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_NO_DEVICE);
+  EXPECT_NE(messages_of(verdict_).find("of memory, and"), std::string::npos) << messages_of(verdict_);
 }
 
 // A program of a newer header has more fields behind; they stay untouched.
@@ -154,6 +267,16 @@ TEST(CInterfaceScene, OfTrianglesIsChecked) {
   scene = noonmark_scene_from_triangles(infinite, 3, good, 1);
   EXPECT_NE(std::string(noonmark_scene_message(scene)).find("position 2"), std::string::npos);
   noonmark_scene_free(scene);
+  const float far_away[] = {-5, 0, -5, 5, 0, -5, 0, 2e9f, 5};
+  scene = noonmark_scene_from_triangles(far_away, 3, good, 1);
+  EXPECT_NE(std::string(noonmark_scene_message(scene)).find("position 2"), std::string::npos);
+  noonmark_scene_free(scene);
+  const size_t endless = std::numeric_limits<size_t>::max();
+  for (const auto& [vertices, triangles] : {std::pair(endless, size_t{1}), std::pair(size_t{3}, endless)}) {
+    scene = noonmark_scene_from_triangles(positions, vertices, good, triangles);  // said before anything is read
+    EXPECT_EQ(noonmark_scene_status(scene), NOONMARK_WRONG_CALL) << noonmark_scene_message(scene);
+    noonmark_scene_free(scene);
+  }
   EXPECT_EQ(noonmark_scene_status(nullptr), NOONMARK_WRONG_CALL);
 }
 

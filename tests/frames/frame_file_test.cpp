@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "frames/frame_keys.h"
+#include "technique/settings.h"
 #include "tests/frames/good_frame.h"
 
 namespace noonmark::test {
@@ -90,9 +91,9 @@ TEST(FrameFile, ACameraAndALightOfTheSceneAreTakenByName) {
 TEST(FrameFile, ALightThatCannotBeIsNamed) {
   Json json = least();
   json["light"] = {{"kind", "directional"}, {"direction", {1e200, -1e200, 0}}};
-  EXPECT_NE(fault_of(json).find("too large"), std::string::npos) << fault_of(json);
+  EXPECT_NE(fault_of(json).find("'light.direction' must be"), std::string::npos) << fault_of(json);
   json["light"] = {{"kind", "directional"}, {"direction", {0, -1, 0}}, {"angular_diameter_deg", 720}};
-  EXPECT_NE(fault_of(json).find("90 or less"), std::string::npos) << fault_of(json);
+  EXPECT_NE(fault_of(json).find("0 ... 90 deg"), std::string::npos) << fault_of(json);
 }
 
 TEST(FrameFile, EveryConventionOfAMatrixIsTheSameCamera) {
@@ -168,11 +169,35 @@ TEST(FrameFile, WhatIsWrongIsNamed) {
            {with("/axes", {"x", "x", "y"}), "each of x, y and z once"},
            {with("/edge", {{"texels", 2}}), "'edge.texel' is missing"},
            {with("/edge", Json::object()), "one of pixels, texels and distance"},
-           {with("/metres_per_unit", 0), "above 0"},
+           {with("/metres_per_unit", 0), "'metres_per_unit' must be a number"},
            {with("/depth", Json::object()), "'depth.file' is missing"}})
     EXPECT_NE(fault.find(words), std::string::npos) << fault << "\nwanted: " << words;
   EXPECT_THROW(parse_frame_file("frame.json", "{"), Error);
   EXPECT_THROW(parse_frame_file("frame.json", "[]"), Error);
+}
+
+// A length is checked in metres, whatever the renderer's unit is, and a setting's range is that of its key.
+TEST(FrameFile, EveryNumberHasARange) {
+  for (const FrameKey& key : frame_keys()) {
+    if (key.kind != FrameKeyKind::number && key.kind != FrameKeyKind::vector3 && key.kind != FrameKeyKind::matrix)
+      continue;
+    const FrameRange range = range_of(key);
+    EXPECT_TRUE(std::isfinite(range.numbers.least) && std::isfinite(range.numbers.most)) << key.full_name();
+    EXPECT_LT(range.numbers.least, range.numbers.most) << key.full_name();
+    EXPECT_THROW(require_in_range(key.full_name(), std::nan("")), Error) << key.full_name();
+    EXPECT_NO_THROW(require_in_range(key.full_name(), range.numbers.most)) << key.full_name();
+  }
+  EXPECT_EQ(range_of("light.position").numbers.most, find_setting("light.position_m").max);
+  const auto camera_at = [](double x, double unit) {
+    Json json = least();
+    json["metres_per_unit"] = unit;
+    json["camera"] = {{"eye", {x, 5 / unit, 0}}, {"target", {0, 0, 0}}, {"fov_y_deg", 60}};
+    return fault_of(json);
+  };
+  EXPECT_EQ(camera_at(1e9, 1), "");
+  EXPECT_NE(camera_at(2e9, 1).find("'camera.eye'"), std::string::npos) << camera_at(2e9, 1);
+  EXPECT_EQ(camera_at(2e9, 0.01), "");
+  EXPECT_NE(camera_at(2e7, 100).find("'camera.eye'"), std::string::npos);
 }
 
 TEST(FrameFile, AMatrixWithoutAnInverseIsRefused) {

@@ -9,6 +9,8 @@ extern const Target experiment_target;   // text of an experiment file -> its po
 extern const Target formula_target;      // text of formulas -> their values, and a law's verdict
 extern const Target store_target;        // bytes of results.sqlite -> the report, CSV, JUnit and summary
 extern const Target cells_target;        // choices of a mesh and a light -> cells that answer as rays do
+extern const Target frame_target;        // text of a frame.json -> a verdict
+extern const Target numbers_target;      // settings with odd numbers -> a sound measurement, or a refusal
 extern const Target measurement_target;  // choices of a scene and settings -> a sound measurement
 
 }  // namespace noonmark::fuzz

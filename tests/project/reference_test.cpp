@@ -18,8 +18,8 @@
 #include "frames/frame_keys.h"
 #include "scenes/builtin.h"
 #include "technique/filters.h"
-#include "technique/lookups.h"
 #include "technique/light_kind.h"
+#include "technique/lookups.h"
 #include "technique/settings.h"
 #include "tests/support/source_dir.h"
 
@@ -108,7 +108,8 @@ TableLines filters_table_lines() {
 }
 
 TableLines lookups_table_lines() {
-  TableLines lines = {"| lookup (`lookup.kind`) | its settings | what it is | what the laws say |", "|---|---|---|---|"};
+  TableLines lines = {"| lookup (`lookup.kind`) | its settings | what it is | what the laws say |",
+                      "|---|---|---|---|"};
   for (const LookupKind& lookup : lookups()) {
     std::string reads;
     for (const auto& read : lookup.reads)
@@ -121,14 +122,14 @@ TableLines lookups_table_lines() {
 TableLines frame_keys_table_lines() {
   TableLines lines = {"| key | takes | meaning |", "|---|---|---|"};
   for (const FrameKey& key : frame_keys()) {
-    constexpr std::string_view takes[] = {
-        // in the order of FrameKeyKind
-        "object",  "text",          "",           "number from 0 on", "number above 0",
-        "boolean", "three numbers", "three axes", "16 numbers",       "settings by name",
-        "1"};
+    constexpr std::string_view takes[] = {// in the order of FrameKeyKind
+                                          "object",        "text",       "",           "number",           "boolean",
+                                          "three numbers", "three axes", "16 numbers", "settings by name", "1"};
     const std::string_view choices = key.choices;
     std::string kind(takes[static_cast<size_t>(key.kind)]);
     for (const char c : choices) kind += c == '|' ? " | " : std::string(1, c);
+    if (key.kind == FrameKeyKind::number || key.kind == FrameKeyKind::vector3 || key.kind == FrameKeyKind::matrix)
+      kind += (key.kind == FrameKeyKind::number ? ", " : ", each ") + range_of(key).text();
     lines.push_back(fmt::format("| `{}{}{}` | {} | {} |", key.object, key.object.empty() ? "" : ".", key.name,
                                 cell(kind), cell(key.help)));
   }

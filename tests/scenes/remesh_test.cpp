@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/error.h"
 #include "scenes/library.h"
 #include "scenes/scene_size.h"
 
@@ -133,6 +134,25 @@ TEST_P(Remesh, KeepsCameraLightAndMap) {
     EXPECT_EQ(other.camera.eye_m, built.camera.eye_m);
     EXPECT_EQ(other.light.position_m, built.light.position_m);
     EXPECT_EQ(other.map->extent_m, built.map->extent_m);
+  }
+}
+
+// Floats are 64 m apart at 1e9 m: of a room nothing is left there, and that is said in place of what a camera sees of it.
+TEST(RemeshMoved, WhatFloatsLeaveOfTheSceneIsSaid) {
+  const auto moved = [](double x) { return make_scene({.name = "cube-room", .move_m = glm::dvec3(x, x, x)}); };
+  EXPECT_TRUE(moved(0).notes.empty());
+  EXPECT_TRUE(moved(1e5).notes.empty());
+  const std::vector<std::string> notes = moved(1e8).notes;  // 8 m apart
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("scene.move_m"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("have no area"), std::string::npos) << notes[0];
+  try {
+    moved(9e8);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("scene.move_m"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("64 m apart"), std::string::npos) << error.what();
   }
 }
 

@@ -74,6 +74,15 @@ TEST(ViewMatrix, OffCentreMovesThePicture) {
 
 TEST(ViewMatrix, RefusesWhatHasNoInverse) {
   EXPECT_THROW(ViewMatrix(glm::dmat4(0)), Error);
+  glm::dmat4 away = make_camera_frame(camera(Projection::perspective), width, height).clip_from_world();
+  for (const double unlike : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    away[1][2] = unlike;
+    EXPECT_THROW(ViewMatrix{away}, Error) << unlike;
+  }
+  Camera far = camera(Projection::perspective);
+  far.eye_m.x += 1e15;
+  far.target_m.x += 1e15;
+  EXPECT_THROW(ViewMatrix(make_camera_frame(far, width, height).clip_from_world()), Error) << "it is not in the world";
   glm::dmat4 infinite(1);
   infinite[2][1] = std::numeric_limits<double>::infinity();
   EXPECT_THROW(ViewMatrix{infinite}, Error);

@@ -78,8 +78,26 @@ TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
     EXPECT_FALSE(refused(kind, with({{"map.placements", "4"}}), ""));
     EXPECT_FALSE(refused(kind, with({{"map.turn_deg", "0,-360,0"}}), ""));
     EXPECT_TRUE(refused(kind, with({{"map.turn_deg", "255,-255,0"}}), "map.turn_deg"));
-    EXPECT_TRUE(refused(kind, with({{"map.turn_deg", "1e200,0,0"}}), "map.turn_deg"));
   }
+}
+
+// What a step is in range adds up to over the frames.
+TEST(Validate, AMotionStaysInTheWorld) {
+  using Given = std::initializer_list<std::pair<const char*, const char*>>;
+  const auto says = [](const Given& given) {
+    try {
+      validate(with(given));
+    } catch (const SettingConflict& conflict) {
+      return conflict.setting();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(says({{"motion.frame", "99"}, {"motion.move_m", "1e7,0,0"}}), "");
+  EXPECT_EQ(says({{"motion.frame", "100"}, {"motion.move_m", "1e7,0,0"}}), "motion.move_m");
+  EXPECT_EQ(says({{"motion.frame", "100"}, {"motion.light_move_m", "0,0,-1e7"}}), "motion.light_move_m");
+  EXPECT_EQ(says({{"motion.frame", "100"}, {"motion.light_move_m", "0,0,-1e7"}, {"motion.light_period", "7"}}), "");
+  EXPECT_EQ(says({{"motion.frame", "100000"}, {"motion.zoom", "1.01"}}), "motion.zoom");
+  EXPECT_EQ(says({{"motion.frame", "1000"}, {"motion.zoom", "0.5"}}), "motion.zoom");
 }
 
 // A level of a map of moments has whole texels, and says which sizes have.

@@ -170,6 +170,20 @@ TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
       for (int end : {min, max}) EXPECT_EQ(text_after(row, std::to_string(end)), std::to_string(end)) << row.name;
       EXPECT_TRUE(contains(refusal(row, std::to_string(min - 1)), row.range_with_unit())) << row.name;
       EXPECT_TRUE(contains(refusal(row, std::to_string(max + 1)), row.range_with_unit())) << row.name;
+    } else if (row.type == ValueType::point) {
+      EXPECT_TRUE(std::isfinite(row.min) && std::isfinite(row.max) && row.min < row.max) << row.name;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto text = [&](double v) {
+          glm::dvec3 p(0);
+          p[axis] = v;
+          char buffer[80];
+          std::snprintf(buffer, sizeof buffer, "%.17g,%.17g,%.17g", p.x, p.y, p.z);
+          return std::string(buffer);
+        };
+        for (double end : {row.min, row.max}) text_after(row, text(end));
+        for (double beyond : {std::nextafter(row.min, -infinity), std::nextafter(row.max, infinity)})
+          EXPECT_TRUE(contains(refusal(row, text(beyond)), row.range_with_unit())) << row.name;
+      }
     }
   }
 }

@@ -166,6 +166,8 @@ const Case cases[] = {
     {"FarIsZero", "cameras[0].perspective.zfar: is 0", [](json& d) { add_camera(d, {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 2}, {"zfar", 0}}}}); }},
     {"FieldOfViewOfPi", "cameras[0].perspective.yfov", [](json& d) { add_camera(d, {{"type", "perspective"}, {"perspective", {{"yfov", 3.15}, {"znear", 1}}}}); }},
     {"FlatOrthographic", "cameras[0].orthographic.ymag", [](json& d) { add_camera(d, {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"znear", 0}, {"zfar", 1}}}}); }},
+    {"NearBeyondTheWorld", "cameras[0].perspective.znear: 1e+300 m is more than", [](json& d) { add_camera(d, {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1e300}}}}); }},
+    {"HeightBeyondTheWorld", "cameras[0].orthographic.ymag: 1e+20 m is more than", [](json& d) { add_camera(d, {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1e20}, {"znear", 0}, {"zfar", 1}}}}); }},
     {"UpAlongTheView", "nodes[0].camera: its up and its view",
      [](json& d) {
        add_camera(d, {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
@@ -180,6 +182,7 @@ const Case cases[] = {
     {"SpotOuterBeyondARightAngle", "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle: 1.6 is", [](json& d) { add_spot(d, {{"outerConeAngle", 1.6}}); }},
     {"SpotAngleIsText", "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle: should be a finite number", [](json& d) { add_spot(d, {{"outerConeAngle", "wide"}}); }},
     {"SpotIsNumber", "extensions.KHR_lights_punctual.lights[0].spot: should be an object", [](json& d) { add_spot(d, 3); }},
+    {"LightBeyondAFloat", "extensions.KHR_lights_punctual.lights[0].intensity: 1e+38 is more than", [](json& d) { add_spot(d, {{"outerConeAngle", 0.5}}), d["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 1e38; }},
     {"SpotTooWideForAMap", "nodes[0].extensions.KHR_lights_punctual.light: a spot light with a cone of 171.887", [](json& d) { add_spot(d, {{"outerConeAngle", 1.5}}); }},
     {"SpotTooNarrowForAMap", "nodes[0].extensions.KHR_lights_punctual.light: a spot light with a cone of 0.114", [](json& d) { add_spot(d, {{"outerConeAngle", 0.001}}); }},
     {"UnknownLight", "nodes[0].extensions.KHR_lights_punctual.light: its type 'ambient'",

@@ -72,6 +72,15 @@ TEST_F(GltfView, InfinitePerspectiveHasNoFarPlane) {
   EXPECT_LT(*fitted.far_m, 9.1);
 }
 
+// FLT_MAX is some exporters' infinity.
+TEST_F(GltfView, AFarPlaneBeyondEverythingIsNone) {
+  json d = with_node({{"camera", 0}, {"translation", {0.5, 0.5, 9}}});
+  for (const double far : {3.4e38, 1e300}) {
+    d["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.25}, {"zfar", far}}}}};
+    EXPECT_FALSE(load(d).camera.far_m) << far;
+  }
+}
+
 TEST_F(GltfView, OrthographicCamera) {
   json d = with_node({{"camera", 0}, {"translation", {0, 0, 5}}, {"scale", {3, 3, 3}}});
   d["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0}, {"zfar", 10}}}}};
