@@ -70,13 +70,21 @@ struct Fit {
   }
   double variance_sum() const { return std::max(0.0, square - value * value / static_cast<double>(count)); }
   double residual_sum() const {
-    // All pixels of a plane have one N.L, so the numbers depend on each other: what is added lets the least of them stand for
-    // all, and leaves of a value what is far below the rounding of a picture.
-    constexpr double ridge = 1e-10;
+    // Elimination, without the numbers that depend on those before them: all pixels of a plane have one N.L.
+    constexpr double dependent = 1e-9;
     glm::dmat4 m = products;
-    for (int k = 0; k < 4; ++k) m[k][k] += ridge * static_cast<double>(count);
-    const glm::dvec4 solution = glm::inverse(m) * by_value;
-    return std::max(0.0, square - 2 * glm::dot(solution, by_value) + glm::dot(solution, products * solution));
+    glm::dvec4 b = by_value;
+    double left = square;
+    for (int k = 0; k < 4; ++k) {
+      if (!(m[k][k] > dependent * products[k][k])) continue;
+      left -= b[k] * b[k] / m[k][k];
+      for (int j = k + 1; j < 4; ++j) {
+        const double share = m[j][k] / m[k][k];
+        b[j] -= share * b[k];
+        for (int l = 0; l < 4; ++l) m[j][l] -= share * m[k][l];
+      }
+    }
+    return std::max(0.0, left);
   }
 };
 
@@ -205,8 +213,8 @@ FrameStatistics frame_statistics(const CheckEvidence& e) {
     state[i] = e.counted[i] ? static_cast<uint8_t>(1 + e.truth.lit[i]) : 0;
     light[i] = !(e.frame.visibility[i] < 0.5f);
   }
-  const Extremes wide = extremes_within(state, FrameStatistics::deep_px),
-                 of_frame = extremes_within(light, FrameStatistics::deep_px);
+  const int reach = FrameStatistics::deep_px(state.height);
+  const Extremes wide = extremes_within(state, reach), of_frame = extremes_within(light, reach);
   FrameStatistics found;
   found.deep = Image<uint8_t>(state.width, state.height, 0);
   std::vector<double> deep[2];

@@ -46,9 +46,10 @@ struct Shading {
   double explained = 0;  // the share of the variance that the fit takes away, 0 to 1
 };
 
-// deep: R1 is the same at all counted pixels within `deep_px` of the pixel, and all of them are counted.
+// deep: R1 is the same at all pixels within `deep_px` of the pixel, and all of them are counted.
 struct FrameStatistics {
-  static constexpr int deep_px = 6;
+  // 6 pixels of a picture with 360 rows or more, fewer of a smaller one, in which a filter is as much narrower.
+  static constexpr int deep_px(int height) { return height >= 360 ? 6 : height >= 120 ? height / 60 : 2; }
   Image<uint8_t> deep;  // 1: deep in true shadow, 2: deep in true light, 0: neither
   Region deep_lit, deep_dark;
   Shading shading;  // of the values deep in true light

@@ -214,7 +214,8 @@ Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
   if (surfaces && surfaces->differing >= enough_to_differ) {
     const Coverage of_visibility = coverage_of_visibility(e.frame);
     const Shift shift = best_shift(e.tracer, e.frame.view, of_visibility, coverage_of(e.seen));
-    if (const std::string cause = cause_of(shift, differing(of_visibility, coverage_of(e.seen))); !cause.empty())
+    const size_t differ = differing(of_visibility, coverage_of(e.seen));
+    if (const std::string cause = cause_of(shift, differ); !cause.empty() && 2 * shift.differing <= differ)
       return failed(fmt::format("{} pixels have a surface in the visibility or in the receivers alone; {}",
                                 surfaces->differing, cause),
                     misplaced);

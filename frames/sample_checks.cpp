@@ -126,10 +126,20 @@ Ghost ghost_of(const CheckEvidence& e) {
         exchanged += v.at(x, y) > 0.5f ? v.at(x + dx, y + dy) < 0.5f : v.at(x + dx, y + dy) > 0.5f;
     return static_cast<double>(exchanged) / count;
   };
-  for (int dy = -reach; dy <= reach; ++dy)
-    for (int dx = -reach; dx <= reach; ++dx)
-      if (const double share = dx == 0 && dy == 0 ? 0 : explained(dx, dy); share > found.explained)
-        found.x = dx, found.y = dy, found.explained = share;
+  double best = 0;
+  const auto each_shift = [&](const auto& visit) {
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx)
+        if (dx != 0 || dy != 0) visit(dx, dy, explained(dx, dy));
+  };
+  each_shift([&](int, int, double share) { best = std::max(best, share); });
+  // The shortest of those that explain nearly as much: behind an edge all is dark, however far.
+  int shortest = 4 * reach * reach;
+  each_shift([&](int dx, int dy, double share) {
+    if (share < 0.95 * best || dx * dx + dy * dy >= shortest) return;
+    shortest = dx * dx + dy * dy;
+    found.x = dx, found.y = dy, found.explained = share;
+  });
   found.opposite = explained(-found.x, -found.y);
   return found;
 }

@@ -11,7 +11,7 @@ namespace {
 // Of a shader's float arithmetic: sums of weights are off by a few last places, and a GPU's pow by 2^-14.
 constexpr double of_sums = 1e-5, of_shader = 1e-4;
 constexpr size_t most_levels = 24;
-constexpr size_t least_of_level = 12;  // pixels
+constexpr size_t least_of_level = 4;  // pixels
 
 // Values that many pixels share: far more than others nearby, which a blend spreads over all places.
 std::vector<double> levels_in(std::vector<double> values, double rounding) {
@@ -165,7 +165,7 @@ const ValueCurve* CurveEvidence::by_levels() const {
 }
 
 const ValueCurve* CurveEvidence::by_ramps() const {
-  constexpr size_t enough_ramps = 50;
+  constexpr size_t enough_ramps = 25;
   constexpr double mostly = 0.25;
   if (ramps < enough_ramps) return nullptr;
   const size_t curve = straight[2] > straight[1] ? 2 : 1;
