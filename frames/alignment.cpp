@@ -31,12 +31,7 @@ size_t differing_after(const Coverage& moved, const Coverage& fixed, glm::ivec2 
 
 std::optional<SurfaceAlignment> surface_alignment(const GivenFrame& frame) {
   if (frame.receivers == GivenReceivers::none) return std::nullopt;
-  const int width = frame.visibility.width, height = frame.visibility.height;
-  Coverage shown(width, height), given(width, height);
-  for (size_t i = 0; i < shown.size(); ++i) {
-    shown[i] = !std::isnan(frame.visibility[i]);
-    given[i] = std::isfinite(frame.positions[i].x);
-  }
+  const Coverage shown = coverage_of_visibility(frame), given = coverage_of_positions(frame);
   if (!has_both(shown) || !has_both(given)) return std::nullopt;
   SurfaceAlignment found{.differing = differing(shown, given)};
   found.left = found.differing;
@@ -131,6 +126,15 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
       ++side.lit, side.lit_wrong += wrong;
     else
       ++side.dark, side.dark_wrong += wrong;
+    const int a = x + OutlineAlignment::inside_px * (x - u), b = y + OutlineAlignment::inside_px * (y - v);
+    if (a < 0 || b < 0 || a >= width || b >= height) return;
+    const size_t k = truth.lit.index(a, b);
+    if (receivers.primitive[k] == no_primitive || std::isnan(frame.visibility[k]) || apart(i, k)) return;
+    const double darker = frame.visibility[k] - frame.visibility[i];
+    if (truth.soft[i] == 1)
+      ++side.lit_inside, side.lit_pull += darker;
+    else
+      ++side.dark_inside, side.dark_pull -= darker;
   };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -145,8 +149,27 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
   for (OutlineAlignment::Side* side : {&found.left, &found.right, &found.above, &found.below}) {
     side->lit_wrong /= static_cast<double>(std::max<size_t>(1, side->lit));
     side->dark_wrong /= static_cast<double>(std::max<size_t>(1, side->dark));
+    side->lit_pull /= static_cast<double>(std::max<size_t>(1, side->lit_inside));
+    side->dark_pull /= static_cast<double>(std::max<size_t>(1, side->dark_inside));
   }
   return found;
+}
+
+OutlineAlignment::Side OutlineAlignment::all() const {
+  Side sum;
+  for (const Side* side : {&left, &right, &above, &below}) {
+    sum.lit += side->lit, sum.dark += side->dark;
+    sum.lit_wrong += side->lit_wrong * static_cast<double>(side->lit);
+    sum.dark_wrong += side->dark_wrong * static_cast<double>(side->dark);
+    sum.lit_inside += side->lit_inside, sum.dark_inside += side->dark_inside;
+    sum.lit_pull += side->lit_pull * static_cast<double>(side->lit_inside);
+    sum.dark_pull += side->dark_pull * static_cast<double>(side->dark_inside);
+  }
+  sum.lit_wrong /= static_cast<double>(std::max<size_t>(1, sum.lit));
+  sum.dark_wrong /= static_cast<double>(std::max<size_t>(1, sum.dark));
+  sum.lit_pull /= static_cast<double>(std::max<size_t>(1, sum.lit_inside));
+  sum.dark_pull /= static_cast<double>(std::max<size_t>(1, sum.dark_inside));
+  return sum;
 }
 
 glm::ivec2 OutlineAlignment::shift() const {

@@ -56,13 +56,17 @@ ValueAlignment value_alignment(const GivenFrame& frame, const ReceiverTruth& tru
 // outlines show the truth of the other, lit ones and dark ones alike, and those on the other side do not. A leak
 // along an outline makes dark surfaces lit, but no lit ones dark.
 struct OutlineAlignment {
-  static constexpr int outline_reach_px = 3;
+  static constexpr int outline_reach_px = 3, inside_px = 3;
   static constexpr double apart_px = 4;  // the least distance from each other's plane, in widths of a pixel
   static constexpr size_t enough = 20;   // of each kind of pixel on each side
   static constexpr double mostly = 0.7, rarely = 0.3;
   struct Side {
     size_t lit = 0, dark = 0;              // pixels whose neighbour on this side is the other surface
     double lit_wrong = 0, dark_wrong = 0;  // their mean |visibility - R0|
+    // Of those behind which, away from the outline, the same surface goes on: how much darker the lit ones are than the pixel
+    // `inside_px` behind them, and how much lighter the dark ones, in the mean.
+    size_t lit_inside = 0, dark_inside = 0;
+    double lit_pull = 0, dark_pull = 0;
     bool told() const { return lit >= enough && dark >= enough; }
     bool of_neighbour() const { return lit_wrong > mostly && dark_wrong > mostly; }
     bool of_itself() const { return lit_wrong < rarely && dark_wrong < rarely; }
@@ -70,6 +74,8 @@ struct OutlineAlignment {
   Side left, right, above, below;
   bool told_x() const { return left.told() && right.told(); }
   bool told_y() const { return above.told() && below.told(); }
+  // All sides together.
+  Side all() const;
   // x to the right, y down, of a pixel or a few; 0 along an axis that is not told.
   glm::ivec2 shift() const;
 };

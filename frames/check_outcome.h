@@ -1,4 +1,5 @@
-// What one check of a frame finds, and the checks of places (frames/place_checks.cpp). The rows stand in frames/checks.cpp.
+// What one check of a frame finds, and the checks: of places (frames/place_checks.cpp), of values (frames/value_checks.cpp) and
+// of samples (frames/sample_checks.cpp). The rows stand in frames/checks.cpp.
 #pragma once
 #include <string>
 #include <string_view>
@@ -27,5 +28,15 @@ inline Outcome not_checked(std::string why) { return {CheckState::not_checked, s
 Outcome check_positions(const CheckEvidence& e, const FrameStatistics&);
 Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&);
 Outcome check_coverage(const CheckEvidence& e, const FrameStatistics&);
+
+Outcome check_values(const CheckEvidence& e, const FrameStatistics&);
+Outcome check_inverted(const CheckEvidence&, const FrameStatistics& s);
+Outcome check_shaded(const CheckEvidence&, const FrameStatistics& s);
+Outcome check_intensity(const CheckEvidence& e, const FrameStatistics& s);
+Outcome check_match(const CheckEvidence& e, const FrameStatistics& s);
+Outcome check_encoding(const CheckEvidence& e, const FrameStatistics&);
+Outcome check_levels(const CheckEvidence& e, const FrameStatistics&);
+
+Outcome check_samples(const CheckEvidence& e, const FrameStatistics&);
 
 }  // namespace noonmark

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 namespace noonmark {
 namespace {
@@ -54,13 +55,99 @@ Region region_of(std::vector<double> values) {
   return region;
 }
 
+// Least squares of values by four numbers each.
+struct Fit {
+  size_t count = 0;
+  double value = 0, square = 0;
+  glm::dvec4 by_value{0};
+  glm::dmat4 products{0};
+  void add(glm::dvec4 by, double v) {
+    ++count;
+    value += v;
+    square += v * v;
+    by_value += v * by;
+    products += glm::outerProduct(by, by);
+  }
+  double variance_sum() const { return std::max(0.0, square - value * value / static_cast<double>(count)); }
+  double residual_sum() const {
+    // Elimination, without the numbers that depend on those before them: all pixels of a plane have one N.L.
+    constexpr double dependent = 1e-9;
+    glm::dmat4 m = products;
+    glm::dvec4 b = by_value;
+    double left = square;
+    for (int k = 0; k < 4; ++k) {
+      if (!(m[k][k] > dependent * products[k][k])) continue;
+      left -= b[k] * b[k] / m[k][k];
+      for (int j = k + 1; j < 4; ++j) {
+        const double share = m[j][k] / m[k][k];
+        b[j] -= share * b[k];
+        for (int l = 0; l < 4; ++l) m[j][l] -= share * m[k][l];
+      }
+    }
+    return std::max(0.0, left);
+  }
+};
+
+// The number of each triangle's part, and of one that has none a number of its own.
+std::vector<uint32_t> parts_of(const Scene& scene) {
+  std::vector<uint32_t> part(scene.triangles.size());
+  for (size_t t = 0; t < part.size(); ++t) part[t] = static_cast<uint32_t>(scene.parts.size() + t);
+  for (size_t p = 0; p < scene.parts.size(); ++p)
+    for (uint32_t t = 0; t < scene.parts[p].triangle_count; ++t)
+      part[scene.parts[p].first_triangle + t] = static_cast<uint32_t>(p);
+  return part;
+}
+
+Shading shading_of(const CheckEvidence& e, const Image<uint8_t>& deep) {
+  constexpr size_t least = 32;  // pixels of a part, for four numbers
+  const std::vector<uint32_t> part = parts_of(e.scene);
+  std::unordered_map<uint32_t, Fit> fits;
+  double unit = 0;  // the squared distance of the first receiver
+  for (size_t i = 0; i < deep.size(); ++i) {
+    if (deep[i] != 2) continue;
+    const glm::dvec3 p = e.receivers.position[i];
+    const double n = glm::dot(glm::dvec3(e.receivers.normal[i]), e.light.direction_to_light(p));
+    double fall = 0;
+    if (e.light.kind != LightKind::directional) {
+      const glm::dvec3 way = e.light.to_light(p);
+      if (unit == 0) unit = glm::dot(way, way);
+      fall = unit / glm::dot(way, way);
+    }
+    fits[part[e.receivers.primitive[i]]].add({1, n, n * n, n * fall}, e.frame.visibility[i]);
+  }
+  Shading found;
+  double left = 0, all = 0;
+  for (const auto& [number, fit] : fits) {
+    if (fit.count < least) continue;
+    found.count += fit.count;
+    left += fit.residual_sum();
+    all += fit.variance_sum();
+  }
+  if (found.count == 0) return found;
+  found.residual = std::sqrt(left / static_cast<double>(found.count));
+  found.explained = all > 0 ? std::max(0.0, 1 - left / all) : 1;
+  return found;
+}
+
 }  // namespace
 
-Coverage coverage_of_frame(const GivenFrame& frame) {
+Coverage coverage_of_visibility(const GivenFrame& frame) {
   Coverage covered(frame.visibility.width, frame.visibility.height, 0);
-  for (size_t i = 0; i < covered.size(); ++i)
-    covered[i] = !std::isnan(frame.visibility[i]) &&
-                 (frame.receivers == GivenReceivers::none || std::isfinite(frame.positions[i].x));
+  for (size_t i = 0; i < covered.size(); ++i) covered[i] = !std::isnan(frame.visibility[i]);
+  return covered;
+}
+
+Coverage coverage_of_positions(const GivenFrame& frame) {
+  Coverage covered(frame.positions.width, frame.positions.height, 0);
+  for (size_t i = 0; i < covered.size(); ++i) covered[i] = std::isfinite(frame.positions[i].x);
+  return covered;
+}
+
+Coverage coverage_of_frame(const GivenFrame& frame) {
+  Coverage covered = coverage_of_visibility(frame);
+  if (frame.receivers == GivenReceivers::none) return covered;
+  const Coverage given = coverage_of_positions(frame);
+  for (size_t i = 0; i < covered.size(); ++i) covered[i] = covered[i] && given[i];
   return covered;
 }
 
@@ -119,51 +206,27 @@ Shift best_shift(const raytrace::Tracer& tracer, const ViewMatrix& view, const C
   return best;
 }
 
-FrameStatistics frame_statistics(const GivenFrame& frame, const ReceiverTruth& truth, const Image<uint8_t>& counted) {
+FrameStatistics frame_statistics(const CheckEvidence& e) {
   // 1: counted and dark, 2: counted and lit, 0: not counted
-  Image<uint8_t> state(counted.width, counted.height, 0);
-  for (size_t i = 0; i < state.size(); ++i) state[i] = counted[i] ? static_cast<uint8_t>(1 + truth.lit[i]) : 0;
-  // 1: the frame is dark, 3: lit, 2: between or not counted
-  Image<uint8_t> shown(counted.width, counted.height, 2);
-  for (size_t i = 0; i < shown.size(); ++i)
-    if (counted[i]) shown[i] = frame.visibility[i] <= 0.02f ? 1 : frame.visibility[i] >= 0.98f ? 3 : 2;
-  // The same with what is not counted as neither.
-  Image<uint8_t> only_counted(counted.width, counted.height, 2);
-  for (size_t i = 0; i < state.size(); ++i)
-    if (state[i]) only_counted[i] = static_cast<uint8_t>(2 * state[i] - 1);
-  const Extremes wide = extremes_within(state, FrameStatistics::deep_px),
-                 narrow = extremes_within(only_counted, FrameStatistics::edge_px),
-                 of_frame = extremes_within(shown, FrameStatistics::edge_px);
-  const auto between = [](double value) {
-    return value > FrameStatistics::between_low && value < FrameStatistics::between_high;
-  };
-  const auto is_deep = [&](size_t i) { return state[i] && wide.least[i] == state[i] && wide.most[i] == state[i]; };
-  std::vector<double> deep[2], filtered;
-  double step = 0, steps = 0, grey = 0;
-  for (int y = 0; y < state.height; ++y)
-    for (int x = 0; x < state.width; ++x) {
-      const size_t i = state.index(x, y);
-      if (!state[i]) continue;
-      const double value = frame.visibility[i];
-      const bool lit = truth.lit[i];
-      if (is_deep(i)) {
-        deep[lit].push_back(value);
-        if (lit) grey += between(value);
-        if (lit && x + 1 < state.width && state[i + 1] == 2 && is_deep(i + 1)) {
-          step += std::abs(frame.visibility[i + 1] - value);
-          ++steps;
-        }
-      }
-      if (narrow.least[i] == 1 && narrow.most[i] == 3 && of_frame.least[i] == 1 && of_frame.most[i] == 3 &&
-          between(value))
-        filtered.push_back(value);
-    }
-  FrameStatistics found{region_of(deep[1]), region_of(deep[0]), region_of(filtered)};
-  double variance = 0;
-  for (const double value : deep[1])
-    variance += (value - found.deep_lit.mean) * (value - found.deep_lit.mean) / static_cast<double>(deep[1].size());
-  if (steps > 0 && variance > 0) found.deep_lit_roughness = step / steps / std::sqrt(variance);
-  if (!deep[1].empty()) found.deep_lit_between = grey / static_cast<double>(deep[1].size());
+  Image<uint8_t> state(e.counted.width, e.counted.height, 0), light(e.counted.width, e.counted.height, 1);
+  for (size_t i = 0; i < state.size(); ++i) {
+    state[i] = e.counted[i] ? static_cast<uint8_t>(1 + e.truth.lit[i]) : 0;
+    light[i] = !(e.frame.visibility[i] < 0.5f);
+  }
+  const int reach = FrameStatistics::deep_px(state.height);
+  const Extremes wide = extremes_within(state, reach), of_frame = extremes_within(light, reach);
+  FrameStatistics found;
+  found.deep = Image<uint8_t>(state.width, state.height, 0);
+  std::vector<double> deep[2];
+  for (size_t i = 0; i < state.size(); ++i) {
+    if (!state[i] || wide.least[i] != state[i] || wide.most[i] != state[i]) continue;
+    found.deep[i] = state[i];
+    deep[state[i] - 1].push_back(e.frame.visibility[i]);
+    found.shadow_elsewhere += state[i] == 2 && of_frame.most[i] == 0;
+  }
+  found.deep_dark = region_of(deep[0]);
+  found.deep_lit = region_of(deep[1]);
+  found.shading = shading_of(e, found.deep);
   return found;
 }
 

@@ -6,15 +6,17 @@
 #include <vector>
 
 #include "base/image.h"
+#include "frames/checks.h"
 #include "frames/frame.h"
 #include "raytrace/tracer.h"
-#include "technique/evidence.h"
 
 namespace noonmark {
 
 // 1 where there is a surface.
 using Coverage = Image<uint8_t>;
-Coverage coverage_of_frame(const GivenFrame& frame);
+Coverage coverage_of_visibility(const GivenFrame& frame);
+Coverage coverage_of_positions(const GivenFrame& frame);  // of a frame that has some
+Coverage coverage_of_frame(const GivenFrame& frame);      // where both have one
 Coverage coverage_of(const Image<uint32_t>& seen);
 Coverage flipped(const Coverage& coverage, bool left_to_right, bool upside_down);
 size_t differing(const Coverage& a, const Coverage& b);
@@ -36,20 +38,26 @@ struct Region {
   double median = 0, low = 0, high = 0, mean = 0;  // low, high: the 5th and the 95th percentile. NaN without a pixel
 };
 
-// deep: R1 is the same at all counted pixels within `deep_px` of the pixel, and all of them are counted. filtered: the pixel
-// is beside a true edge, and the frame goes over it from 0 to 1: both truths and both values are within `edge_px`. Only
-// values between `between_low` and `between_high`.
-struct FrameStatistics {
-  static constexpr int deep_px = 6, edge_px = 4;
-  static constexpr float between_low = 0.1f, between_high = 0.9f;
-  Region deep_lit, deep_dark, filtered;
-  // Deep in true light: the mean step from a pixel to its neighbour over the standard deviation of the values, 0 if all are
-  // equal. Shading is smooth, acne is rough.
-  double deep_lit_roughness = 0;
-  // The share of the values deep in true light that are between.
-  double deep_lit_between = 0;
+// How far the values deep in true light are a function of N.L, as shading makes them: of each part of the scene (of each
+// triangle where the scene has none) the values are fitted by N.L, its square, and under a lamp N.L over the squared distance.
+struct Shading {
+  size_t count = 0;      // pixels of parts with enough of them to be fitted
+  double residual = 0;   // the standard deviation that the fit leaves
+  double explained = 0;  // the share of the variance that the fit takes away, 0 to 1
 };
-FrameStatistics frame_statistics(const GivenFrame& frame, const ReceiverTruth& truth, const Image<uint8_t>& counted);
+
+// deep: R1 is the same at all pixels within `deep_px` of the pixel, and all of them are counted.
+struct FrameStatistics {
+  // 6 pixels of a picture with 360 rows or more, fewer of a smaller one, in which a filter is as much narrower.
+  static constexpr int deep_px(int height) { return height >= 360 ? 6 : height >= 120 ? height / 60 : 2; }
+  Image<uint8_t> deep;  // 1: deep in true shadow, 2: deep in true light, 0: neither
+  Region deep_lit, deep_dark;
+  Shading shading;  // of the values deep in true light
+  // Pixels deep in true light about which the frame is darker than one half at all pixels within `deep_px`: the inside of a
+  // shadow that is not the truth's.
+  size_t shadow_elsewhere = 0;
+};
+FrameStatistics frame_statistics(const CheckEvidence& evidence);
 
 // The value below which this share of the values lies; NaN of none.
 double quantile(std::vector<double> values, double share);

@@ -12,6 +12,7 @@
 #include "frames/frame.h"
 #include "raytrace/tracer.h"
 #include "technique/evidence.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 
@@ -43,6 +44,7 @@ struct CheckEvidence {
   const ReceiverTruth& truth;
   const Image<uint8_t>& counted;
   const Image<float>& pixel_m;  // pixel_width_m() of the receivers
+  const LightFrame& light;      // of the frame's light; its map is not read
 };
 std::vector<CheckResult> check_frame(const CheckEvidence& evidence);
 

@@ -92,8 +92,9 @@ constexpr FrameKey key_rows[] = {
     {"", "positions", Kind::object,
      "The world position of every receiver: what the renderer itself shaded. The best choice."},
     {"positions", "file", Kind::text,
-     "EXR with three 32-bit float channels (x, y, z), or NPY of height x width x 3; NaN where there is no surface. "
-     "Required."},
+     "EXR with three 32-bit float channels (x, y, z), or NPY of height x width x 3; NaN where there is no surface, or "
+     "in "
+     "an EXR's fourth channel an alpha of 0. Required."},
     {"", "depth", Kind::object, "The depth of every receiver, in place of positions."},
     {"depth", "file", Kind::text, "EXR with one 32-bit float channel, or NPY. Required."},
     {"depth", "measure", Kind::choice,

@@ -196,8 +196,8 @@ FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, con
   verdict.contact_m = rules.contact_m.value_or(JudgeRules::contact_share * diagonal_m(scene));
   compare_with_truth(frame, verdict);
   const Image<float> pixel_m = pixel_width_m(frame.view, verdict.receivers);
-  verdict.checks = check_frame(
-      {scene, tracer, frame, seen, verdict.receivers, found.moved_m, verdict.truth, verdict.counted, pixel_m});
+  verdict.checks = check_frame({scene, tracer, frame, seen, verdict.receivers, found.moved_m, verdict.truth,
+                                verdict.counted, pixel_m, verdict.light});
   for (CheckResult& check : verdict.checks) check.accepted = rules.accepted.contains(std::string(check.name));
   classify(tracer, pixel_m, rules, verdict);
   measure(verdict);

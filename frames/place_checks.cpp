@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -42,6 +43,36 @@ bool is_reversed(const CheckEvidence& e) {
   return of_last >= enough && of_first * 10 < of_last;
 }
 
+// 1 for each triangle that the camera's near plane cuts. A rasteriser puts new vertices there and rounds them to its grid, which
+// moves the whole triangle: SwiftShader's by a quarter of a pixel.
+std::vector<uint8_t> cut_by_near_plane(const Scene& scene, const ViewMatrix& view) {
+  std::vector<uint8_t> is_before(scene.positions.size());
+  for (size_t i = 0; i < is_before.size(); ++i) {
+    const glm::dvec4 clip = view.clip_from_world() * glm::dvec4(scene.positions[i], 1);
+    is_before[i] = clip.z < -clip.w;
+  }
+  std::vector<uint8_t> cut(scene.triangles.size());
+  for (size_t t = 0; t < cut.size(); ++t) {
+    const glm::uvec3 v = scene.triangles[t];
+    cut[t] = is_before[v.x] != is_before[v.y] || is_before[v.y] != is_before[v.z];
+  }
+  return cut;
+}
+
+std::string part_name(const Scene& scene, uint32_t triangle) {
+  for (const Part& part : scene.parts)
+    if (triangle - part.first_triangle < part.triangle_count && !part.name.empty()) return "'" + part.name + "'";
+  return fmt::format("triangle {}", triangle);
+}
+
+// Where positions lie in the picture, seen from the centres of their pixels.
+struct Offsets {
+  std::vector<double> x, y;
+  void add(glm::dvec2 off) { x.push_back(off.x), y.push_back(off.y); }
+  glm::dvec2 median() const { return {quantile(x, 0.5), quantile(y, 0.5)}; }
+};
+constexpr double most_off_px = 0.1;
+
 // Good frames of five renderers differ by 0.3% to 1% of the pixels on the scene's outline, frames that are half a pixel
 // off by 16% and more.
 constexpr double most_of_outline = 0.05;
@@ -51,6 +82,41 @@ bool covers(const Coverage& of_frame, const Coverage& of_scene) {
          most_of_outline * static_cast<double>(outline_pixels(of_scene)) + 8;
 }
 bool covers(const CheckEvidence& e) { return covers(coverage_of_frame(e.frame), coverage_of(e.seen)); }
+
+// What a shift of the samples says that leaves less than seven tenths of the pixels whose coverage differs; empty of another.
+std::string cause_of(const Shift& shift, size_t differ) {
+  if (shift.differing * 10 >= differ * 7 || shift.pixels == glm::dvec2(0)) return "";
+  const bool halves = shift.pixels.x != std::round(shift.pixels.x) || shift.pixels.y != std::round(shift.pixels.y);
+  // It is the furthest that was tried, or explains only a part.
+  const bool part = 2 * shift.differing > differ;
+  const std::string cause =
+      halves
+          ? fmt::format("it is one of these{}: samples are not at the pixels' centres, or multisampling was resolved",
+                        part ? "" : " two")
+          : "rows or columns are missing or doubled";
+  return fmt::format("a shift of ({:+g}, {:+g}) pixels (x to the right, y down) leaves {} of them, so {}{}",
+                     shift.pixels.x, shift.pixels.y, shift.differing, cause,
+                     part ? ", or the picture is shifted further, or the camera is another one" : "");
+}
+
+// Whether pixels differ at the outline of `fixed` alone, and nearly all of them to one side: what `changed` does there; null
+// if not.
+const char* edges_alone(const Coverage& changed, const Coverage& fixed) {
+  size_t grown = 0, shrunk = 0, apart = 0;
+  for (int y = 0; y < fixed.height; ++y)
+    for (int x = 0; x < fixed.width; ++x) {
+      if (changed.at(x, y) == fixed.at(x, y)) continue;
+      ++(changed.at(x, y) ? grown : shrunk);
+      bool beside = false;
+      for (int v = std::max(0, y - 1); v <= std::min(fixed.height - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(fixed.width - 1, x + 1); ++u)
+          beside = beside || fixed.at(u, v) != fixed.at(x, y);
+      apart += !beside;
+    }
+  if (apart * 20 > grown + shrunk) return nullptr;
+  if (grown > 9 * shrunk) return "has surfaces that are too large";
+  return shrunk > 9 * grown ? "has surfaces that are too small" : nullptr;
+}
 
 // What the checks below say of a picture in another place.
 constexpr std::string_view misplaced = "the picture is flipped or shifted";
@@ -62,17 +128,23 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
     return not_checked(
         "no positions or depths were given: the receivers are those of rays through the pixels' centres");
   const int width = e.frame.visibility.width, height = e.frame.visibility.height;
-  std::vector<double> off_x, off_y, off, moved, size;
+  // By whether the near plane cuts the triangle.
+  std::array<Offsets, 2> offsets;
+  std::vector<double> off, moved, size;
   size_t half = 0;
+  uint32_t cut_triangle = 0;
+  const std::vector<uint8_t> cut = cut_by_near_plane(e.scene, e.frame.view);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const size_t i = e.moved_m.index(x, y);
       const glm::dvec3 p = e.frame.positions[i];
       if (!std::isfinite(p.x)) continue;
-      const glm::dvec3 at = e.frame.view.pixel_of(p, width, height);
-      off_x.push_back(at.x - (x + 0.5));
-      off_y.push_back(at.y - (y + 0.5));
-      off.push_back(std::hypot(off_x.back(), off_y.back()));
+      const glm::dvec2 at = glm::dvec2(e.frame.view.pixel_of(p, width, height)) - glm::dvec2(x + 0.5, y + 0.5);
+      const uint32_t triangle = e.receivers.primitive[i];
+      const bool is_cut = triangle != no_primitive && cut[triangle];
+      if (is_cut) cut_triangle = triangle;
+      offsets[is_cut].add(at);
+      off.push_back(glm::length(at));
       moved.push_back(e.moved_m[i]);
       size.push_back(glm::length(p));
       half += is_half(p.x) && is_half(p.y) && is_half(p.z);
@@ -88,13 +160,16 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
         fmt::format("every position is a half float, which puts one of twenty more than {:.2g} pixels beside its "
                     "place: write the positions as 32-bit floats",
                     quantile(off, 0.95)));
-  const double dx = quantile(off_x, 0.5), dy = quantile(off_y, 0.5);
-  if (std::hypot(dx, dy) > 0.1)
+  // A camera moves all surfaces. So those that nothing else can have moved are asked; where there are none, a cut one is moved
+  // by a wrong camera if it is by half a pixel.
+  const bool only_cut = offsets[0].x.size() < enough;
+  const glm::dvec2 median = offsets[only_cut].median();
+  if (glm::length(median) > (only_cut ? 0.5 : most_off_px))
     return failed(
         fmt::format("half of the positions lie more than ({:+.2f}, {:+.2f}) pixels (x to the right, y down) from "
                     "the centre of their pixel: the camera is another one, or the picture is shifted, flipped or "
                     "jittered",
-                    dx, dy));
+                    median.x, median.y));
   if (is_reversed(e))
     return failed(
         "where a surface hides another, the positions are the hidden one's: the depths are reversed, so check the "
@@ -108,10 +183,17 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
         fmt::format("{:.1f}% of the positions lie off the scene, half of all by more than {:.2g} m: the scene, its "
                     "pose, its unit or its axes are others",
                     100 * stray, median_moved));
-  return passed(
-      fmt::format("positions lie on the scene (half of them within {:.1g} m) and in their own pixels (off by "
-                  "({:+.3f}, {:+.3f}) in the median)",
-                  median_moved, dx, dy));
+  std::string says = fmt::format(
+      "positions lie on the scene (half of them within {:.1g} m) and in their own pixels (off by "
+      "({:+.3f}, {:+.3f}) in the median)",
+      median_moved, median.x, median.y);
+  if (!offsets[1].x.empty()) {
+    const glm::dvec2 moved_by = offsets[1].median();
+    if (glm::length(moved_by) > most_off_px)
+      says += fmt::format("; {}, which the camera's near plane cuts, is moved by ({:+.2f}, {:+.2f}) pixels",
+                          part_name(e.scene, cut_triangle), moved_by.x, moved_by.y);
+  }
+  return passed(std::move(says));
 }
 
 // A renderer writes both from the same samples: frames of five engines differ at no pixel.
@@ -129,7 +211,19 @@ Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
                                                found, surfaces->left, surfaces->shift.x, surfaces->shift.y),
                   misplaced);
   }
-  if (surfaces && surfaces->differing >= enough_to_differ)
+  if (surfaces && surfaces->differing >= enough_to_differ) {
+    const Coverage of_visibility = coverage_of_visibility(e.frame);
+    const Shift shift = best_shift(e.tracer, e.frame.view, of_visibility, coverage_of(e.seen));
+    const size_t differ = differing(of_visibility, coverage_of(e.seen));
+    if (const std::string cause = cause_of(shift, differ); !cause.empty() && 2 * shift.differing <= differ)
+      return failed(fmt::format("{} pixels have a surface in the visibility or in the receivers alone; {}",
+                                surfaces->differing, cause),
+                    misplaced);
+    if (const char* const change = edges_alone(of_visibility, coverage_of_positions(e.frame)))
+      return failed(fmt::format("{} pixels have a surface in the visibility or in the receivers alone, all of them at "
+                                "the outline, and the visibility {} there: multisampling was resolved",
+                                surfaces->differing, change),
+                    misplaced);
     return failed(
         fmt::format(
             "{} pixels have a surface in the visibility or in the receivers alone, and neither a flip nor a shift "
@@ -137,6 +231,7 @@ Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
             "visibility",
             surfaces->differing),
         misplaced);
+  }
   if (e.frame.marks_no_surface && e.frame.receivers == GivenReceivers::none && !covers(e))
     return not_checked("the surfaces of the picture are not where the scene has them: see coverage");
   // A shift first: of a scene that is almost symmetric, the picture that is shifted is almost the one that is flipped.
@@ -209,20 +304,8 @@ Outcome check_coverage(const CheckEvidence& e, const FrameStatistics&) {
     }
   if (least * 10 < differ) return failed(fmt::format("{}: the picture is {}", found, flip), misplaced);
   const Shift shift = best_shift(e.tracer, e.frame.view, of_frame, of_scene);
-  if (shift.differing * 10 < differ * 7 && shift.pixels != glm::dvec2(0)) {
-    const bool halves = shift.pixels.x != std::round(shift.pixels.x) || shift.pixels.y != std::round(shift.pixels.y);
-    // It is the furthest that was tried, or explains only a part.
-    const bool part = 2 * shift.differing > differ;
-    const std::string cause =
-        halves
-            ? fmt::format("it is one of these{}: samples are not at the pixels' centres, or multisampling was resolved",
-                          part ? "" : " two")
-            : "rows or columns are missing or doubled";
-    return failed(
-        fmt::format("{}: a shift of ({:+g}, {:+g}) pixels (x to the right, y down) leaves {} of them, so {}{}", found,
-                    shift.pixels.x, shift.pixels.y, shift.differing, cause,
-                    part ? ", or the picture is shifted further, or the camera is another one" : ""));
-  }
+  if (const std::string cause = cause_of(shift, differ); !cause.empty())
+    return failed(fmt::format("{}: {}", found, cause));
   const size_t lost = lost_surfaces(of_frame, of_scene);
   if (lost * 10 > differ * 9)
     return failed(

@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "frames/frame_memory.h"
 #include "frames/map_frame.h"
+#include "frames/value_curve.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
@@ -24,11 +25,6 @@ constexpr uint64_t most_json_bytes = 1 << 20;
 
 [[noreturn]] void refuse_picture(const std::string& path, const std::string& why) {
   throw Error(ErrorKind::file, fmt::format("{}: {}", path, why));
-}
-
-// IEC 61966-2-1.
-double linear_of_srgb(double value) {
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
 // Alpha says whether there is a surface.
@@ -58,7 +54,7 @@ Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
   return visibility;
 }
 
-// What the channels beside alpha hold, in the renderer's coordinates.
+// What the channels beside alpha hold, in the renderer's coordinates. Alpha says where there is a surface.
 Image<glm::dvec3> read_positions(const std::string& path) {
   const DecodedImage image = read_image(path);
   std::vector<size_t> axes;

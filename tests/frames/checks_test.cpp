@@ -19,32 +19,6 @@ Image<float> a_row_down(const Image<float>& v) {
   return result;
 }
 
-float srgb(float v) {
-  return v <= 0.0031308f ? 12.92f * v : 1.055f * static_cast<float>(std::pow(v, 1 / 2.4)) - 0.055f;
-}
-
-// A frame of the same scene through another camera, delivered as one of the first.
-GivenFrame with_picture_through(const glm::dmat4& moved) {
-  const Delivered& base = good();
-  GivenFrame seen = base.frame;
-  seen.view = ViewMatrix(moved * base.frame.view.clip_from_world());
-  seen.visibility = Image<float>(width, height, 0);
-  const FrameVerdict black = judge_frame(*base.scene, *base.tracer, seen, {});
-  for (size_t i = 0; i < black.error.size(); ++i)
-    seen.visibility[i] =
-        black.receivers.primitive[i] == no_primitive ? no_surface : static_cast<float>(black.truth.lit[i]);
-  seen.visibility = blurred(seen.visibility, black.truth.facing, 1);
-  seen.view = base.frame.view;
-  return seen;
-}
-
-glm::dmat4 shifted_by(double x_px, double y_px) {
-  glm::dmat4 m(1);
-  m[3][0] = 2 * x_px / width;
-  m[3][1] = -2 * y_px / height;
-  return m;
-}
-
 TEST(Checks, AGoodFramePassesAll) {
   for (const char* scene : {"cube-room", "spot-room", "point-room", "wall"}) {
     const Delivered frame = good_frame(scene, width, height);
@@ -141,14 +115,19 @@ TEST(Checks, AnIntensityBelowOneIsNamed) {
                "intensity");
 }
 
-TEST(Checks, AFrameWithoutShadowsIsNamed) {
-  expect_named(with(each_value(good().frame.visibility, [](float) { return 1.0f; })), "match", "no shadows");
+// A bias that is too large and a format that is too coarse lose all shadows. That is judged, because the delivery is right.
+TEST(Checks, LostShadowsAreJudged) {
+  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer,
+                                           with(each_value(good().frame.visibility, [](float) { return 1.0f; })), {});
+  EXPECT_FALSE(verdict.refused());
+  EXPECT_EQ(check_named(verdict, "match").state, CheckState::not_checked) << check_named(verdict, "match").says;
+  EXPECT_GT(verdict.metrics.at("frame_leak") + verdict.metrics.at("frame_contact"), 0.01);
 }
 
 TEST(Checks, AnotherLightIsNamed) {
   GivenFrame frame = good().frame;
   frame.light.position_m = {-frame.light.position_m.x, frame.light.position_m.y, -frame.light.position_m.z};
-  expect_named(frame, "match", "the light");
+  expect_named(frame, "match", "inside shadows of the frame");
 }
 
 TEST(Checks, ALightThatIsTurnedRoundIsNamed) {
@@ -157,21 +136,33 @@ TEST(Checks, ALightThatIsTurnedRoundIsNamed) {
   expect_named(frame, "match", "turned round");
 }
 
-TEST(Checks, SrgbIsNamed) { expect_named(with(each_value(good().frame.visibility, srgb)), "encoding", "sRGB"); }
-
-// Between what linear values have and what only sRGB has, it is said that nothing is known.
-TEST(Checks, AMeanThatLinearValuesAndSrgbShareIsNotChecked) {
-  const Image<float> lifted =
-      each_value(good().frame.visibility, [](float v) { return v > 0 && v < 1 ? v + 0.09f : v; });
-  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, with(lifted), {});
-  EXPECT_EQ(check_named(verdict, "encoding").state, CheckState::not_checked) << check_named(verdict, "encoding").says;
-  EXPECT_EQ(check_named(good().judged(), "encoding").state, CheckState::passed);
-}
-
 TEST(Checks, ValuesOutsideAreNamed) {
   GivenFrame frame = good().frame;
   frame.visibility.at(7, 260) = 1.5f;
   expect_named(frame, "values", "x = 7, y = 260");
+}
+
+TEST(Checks, HalfAPixelBesidePositionsIsNamed) {
+  GivenFrame frame = with_positions([](glm::dvec3 p) { return p; });
+  frame.visibility = with_picture_through(shifted_by(-0.5, -0.5)).visibility;
+  expect_named(frame, "alignment", "(+0.5, +0.5)");
+  expect_named(frame, "alignment", "one of these two");
+}
+
+// Four samples of each pixel: one that sees no surface makes it none, or is left out.
+TEST(Checks, MultisamplingBesidePositionsIsNamed) {
+  for (const bool any : {true, false}) {
+    GivenFrame frame = with_positions([](glm::dvec3 p) { return p; });
+    Image<float> sum(width, height, 0), count(width, height, 0);
+    for (const auto& [x, y] : {std::pair(-0.125, -0.375), {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}}) {
+      const GivenFrame sample = with_picture_through(shifted_by(x, y));
+      for (size_t i = 0; i < sum.size(); ++i)
+        if (!std::isnan(sample.visibility[i])) sum[i] += sample.visibility[i], ++count[i];
+    }
+    for (size_t i = 0; i < sum.size(); ++i)
+      frame.visibility[i] = count[i] >= (any ? 1 : 4) ? sum[i] / count[i] : no_surface;
+    expect_named(frame, "alignment", "multisampling was resolved");
+  }
 }
 
 // Four samples of each pixel, of which -1 is one that saw no surface.
@@ -186,6 +177,13 @@ TEST(Checks, ResolvedMultisamplingIsNamed) {
   expect_named(frame, "values", "multisampling");
 }
 
+TEST(Checks, GivenPositionsPass) {
+  const GivenFrame frame = with_positions([](glm::dvec3 p) { return p; });
+  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
+  EXPECT_EQ(check_named(verdict, "positions").state, CheckState::passed) << check_named(verdict, "positions").says;
+  EXPECT_EQ(verdict.receivers.primitive.pixels, good().receivers.primitive.pixels);
+}
+
 // Rounded to a half float: 11 bits, and multiples of 2^-24 where the value is small.
 double as_half(double value) {
   int exponent = 0;
@@ -194,11 +192,41 @@ double as_half(double value) {
   return std::ldexp(std::round(std::ldexp(value, -last)), last);
 }
 
-TEST(Checks, GivenPositionsPass) {
-  const GivenFrame frame = with_positions([](glm::dvec3 p) { return p; });
-  const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {});
-  EXPECT_EQ(check_named(verdict, "positions").state, CheckState::passed) << check_named(verdict, "positions").says;
-  EXPECT_EQ(verdict.receivers.primitive.pixels, good().receivers.primitive.pixels);
+// Whether the near plane cuts the triangle of a pixel.
+bool is_cut(const Delivered& from, size_t pixel) {
+  const glm::uvec3 t = from.scene->triangles[from.receivers.primitive[pixel]];
+  int before = 0;
+  for (const uint32_t v : {t.x, t.y, t.z}) {
+    const glm::dvec4 clip = from.frame.view.clip_from_world() * glm::dvec4(from.scene->positions[v], 1);
+    before += clip.z < -clip.w;
+  }
+  return before == 1 || before == 2;
+}
+
+// The positions of pixels, each moved in its triangle's plane by so many pixels to the right, where `moves` says so.
+GivenFrame with_moved(const std::function<bool(size_t)>& moves, double pixels) {
+  GivenFrame frame = with_positions([](glm::dvec3 p) { return p; });
+  const ViewMatrix beside(shifted_by(-pixels, 0) * frame.view.clip_from_world());
+  const ReceiverImage moved = resolve_receivers(*good().scene, beside, good().receivers.primitive);
+  for (size_t i = 0; i < frame.positions.size(); ++i)
+    if (good().receivers.primitive[i] != no_primitive && moves(i)) frame.positions[i] = moved.position[i];
+  return frame;
+}
+
+// A software rasteriser moves what it clips at the near plane, and nothing else. In this picture it is most of the pixels.
+TEST(Checks, WhatTheNearPlaneCutsMayBeMoved) {
+  size_t cut = 0, whole = 0;
+  for (size_t i = 0; i < good().receivers.primitive.size(); ++i)
+    if (good().receivers.primitive[i] != no_primitive) ++(is_cut(good(), i) ? cut : whole);
+  ASSERT_GT(cut, whole);
+  ASSERT_GT(whole, 100u);
+  const GivenFrame clipped = with_moved([](size_t i) { return is_cut(good(), i); }, 0.24);
+  const CheckResult found = check_named(judge_frame(*good().scene, *good().tracer, clipped, {}), "positions");
+  EXPECT_EQ(found.state, CheckState::passed) << found.says;
+  EXPECT_NE(found.says.find("near plane cuts"), std::string::npos) << "the surface is named: " << found.says;
+  EXPECT_NE(found.says.find("(+0.24, "), std::string::npos) << found.says;
+  expect_named(with_moved([](size_t) { return true; }, 0.24), "positions", "(+0.24, ");
+  expect_named(with_moved([](size_t i) { return !is_cut(good(), i); }, 0.24), "positions", "(+0.24, ");
 }
 
 TEST(Checks, HalfFloatPositionsAreNamed) {

@@ -32,20 +32,25 @@ inline ViewMatrix view_of(const Scene& scene, int width, int height) {
   return ViewMatrix(make_camera_frame(effective_camera(scene, settings), width, height).clip_from_world());
 }
 
-// The mean of the values of facing pixels within `reach`.
-inline Image<float> blurred(const Image<float>& values, const Image<uint8_t>& facing, int reach) {
+// The mean of the values of facing pixels of the same plane within `reach`: a lookup's filter does not reach over an outline.
+inline Image<float> blurred(const Image<float>& values, const ReceiverTruth& truth, const ReceiverImage& receivers,
+                            int reach) {
   Image<float> result = values;
   for (int y = 0; y < values.height; ++y)
     for (int x = 0; x < values.width; ++x) {
-      if (!facing.at(x, y)) continue;
+      const size_t i = values.index(x, y);
+      if (!truth.facing[i]) continue;
       float sum = 0, count = 0;
-      for (int j = std::max(0, y - reach); j <= std::min(values.height - 1, y + reach); ++j)
-        for (int i = std::max(0, x - reach); i <= std::min(values.width - 1, x + reach); ++i)
-          if (facing.at(i, j)) {
-            sum += values.at(i, j);
-            count += 1;
-          }
-      result.at(x, y) = sum / count;
+      for (int v = std::max(0, y - reach); v <= std::min(values.height - 1, y + reach); ++v)
+        for (int u = std::max(0, x - reach); u <= std::min(values.width - 1, x + reach); ++u) {
+          const size_t j = values.index(u, v);
+          const glm::vec3 way = receivers.position[j] - receivers.position[i];
+          if (!truth.facing[j] || std::abs(glm::dot(receivers.normal[i], way)) > 1e-3f * (1 + glm::length(way)))
+            continue;
+          sum += values[j];
+          count += 1;
+        }
+      result[i] = sum / count;
     }
   return result;
 }
@@ -61,7 +66,7 @@ inline Delivered good_frame(const std::string& scene_name, int width, int height
   const FrameVerdict of_black = judge_frame(*scene, *tracer, frame, {});
   Image<float> lit(width, height, 0);
   for (size_t i = 0; i < lit.size(); ++i) lit[i] = of_black.truth.lit[i];
-  frame.visibility = blurred(lit, of_black.truth.facing, blur);
+  frame.visibility = blurred(lit, of_black.truth, of_black.receivers, blur);
   for (size_t i = 0; i < lit.size(); ++i)
     if (of_black.receivers.primitive[i] == no_primitive) {
       frame.visibility[i] = no_surface;

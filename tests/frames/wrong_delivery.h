@@ -2,6 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string_view>
 
@@ -38,7 +39,7 @@ inline void expect_named(const GivenFrame& frame, std::string_view check, std::s
   EXPECT_NE(found.says.find(words), std::string::npos) << found.says;
   const FrameVerdict accepted = judge_frame(*good().scene, *good().tracer, frame,
                                             {.accepted = {"values", "alignment", "coverage", "inverted", "shaded",
-                                                          "intensity", "match", "encoding", "positions"}});
+                                                          "intensity", "match", "encoding", "positions", "samples"}});
   EXPECT_FALSE(accepted.refused());
   EXPECT_TRUE(check_named(accepted, check).accepted) << "and the report says so";
 }
@@ -47,6 +48,28 @@ inline GivenFrame with(const Image<float>& visibility) {
   GivenFrame frame = good().frame;
   frame.visibility = visibility;
   return frame;
+}
+
+// A frame of the same scene through another camera, delivered as one of the first.
+inline GivenFrame with_picture_through(const glm::dmat4& moved) {
+  const Delivered& base = good();
+  GivenFrame seen = base.frame;
+  seen.view = ViewMatrix(moved * base.frame.view.clip_from_world());
+  seen.visibility = Image<float>(width, height, 0);
+  const FrameVerdict black = judge_frame(*base.scene, *base.tracer, seen, {});
+  for (size_t i = 0; i < black.error.size(); ++i)
+    seen.visibility[i] =
+        black.receivers.primitive[i] == no_primitive ? no_surface : static_cast<float>(black.truth.lit[i]);
+  seen.visibility = blurred(seen.visibility, black.truth, black.receivers, 1);
+  seen.view = base.frame.view;
+  return seen;
+}
+
+inline glm::dmat4 shifted_by(double x_px, double y_px) {
+  glm::dmat4 m(1);
+  m[3][0] = 2 * x_px / width;
+  m[3][1] = -2 * y_px / height;
+  return m;
 }
 
 inline Image<glm::dvec3> positions_of(const Delivered& from) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -126,6 +127,32 @@ TEST_F(JudgeVerb, AWrongDeliveryIsExitCodeThree) {
   EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "inverted"}), 0) << output_;
   EXPECT_TRUE(says("accepted")) << output_;
   EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "invertd"}), 2) << output_;
+}
+
+// A target of four channels: alpha says where there is a surface, and nothing else is taken for three numbers.
+TEST_F(JudgeVerb, AFourthChannelOfPositionsIsAlpha) {
+  const nlohmann::json json = frame(true);
+  write("frame.json", json.dump());
+  ASSERT_EQ(run({"judge", "frame.json", "--out", "out"}), 0) << output_;
+  const nlohmann::json by_three = said()["metrics"]["frame_error"];
+  const auto judged = [&](const std::string& fourth, const std::function<float(bool)>& alpha) {
+    std::vector<Channel> channels(4, {"", Image<float>(frame_width, frame_height, 0)});
+    for (int k = 0; k < 4; ++k) channels[static_cast<size_t>(k)].name = k < 3 ? std::string(1, "RGB"[k]) : fourth;
+    for (size_t i = 0; i < primitive_.size(); ++i) {
+      const bool surface = primitive_[i] != no_primitive;
+      for (int k = 0; k < 3; ++k) channels[static_cast<size_t>(k)].values[i] = surface ? positions_[i][k] : 0;
+      channels[3].values[i] = alpha(surface);
+    }
+    write_exr((folder_ / "P.exr").string(), channels);
+    return run({"judge", "frame.json", "--out", "out"});
+  };
+  EXPECT_EQ(judged("A", [](bool surface) { return surface ? 1.0f : 0.0f; }), 0) << output_;
+  EXPECT_EQ(said()["metrics"]["frame_error"], by_three);
+  EXPECT_EQ(judged("A", [](bool) { return 0.5f; }), 3) << output_;
+  EXPECT_TRUE(says("its alpha is 0.5")) << output_;
+  EXPECT_EQ(judged("A", [](bool) { return 1.0f; }), 3) << "the sky lies at the origin: " << output_;
+  EXPECT_EQ(judged("W", [](bool) { return 1.0f; }), 3) << output_;
+  EXPECT_TRUE(says("has 4 channels")) << output_;
 }
 
 TEST_F(JudgeVerb, NeedsNoOpenGL) {

@@ -1,0 +1,196 @@
+// The check that each value is its own pixel's. A lookup knows nothing of the picture: not where one surface hides another, not
+// where blocks of 8 x 8 pixels begin, and not which pixels have an even number. What follows these was done to the picture.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frames/alignment.h"
+#include "frames/check_outcome.h"
+
+namespace noonmark {
+namespace {
+
+// ---- JPEG
+
+// Blocks of 8 x 8 pixels in which a value is a little off the truth, by where the blocks begin. A JPEG file spreads its errors
+// over whole blocks, so fewest are touched where its own begin.
+struct Blocks {
+  size_t own = 0;        // blocks that begin in the picture's corner
+  size_t elsewhere = 0;  // the fewest of blocks that begin two pixels or more away from there along both axes
+  // Good frames: 0.94 times as many and more; files of quality 75: 0.5 to 0.9 times.
+  bool are_of_jpeg() const { return own * 5 <= elsewhere * 4 && elsewhere >= own + 10; }
+};
+Blocks blocks_of(const CheckEvidence& e) {
+  constexpr int side = 8, apart = 2;
+  constexpr double least = 0.002,
+                   most = 0.15;  // half a step of 8 bits, and what quality 75 adds at most beside an edge
+  const Image<float>& v = e.frame.visibility;
+  std::vector<std::array<int, 2>> off;
+  for (int y = 0; y < v.height; ++y)
+    for (int x = 0; x < v.width; ++x) {
+      const size_t i = v.index(x, y);
+      const double error = std::abs(v[i] - static_cast<double>(e.truth.soft[i]));
+      if (e.counted[i] && error > least && error < most) off.push_back({x, y});
+    }
+  const auto touched = [&](int left, int top) {
+    const int across = v.width / side + 2;
+    std::vector<uint8_t> hit(static_cast<size_t>(across) * static_cast<size_t>(v.height / side + 2), 0);
+    for (const auto& [x, y] : off)
+      hit[static_cast<size_t>((y + side - top) / side * across + (x + side - left) / side)] = 1;
+    return static_cast<size_t>(std::count(hit.begin(), hit.end(), uint8_t{1}));
+  };
+  Blocks found{.own = touched(0, 0), .elsewhere = v.size()};
+  for (int top = apart; top <= side - apart; ++top)
+    for (int left = apart; left <= side - apart; ++left)
+      found.elsewhere = std::min(found.elsewhere, touched(left, top));
+  return found;
+}
+
+// ---- resizing
+
+// Half of the size and back, linearly, makes every second step from a pixel to the next the mean of the steps before and after
+// it, and the steps between are as they were.
+struct Steps {
+  std::array<size_t, 2> count{}, mean{};  // by whether the pixel's number is even; mean: those that are
+  bool are_of_resizing() const {
+    for (const int even : {0, 1}) {
+      const int odd = 1 - even;
+      if (count[even] >= enough && count[odd] >= enough && mean[even] * 10 >= count[even] * 9 &&
+          mean[odd] * 2 <= count[odd])
+        return true;
+    }
+    return false;
+  }
+};
+
+Steps steps_of(const Image<float>& v, bool along_rows) {
+  constexpr double least_step = 0.02, rounding = 0.003;  // of two values of 8 bits each
+  Steps found;
+  const int length = along_rows ? v.width : v.height, lines = along_rows ? v.height : v.width;
+  for (int line = 0; line < lines; ++line)
+    for (int k = 1; k + 2 < length; ++k) {
+      const auto at = [&](int where) { return along_rows ? v.at(where, line) : v.at(line, where); };
+      const double before = at(k) - at(k - 1), here = at(k + 1) - at(k), after = at(k + 2) - at(k + 1);
+      if (!(std::abs(here) > least_step) || std::isnan(before + after)) continue;
+      const auto even = static_cast<size_t>(k % 2 == 0);
+      ++found.count[even];
+      found.mean[even] += std::abs(here - (before + after) / 2) <= rounding;
+    }
+  return found;
+}
+
+// ---- a picture of another time mixed in
+
+// A part of one other picture that lies a few pixels away. Where both pictures show light or shadow alone, the value is off by
+// that part, and it is off only there and on one side of every edge; a filter is off on both sides.
+struct Ghost {
+  size_t pixels = 0;  // whose value is a little off 0 or 1
+  double part = 0;    // by so much in the median
+  double equal = 0;   // the share of them that is off by that
+  // The share of them that is explained by light and shadow exchanged `shift` pixels away, and that of the opposite shift.
+  int x = 0, y = 0;
+  double explained = 0, opposite = 0;
+  bool is_seen() const { return pixels >= enough && equal >= 0.5 && explained >= 0.7 && explained >= 3 * opposite; }
+};
+Ghost ghost_of(const CheckEvidence& e) {
+  constexpr float least = 0.02f, most = 0.25f, same = 0.004f;
+  constexpr int reach = 8;
+  const Image<float>& v = e.frame.visibility;
+  std::vector<std::array<int, 2>> places;
+  std::vector<double> off;
+  for (int y = 0; y < v.height; ++y)
+    for (int x = 0; x < v.width; ++x) {
+      const float value = v.at(x, y), by = std::min(value, 1 - value);
+      if (!e.counted.at(x, y) || !(by > least && by < most)) continue;
+      places.push_back({x, y});
+      off.push_back(by);
+    }
+  Ghost found{.pixels = places.size()};
+  if (found.pixels < enough) return found;
+  found.part = quantile(off, 0.5);
+  const auto count = static_cast<double>(found.pixels);
+  found.equal = static_cast<double>(std::count_if(off.begin(), off.end(),
+                                                  [&](double by) { return std::abs(by - found.part) < same; })) /
+                count;
+  if (found.equal < 0.5) return found;  // nothing more is asked
+  const auto explained = [&](int dx, int dy) {
+    size_t exchanged = 0;
+    for (const auto& [x, y] : places)
+      if (x + dx >= 0 && y + dy >= 0 && x + dx < v.width && y + dy < v.height)
+        exchanged += v.at(x, y) > 0.5f ? v.at(x + dx, y + dy) < 0.5f : v.at(x + dx, y + dy) > 0.5f;
+    return static_cast<double>(exchanged) / count;
+  };
+  double best = 0;
+  const auto each_shift = [&](const auto& visit) {
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (int dx = -reach; dx <= reach; ++dx)
+        if (dx != 0 || dy != 0) visit(dx, dy, explained(dx, dy));
+  };
+  each_shift([&](int, int, double share) { best = std::max(best, share); });
+  // The shortest of those that explain nearly as much: behind an edge all is dark, however far.
+  int shortest = 4 * reach * reach;
+  each_shift([&](int dx, int dy, double share) {
+    if (share < 0.95 * best || dx * dx + dy * dy >= shortest) return;
+    shortest = dx * dx + dy * dy;
+    found.x = dx, found.y = dy, found.explained = share;
+  });
+  found.opposite = explained(-found.x, -found.y);
+  return found;
+}
+
+}  // namespace
+
+Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
+  constexpr const char* instead = "write each pixel's own sample, in a format without loss";
+  if (const Blocks blocks = blocks_of(e); blocks.are_of_jpeg())
+    return failed(
+        fmt::format("values that are a little off lie in {} blocks of 8 x 8 pixels that begin in the picture's "
+                    "corner, and in {} of any that begin elsewhere: the picture was a JPEG; {}",
+                    blocks.own, blocks.elsewhere, instead));
+  for (const bool along_rows : {true, false})
+    if (const Steps steps = steps_of(e.frame.visibility, along_rows); steps.are_of_resizing())
+      return failed(fmt::format(
+          "along {} every second step from pixel to pixel is the mean of its neighbours ({} of {}, "
+          "and {} of {}): the picture had half the size and was enlarged; {}",
+          along_rows ? "rows" : "columns", steps.mean[0], steps.count[0], steps.mean[1], steps.count[1], instead));
+  if (const Ghost ghost = ghost_of(e); ghost.is_seen())
+    return failed(fmt::format(
+        "{} values are off 0 and 1 by {:.3f}, and {:.0f}% of them lie where the picture moved by "
+        "({:+d}, {:+d}) pixels (x to the right, y down) has light and shadow exchanged, {:.0f}% the "
+        "other way: another frame was mixed in, as by temporal antialiasing; {}",
+        ghost.pixels, ghost.part, 100 * ghost.explained, -ghost.x, -ghost.y, 100 * ghost.opposite, instead));
+  constexpr double mixed = 0.05;
+  const OutlineAlignment::Side outlines = outline_alignment(e.frame, e.receivers, e.truth, e.pixel_m).all();
+  const bool told = outlines.lit_inside >= OutlineAlignment::enough && outlines.dark_inside >= OutlineAlignment::enough;
+  const std::string at_outlines = fmt::format(
+      "at the outlines of surfaces, lit pixels are {:.3f} darker and shadowed ones {:.3f} lighter than their own "
+      "surface {} pixels further",
+      outlines.lit_pull, outlines.dark_pull, OutlineAlignment::inside_px);
+  if (told && outlines.lit_pull > mixed && outlines.dark_pull > mixed)
+    return failed(fmt::format("{}: values of several pixels were mixed, by multisampling, resizing or a blur; {}",
+                              at_outlines, instead));
+  size_t deep = 0, between = 0;
+  for (size_t i = 0; i < s.deep.size(); ++i) {
+    deep += s.deep[i] != 0;
+    between += s.deep[i] != 0 && e.frame.visibility[i] > 0.02f && e.frame.visibility[i] < 0.98f;
+  }
+  std::string says = "no trace of a JPEG, of half the size, or of another frame";
+  if (100 * between > deep)
+    says += fmt::format(
+        "; {:.1f}% of the values far from true edges lie between 0 and 1: acne, a filtered map that leaks, "
+        "or a blur",
+        100 * static_cast<double>(between) / static_cast<double>(deep));
+  if (told) return passed(fmt::format("{}; {}", says, at_outlines));
+  return not_checked(
+      fmt::format("{}; a blur or multisampling cannot be seen: {} lit and {} shadowed pixels lie at "
+                  "outlines that tell it, and {} are needed",
+                  says, outlines.lit_inside, outlines.dark_inside, OutlineAlignment::enough));
+}
+
+}  // namespace noonmark

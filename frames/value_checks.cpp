@@ -1,0 +1,242 @@
+// The checks of the frame's values: whether they are visibility, and whether they are the pixels' own.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+#include "frames/check_outcome.h"
+#include "frames/value_curve.h"
+
+namespace noonmark {
+namespace {
+
+// Empty if the picture has enough pixels deep in true light and in true shadow.
+std::string too_few(size_t lit, size_t dark) {
+  if (lit >= enough && dark >= enough) return "";
+  return fmt::format("{} pixels are deep in true {}, and {} are needed", std::min(lit, dark),
+                     lit < dark ? "light" : "shadow", enough);
+}
+
+std::string deep_text(const FrameStatistics& s) {
+  return fmt::format("deep in true shadow the median is {:.3f}, deep in true light {:.3f}", s.deep_dark.median,
+                     s.deep_lit.median);
+}
+
+// What one mistake makes of the values is one failure: the checks below it are not made.
+bool is_inverted(const FrameStatistics& s) {
+  return s.deep_dark.count >= enough && s.deep_lit.count >= enough && s.deep_dark.median > 0.5 &&
+         s.deep_lit.median < 0.5;
+}
+constexpr const char* because_inverted = "light and shadow are exchanged";
+
+// Hardly a pixel that the light reaches has the value 1.
+bool is_darkened(const FrameStatistics& s) {
+  return s.deep_lit.count >= enough && s.deep_lit.high < 0.995 && s.deep_lit.median < 0.95;
+}
+// Rounding to 8 bits leaves 0.0011, and of a filter over acne a tap of a hundred that is lit here and not there 0.005.
+constexpr double most_even = 0.002;
+// Of frames of engines times N.L, whose vertices have normals of their own, N.L explains 0.9 and more; of acne at most a half.
+constexpr double mostly_explained = 0.9;
+bool is_shaded(const FrameStatistics& s) {
+  return is_darkened(s) && s.shading.count >= enough &&
+         (s.shading.residual <= most_even || s.shading.explained >= mostly_explained);
+}
+
+// Values that are the same at every distance of the occluder: an exponential map would leak by e^(-c d), which differs by 0.01
+// and more where one distance is 1.25 times another.
+constexpr double one_value = 0.01, distances_apart = 1.25;
+struct Evenness {
+  size_t told = 0, even = 0;
+};
+struct Span {
+  size_t count = 0;
+  double least = 1, most = 0, nearest = INFINITY, farthest = 0;
+  void add(double value, double distance) {
+    ++count;
+    least = std::min(least, value), most = std::max(most, value);
+    nearest = std::min(nearest, distance), farthest = std::max(farthest, distance);
+  }
+};
+// Of the pixels deep in true shadow, those of triangles on which occluders of several distances cast it, and those of them
+// where the triangle has one value all the same.
+Evenness evenness_in_shadow(const CheckEvidence& e, const FrameStatistics& s, bool whole) {
+  constexpr size_t least = 32;
+  Image<uint8_t> mask(s.deep.width, s.deep.height, 0);
+  for (size_t i = 0; i < mask.size(); ++i) mask[i] = s.deep[i] == 1;
+  const Image<float> distance = e.tracer.occluder_distance(e.receivers, e.light, mask);
+  std::unordered_map<uint32_t, Span> spans;
+  for (size_t i = 0; i < mask.size(); ++i)
+    if (mask[i] && std::isfinite(distance[i]))
+      spans[whole ? 0 : e.receivers.primitive[i]].add(e.frame.visibility[i], distance[i]);
+  Evenness found;
+  for (const auto& [primitive, span] : spans) {
+    if (span.count < least || span.farthest < distances_apart * span.nearest) continue;
+    found.told += span.count;
+    if (span.most - span.least <= one_value) found.even += span.count;
+  }
+  return found;
+}
+
+}  // namespace
+
+Outcome check_values(const CheckEvidence& e, const FrameStatistics&) {
+  size_t outside = 0;
+  int x = 0, y = 0;
+  float value = 0;
+  const Image<float>& v = e.frame.visibility;
+  size_t shown = 0;
+  for (size_t i = 0; i < v.size(); ++i) {
+    shown += !std::isnan(v[i]);
+    if (std::isnan(v[i]) || (v[i] >= 0 && v[i] <= 1)) continue;
+    if (outside++ == 0) {
+      const auto width = static_cast<size_t>(v.width);
+      x = static_cast<int>(i % width), y = static_cast<int>(i / width), value = v[i];
+    }
+  }
+  if (shown == 0)
+    return failed(
+        "no pixel has a visibility: every one is -1, NaN or has alpha 0; write 1 where light reaches and 0 in shadow",
+        "no pixel has a visibility");
+  if (outside == 0) return passed("every value is in [0,1] or says that there is no surface");
+  if (value < 0 && value > -1)
+    return failed(
+        fmt::format("{} values are outside [0,1]; the first is {:g} at x = {}, y = {}: -1 (no surface) was mixed with "
+                    "a visibility, as "
+                    "by multisampling that was resolved, or by scaling; write one sample at each pixel's centre",
+                    outside, value, x, y));
+  return failed(
+      fmt::format("{} values are outside [0,1]; the first is {:g} at x = {}, y = {}; write visibility, from 0 "
+                  "(shadowed) to 1 (lit), and -1 or NaN where there is no surface",
+                  outside, value, x, y));
+}
+
+Outcome check_inverted(const CheckEvidence&, const FrameStatistics& s) {
+  if (const std::string why = too_few(s.deep_lit.count, s.deep_dark.count); !why.empty()) return not_checked(why);
+  if (is_inverted(s))
+    return failed(fmt::format("{}: light and shadow are exchanged; write 1 where the light reaches", deep_text(s)));
+  return passed(deep_text(s));
+}
+
+Outcome check_shaded(const CheckEvidence&, const FrameStatistics& s) {
+  if (const std::string why = too_few(s.deep_lit.count, enough); !why.empty()) return not_checked(why);
+  if (is_inverted(s)) return not_checked(because_inverted);
+  if (!is_darkened(s))
+    return passed(fmt::format("deep in true light 5% of the pixels are at {:.3f} or more", s.deep_lit.high));
+  const std::string found =
+      fmt::format("deep in true light hardly a pixel reaches 1 (95% are below {:.3f}, the median is {:.3f})",
+                  s.deep_lit.high, s.deep_lit.median);
+  if (s.shading.count < enough)
+    return not_checked(found + ", and no part of the scene has enough of them to tell shading from acne");
+  const std::string fit = fmt::format("N.L explains {:.1f}% of their variance and leaves {:.3g}",
+                                      100 * s.shading.explained, s.shading.residual);
+  if (is_shaded(s))
+    return failed(
+        fmt::format("{}, and {}: this is a shaded frame or one with ambient light, not the visibility of the "
+                    "light",
+                    found, fit));
+  return not_checked(
+      fmt::format("{}, but {}: it is acne, or shading with textures, and the values alone do not tell "
+                  "which",
+                  found, fit));
+}
+
+Outcome check_intensity(const CheckEvidence& e, const FrameStatistics& s) {
+  if (const std::string why = too_few(enough, s.deep_dark.count); !why.empty()) return not_checked(why);
+  if (is_inverted(s)) return not_checked(because_inverted);
+  if (is_shaded(s)) return not_checked("the frame is shaded");
+  if (s.deep_dark.low <= 0.02 || s.deep_dark.median >= 0.95)
+    return passed(fmt::format("deep in true shadow 5% of the pixels are at {:.3f} or less", s.deep_dark.low));
+  const std::string found =
+      fmt::format("deep in true shadow hardly a pixel is 0 (95% are above {:.3f}, the median is {:.3f})",
+                  s.deep_dark.low, s.deep_dark.median);
+  const bool is_one = s.deep_dark.high - s.deep_dark.low <= one_value;
+  const Evenness here = evenness_in_shadow(e, s, is_one);
+  // Ambient light has a value of its own on each surface, an intensity one on all.
+  if (here.told >= enough && (is_one || here.even * 10 >= here.told * 9))
+    return failed(
+        fmt::format("{}, and it is the same at every distance of the occluder: the shadow's intensity is below "
+                    "1, or light was added; write the visibility alone",
+                    found));
+  if (here.told < enough)
+    return not_checked(
+        found +
+        ": the shadow's intensity is below 1, or light was added, or a filtered map leaks; all occluders "
+        "are at one distance, so this cannot tell which");
+  return not_checked(found + ", and it differs by place: a filtered map leaks so; an intensity below 1 is one value");
+}
+
+// What faces away from the declared light cannot be lit by it. If most of the picture does and is lit, the light's direction or
+// the side that the camera looks at is turned round.
+Outcome check_match(const CheckEvidence& e, const FrameStatistics& s) {
+  size_t surfaces = 0, away = 0, away_lit = 0;
+  for (size_t i = 0; i < e.seen.size(); ++i) {
+    const float value = e.frame.visibility[i];
+    if (e.seen[i] == no_primitive || std::isnan(value)) continue;
+    ++surfaces;
+    away += !e.truth.facing[i];
+    away_lit += !e.truth.facing[i] && value > 0.98f;
+  }
+  if (2 * away > surfaces && 10 * away_lit > 9 * away)
+    return failed(
+        fmt::format("{} of {} surfaces face away from the declared light, and the frame lights {} of them: the light's "
+                    "direction is "
+                    "turned round, or the camera's 'reversed' is wrong",
+                    away, surfaces, away_lit));
+  if (const std::string why = too_few(s.deep_lit.count, s.deep_dark.count); !why.empty()) return not_checked(why);
+  if (is_inverted(s)) return not_checked(because_inverted);
+  if (s.deep_dark.median < 0.95 || s.deep_lit.median <= 0.5) return passed(deep_text(s));
+  // A bias or a format that loses shadows makes none elsewhere. Acne darkens, but leaves no such region whole.
+  if (s.shadow_elsewhere >= enough && 10 * s.shadow_elsewhere >= s.deep_dark.count)
+    return failed(
+        fmt::format("{}: most of the true shadow is lit, and {} pixels deep in true light lie inside shadows of the "
+                    "frame: the light or the scene is another one",
+                    deep_text(s), s.shadow_elsewhere));
+  return not_checked(
+      fmt::format("{}: most of the true shadow is lit, and the frame has no shadow elsewhere ({} pixels): "
+                  "the renderer has lost its shadows, or draws none",
+                  deep_text(s), s.shadow_elsewhere));
+}
+
+Outcome check_encoding(const CheckEvidence& e, const FrameStatistics&) {
+  const CurveEvidence found = curve_evidence(e);
+  const auto of_curve = [&](const ValueCurve* curve) { return static_cast<size_t>(curve - value_curves.data()); };
+  const auto wrong = [](const ValueCurve& curve) {
+    return fmt::format("the values are encoded with {}; write them linear, or declare the encoding", curve.name);
+  };
+  if (const ValueCurve* const curve = found.by_levels()) {
+    const int taps = found.fits[of_curve(curve)].taps;
+    if (curve == value_curves.data())
+      return passed(
+          fmt::format("{} values that many pixels share are k / {}, as of a filter's taps", found.levels.size(), taps));
+    return failed(fmt::format("{} values that many pixels share are no k / n, and decoded with {} they are k / {}: {}",
+                              found.levels.size(), curve->name, taps, wrong(*curve)));
+  }
+  const auto ramps = [&](size_t curve) {
+    return fmt::format("{:.0f}% of {} ramps of a blend are straight as they are, and {:.0f}% decoded with {}",
+                       100 * found.straight[0], found.ramps, 100 * found.straight[curve], value_curves[curve].name);
+  };
+  if (const ValueCurve* const curve = found.by_ramps()) {
+    if (curve == value_curves.data()) return passed(ramps(1));
+    return failed(fmt::format("{}: {}", ramps(of_curve(curve)), wrong(*curve)));
+  }
+  return not_checked(
+      fmt::format("{} values are shared by many pixels, and {} ramps tell straight from curved: too little "
+                  "to tell linear values from encoded ones",
+                  found.levels.size(), found.ramps));
+}
+
+Outcome check_levels(const CheckEvidence& e, const FrameStatistics&) {
+  std::set<float> different;
+  for (const float value : e.frame.visibility.pixels)
+    if (!std::isnan(value)) {
+      different.insert(value);
+      if (different.size() > 256) return passed("more than 256 different values");
+    }
+  return passed(fmt::format("{} different values{}", different.size(),
+                            different.size() > 16 ? ": with 8 bits a value is known to 0.002" : ""));
+}
+
+}  // namespace noonmark

@@ -1,0 +1,111 @@
+// What was done to the picture after the lookup is named, and no shadow is taken for it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "tests/frames/wrong_delivery.h"
+
+namespace noonmark::test {
+namespace {
+
+// As shown: where there is no surface, the sky's 1; afterwards again none.
+Image<float> processed(const Image<float>& v, const std::function<Image<float>(const Image<float>&)>& f) {
+  Image<float> whole = v;
+  for (float& value : whole.pixels) value = std::isnan(value) ? 1 : value;
+  Image<float> result = f(whole);
+  for (size_t i = 0; i < v.size(); ++i)
+    if (std::isnan(v[i])) result[i] = v[i];
+  return result;
+}
+
+// The steps of JPEG that lose something: each block's cosines are rounded, and then the values.
+Image<float> through_jpeg(const Image<float>& v) {
+  constexpr int side = 8;
+  constexpr double step = 24 / 255.0;  // of a middle frequency at quality 75
+  const auto cosine = [](int k, int x) {
+    return (k == 0 ? std::sqrt(0.125) : 0.5) * std::cos((2 * x + 1) * k * 3.14159265358979 / 16);
+  };
+  Image<float> result = v;
+  for (int top = 0; top + side <= v.height; top += side)
+    for (int left = 0; left + side <= v.width; left += side) {
+      std::array<std::array<double, side>, side> rounded{};
+      for (int k = 0; k < side; ++k)
+        for (int l = 0; l < side; ++l) {
+          double sum = 0;
+          for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) sum += cosine(k, y) * cosine(l, x) * v.at(left + x, top + y);
+          rounded[k][l] = k + l == 0 ? sum : step * std::round(sum / step);
+        }
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+          double sum = 0;
+          for (int k = 0; k < side; ++k)
+            for (int l = 0; l < side; ++l) sum += cosine(k, y) * cosine(l, x) * rounded[k][l];
+          result.at(left + x, top + y) = static_cast<float>(std::round(std::clamp(sum, 0.0, 1.0) * 255) / 255);
+        }
+    }
+  return result;
+}
+
+TEST(Samples, AJpegIsNamed) { expect_named(with(processed(good().frame.visibility, through_jpeg)), "samples", "JPEG"); }
+
+// The means of 2 x 2 pixels, and between them linearly.
+Image<float> half_size_and_back(const Image<float>& v) {
+  Image<float> small(v.width / 2, v.height / 2, 0), result = v;
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x)
+      small.at(x, y) =
+          (v.at(2 * x, 2 * y) + v.at(2 * x + 1, 2 * y) + v.at(2 * x, 2 * y + 1) + v.at(2 * x + 1, 2 * y + 1)) / 4;
+  for (int y = 0; y < v.height; ++y)
+    for (int x = 0; x < v.width; ++x) {
+      const float a = static_cast<float>(x) / 2 - 0.25f, b = static_cast<float>(y) / 2 - 0.25f;
+      const auto at = [&](float column, float row) {
+        return small.at(std::clamp(static_cast<int>(column), 0, small.width - 1),
+                        std::clamp(static_cast<int>(row), 0, small.height - 1));
+      };
+      const float c = std::floor(a), r = std::floor(b), s = a - c, t = b - r;
+      result.at(x, y) =
+          (1 - t) * ((1 - s) * at(c, r) + s * at(c + 1, r)) + t * ((1 - s) * at(c, r + 1) + s * at(c + 1, r + 1));
+    }
+  return result;
+}
+
+TEST(Samples, HalfTheSizeAndBackIsNamed) {
+  expect_named(with(processed(good().frame.visibility, half_size_and_back)), "samples", "half the size");
+}
+
+TEST(Samples, AnotherFrameMixedInIsNamed) {
+  const auto ghost = [](const Image<float>& v) {
+    Image<float> result = v;
+    for (int y = 0; y < v.height; ++y)
+      for (int x = 0; x < v.width; ++x) result.at(x, y) = 0.9f * v.at(x, y) + 0.1f * v.at(std::max(0, x - 6), y);
+    return result;
+  };
+  expect_named(with(processed(good().frame.visibility, ghost)), "samples", "another frame was mixed in");
+}
+
+// A bias that moves edges by some pixels puts a filter's values on one side of the true edge alone, and texels make blocks.
+TEST(Samples, ShadowsOfEveryKindPass) {
+  for (const int blur : {0, 1, 3}) {
+    const Delivered from = good_frame("cube-room", width, height, blur);
+    GivenFrame moved = from.frame, blocks = from.frame;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        if (std::isnan(from.frame.visibility.at(x, y))) continue;
+        if (x + 5 < width && !std::isnan(from.frame.visibility.at(x + 5, y)))
+          moved.visibility.at(x, y) = from.frame.visibility.at(x + 5, y);
+        if ((x / 13 + y / 13) % 2 == 0) blocks.visibility.at(x, y) *= 0.9f;
+      }
+    for (const GivenFrame& frame : {from.frame, moved, blocks}) {
+      const CheckResult found = check_named(judge_frame(*from.scene, *from.tracer, frame, {}), "samples");
+      EXPECT_NE(found.state, CheckState::failed) << blur << ": " << found.says;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace noonmark::test

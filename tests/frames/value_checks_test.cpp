@@ -1,0 +1,163 @@
+// What a shadow's own error does to the values is no wrong delivery, and what a delivery does to them is named by evidence that no
+// shadow makes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "frames/value_curve.h"
+#include "tests/frames/wrong_delivery.h"
+
+namespace noonmark::test {
+namespace {
+
+FrameVerdict verdict_of(const Delivered& from, const Image<float>& visibility) {
+  GivenFrame frame = from.frame;
+  frame.visibility = visibility;
+  return judge_frame(*from.scene, *from.tracer, frame, {});
+}
+
+float srgb(float v) {
+  return v <= 0.0031308f ? 12.92f * v : 1.055f * static_cast<float>(std::pow(v, 1 / 2.4)) - 0.055f;
+}
+float gamma_22(float v) { return static_cast<float>(std::pow(v, 1 / 2.2)); }
+float as_8_bits(float v) { return std::round(v * 255) / 255; }
+
+// ---- encoding
+
+TEST(Encoding, TheLevelsOfAFilterTellIt) {  // of 9 taps
+  EXPECT_EQ(check_named(good().judged(), "encoding").state, CheckState::passed);
+  for (const auto& curve : {srgb, gamma_22})
+    expect_named(with(each_value(good().frame.visibility, curve)), "encoding",
+                 curve == srgb ? "sRGB" : "a gamma of 2.2");
+  expect_named(with(each_value(good().frame.visibility, [](float v) { return as_8_bits(srgb(v)); })), "encoding",
+               "encoded with");
+}
+
+// A lookup that lights the middle of its edges: as bright as sRGB, but no curve makes it.
+TEST(Encoding, AnAsymmetricEdgeIsNotSrgb) {
+  for (const float power : {0.6f, 0.8f, 1.5f}) {
+    const auto bent = [&](float v) { return static_cast<float>(std::pow(v, power)); };
+    const CheckResult found = check_named(verdict_of(good(), each_value(good().frame.visibility, bent)), "encoding");
+    EXPECT_EQ(found.state, CheckState::not_checked) << power << ": " << found.says;
+  }
+}
+
+// The blend of 2 x 2 texels that are lit or dark by chance: each is a shadow's error, and the ramps between them are straight.
+Image<float> blended_texels(const Delivered& from) {
+  constexpr double texel_m = 0.4;
+  const LightFrame light = from.judged().light;
+  const auto is_lit = [](double i, double j) {
+    return std::fmod(std::abs(std::sin(12.9898 * i + 78.233 * j)) * 43758.5453, 1.0) < 0.5;
+  };
+  Image<float> v = from.frame.visibility;
+  for (size_t i = 0; i < v.size(); ++i) {
+    if (std::isnan(v[i])) continue;
+    const glm::dvec3 p = light.to_light(from.receivers.position[i]);
+    const double x = p.x / texel_m, y = p.y / texel_m, a = x - std::floor(x), b = y - std::floor(y);
+    const auto at = [&](int dx, int dy) { return static_cast<double>(is_lit(std::floor(x) + dx, std::floor(y) + dy)); };
+    v[i] = static_cast<float>((1 - a) * (1 - b) * at(0, 0) + a * (1 - b) * at(1, 0) + (1 - a) * b * at(0, 1) +
+                              a * b * at(1, 1));
+  }
+  return v;
+}
+
+TEST(Encoding, TheRampsOfABlendTellIt) {
+  const Image<float> linear = blended_texels(good());
+  const auto encoding = [&](float (*curve)(float)) {
+    return check_named(verdict_of(good(), each_value(linear, curve)), "encoding");
+  };
+  const CheckResult as_it_is = encoding([](float v) { return v; });
+  EXPECT_EQ(as_it_is.state, CheckState::passed) << as_it_is.says;
+  EXPECT_NE(as_it_is.says.find("straight"), std::string::npos) << as_it_is.says;
+  for (const auto& curve : {srgb, gamma_22}) {
+    const CheckResult found = encoding(curve);
+    EXPECT_EQ(found.state, CheckState::failed) << found.says;
+    EXPECT_NE(found.says.find("encoded with"), std::string::npos) << found.says;
+  }
+}
+
+TEST(Encoding, WithoutAFilterNothingTellsIt) {
+  const Delivered hard = good_frame("cube-room", width, height, 0);
+  EXPECT_EQ(check_named(hard.judged(), "encoding").state, CheckState::not_checked);
+}
+
+TEST(Encoding, RoundingIsKnownByTheValues) {
+  Image<float> v(64, 1, 0);
+  const auto rounded = [&](const std::function<double(int)>& f) {
+    for (int x = 0; x < v.width; ++x) v.at(x, 0) = static_cast<float>(f(x));
+    return rounding_of(v);
+  };
+  EXPECT_EQ(rounded([](int x) { return (4 * x + 1) / 255.0; }), 0.5 / 255);
+  EXPECT_EQ(rounded([](int x) { return x / 64.0; }), 0x1p-12);
+  EXPECT_LT(rounded([](int x) { return (977 * x + 5) / 65535.0; }), 0x1p-12);
+  EXPECT_LT(rounded([](int x) { return x / 67.0; }), 0x1p-12);
+}
+
+// ---- shaded
+
+// Acne of texels that are many pixels wide, softened by a filter: no pixel reaches 1, and from pixel to pixel it is as smooth as
+// shading.
+TEST(Shaded, FilteredAcneOfCoarseTexelsIsNot) {
+  const LightFrame light = good().judged().light;
+  Image<float> v = good().frame.visibility;
+  for (size_t i = 0; i < v.size(); ++i) {
+    const glm::dvec3 p = light.to_light(good().receivers.position[i]);
+    if (good().truth.lit[i]) v[i] *= static_cast<float>(0.6 + 0.15 * std::sin(3 * p.x) + 0.15 * std::sin(4 * p.y));
+  }
+  const FrameVerdict verdict = verdict_of(good(), v);
+  const CheckResult& found = check_named(verdict, "shaded");
+  EXPECT_EQ(found.state, CheckState::not_checked) << found.says;
+  EXPECT_NE(found.says.find("acne"), std::string::npos) << found.says;
+  EXPECT_FALSE(verdict.refused());
+  EXPECT_GT(verdict.metrics.at("frame_acne"), 0.2);
+}
+
+TEST(Shaded, NLIsKnownUnderEveryLight) {
+  for (const char* scene : {"cube-room", "spot-room", "point-room"}) {
+    const Delivered from = good_frame(scene, width, height);
+    const LightFrame light = from.judged().light;
+    Image<float> v = from.frame.visibility;
+    for (size_t i = 0; i < v.size(); ++i) {
+      const glm::dvec3 p = from.receivers.position[i], n = from.receivers.normal[i];
+      v[i] *= static_cast<float>(0.9 * std::max(0.0, glm::dot(n, light.direction_to_light(p))));
+    }
+    const CheckResult found = check_named(verdict_of(from, v), "shaded");
+    EXPECT_EQ(found.state, CheckState::failed) << scene << ": " << found.says;
+  }
+}
+
+// ---- intensity
+
+// Where the truth is dark: what is left of the light at this distance of the occluder.
+Image<float> leaking(const Delivered& from, const std::function<double(double)>& left) {
+  const FrameVerdict verdict = from.judged();
+  Image<uint8_t> dark(from.frame.visibility.width, from.frame.visibility.height, 0);
+  for (size_t i = 0; i < dark.size(); ++i) dark[i] = verdict.counted[i] && !verdict.truth.lit[i];
+  const Image<float> distance = from.tracer->occluder_distance(verdict.receivers, verdict.light, dark);
+  Image<float> v = from.frame.visibility;
+  for (size_t i = 0; i < v.size(); ++i)
+    if (dark[i]) v[i] = static_cast<float>(left(distance[i]));
+  return v;
+}
+
+TEST(Intensity, ALeakThatDependsOnTheOccluderIsNone) {
+  const FrameVerdict verdict = verdict_of(good(), leaking(good(), [](double d) { return 0.95 * std::exp(-0.3 * d); }));
+  const CheckResult& found = check_named(verdict, "intensity");
+  EXPECT_EQ(found.state, CheckState::not_checked) << found.says;
+  EXPECT_NE(found.says.find("differs by place"), std::string::npos) << found.says;
+  EXPECT_FALSE(verdict.refused());
+  const CheckResult one = check_named(verdict_of(good(), leaking(good(), [](double) { return 0.5; })), "intensity");
+  EXPECT_EQ(one.state, CheckState::failed) << one.says;
+}
+
+// Below a plate that is parallel to its floor, an exponential map leaks by one value.
+TEST(Intensity, OneDistanceTellsNothing) {
+  const Delivered plate = good_frame("plate", width, height);
+  const CheckResult found =
+      check_named(verdict_of(plate, leaking(plate, [](double d) { return std::exp(-0.3 * d); })), "intensity");
+  EXPECT_NE(found.state, CheckState::failed) << found.says;
+}
+
+}  // namespace
+}  // namespace noonmark::test
