@@ -54,6 +54,7 @@ void CheckedFolder::write(const std::vector<UnreadableFolder>& unreadable, bool 
   MadeFiles(folder_).add(pages);
   write_file_atomically(path_, index_page(entries_, std::string(build_facts().version)));
   if (whole) atlas_words_ = atlas_.write();
+  MadeFiles(folder_).forget_absent(pages);
 }
 
 void CheckedFolder::print() const {

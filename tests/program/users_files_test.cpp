@@ -1,6 +1,7 @@
 // Files of a user are neither removed nor replaced, whatever folder --out names: only what Noonmark's own list of a folder names.
 #include <signal.h>
 
+#include <algorithm>
 #include <map>
 
 #include "app/sweep/verb_outputs.h"
@@ -87,7 +88,7 @@ TEST_F(UsersFiles, ThatANewFileWouldReplaceStay) {
   for (const Words& words :
        {Words{"live", "plate", "--out", "mine.html"}, Words{"export", "plate", "--out", "mine.glb"},
         Words{"init", "plate.glb", "--out", "mine.toml"},
-        Words{"section", "x.toml", "--pixel", "3,3", "--out", "mine.svg"}}) {
+        Words{"section", "x.toml", "--pixel", "24,13", "--out", "mine.svg"}}) {
     SCOPED_TRACE(words[0]);
     const std::string file = words.back();
     write(file, "mine");
@@ -106,6 +107,9 @@ TEST_F(UsersFiles, BesideARecommendationStay) {
   const Words words = Words{"recommend", "plate", "--out", "out"} + small + quick;
   ASSERT_EQ(run(words), 0) << output_;
   const auto first = contents("out");
+  const std::vector<std::string> own = outputs_of("recommend", "plate", "out").all();
+  for (const auto& [name, bytes] : first)
+    EXPECT_TRUE(name == ".noonmark-files" || std::find(own.begin(), own.end(), name) != own.end()) << name;
   for (const char* name : {"recommended.bak", "recommended-notes.txt", "recommended-old/notes.txt", "engines.txt.bak"})
     put(std::string("out/") + name);
   ASSERT_EQ(run(words), 0) << "what Noonmark made is replaced: " << output_;
