@@ -98,18 +98,25 @@ void flush_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-// An open file, closed at the end.
+// A regular file, open until the end. shown: its name in messages. Without O_NONBLOCK, to open a pipe would wait for its
+// writer.
 class Opened {
  public:
-  Opened(int descriptor, const std::string& path) : descriptor_(descriptor), path_(path) {}
+  Opened(const std::string& path, const std::string& shown, int flags = 0)
+      : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | flags)), shown_(shown) {
+    if (descriptor_ < 0) fail(shown, "cannot be read", errno, "check the path");
+    struct stat status {};
+    const bool regular = ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+    size_ = static_cast<uint64_t>(status.st_size);
+    if (regular) return;
+    ::close(descriptor_);
+    throw Error(ErrorKind::file, fmt::format("{}: is not a regular file but a {}; give the path of a file", shown,
+                                             S_ISDIR(status.st_mode) ? "folder" : "pipe or a device"));
+  }
   ~Opened() { ::close(descriptor_); }
   Opened(const Opened&) = delete;
   Opened& operator=(const Opened&) = delete;
 
-  bool is_regular() const {
-    struct stat status {};
-    return ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
-  }
   // Calls take(bytes) for all that is in it, block by block.
   template <class Take>
   void read(const Take& take) const {
@@ -117,26 +124,33 @@ class Opened {
     for (;;) {
       const ssize_t count = ::read(descriptor_, block, sizeof block);
       if (count < 0 && errno == EINTR) continue;
-      if (count < 0) fail(path_, "cannot be read", errno, "check the path");
+      if (count < 0) fail(shown_, "cannot be read", errno, "check the path");
       if (count == 0) return;
       take(std::string_view(block, static_cast<size_t>(count)));
     }
   }
+  // The size alone does not say how much there is: files of the system (/proc) have none, and a file can grow.
   std::string all(uint64_t most_bytes) const {
+    const auto require = [&](uint64_t bytes) {
+      if (bytes > most_bytes)
+        throw Error(ErrorKind::file, fmt::format("{}: holds more than {} bytes, which no file of its kind does; check "
+                                                 "the path",
+                                                 shown_, most_bytes));
+    };
+    require(size_);
     std::string bytes;
+    bytes.reserve(size_);
     read([&](std::string_view block) {
+      require(bytes.size() + block.size());
       bytes += block;
-      if (bytes.size() > most_bytes)
-        throw Error(ErrorKind::file,
-                    fmt::format("{}: holds more than {} bytes, which no file of its kind does; check the path", path_,
-                                most_bytes));
     });
     return bytes;
   }
 
  private:
   int descriptor_;
-  std::string path_;
+  std::string shown_;
+  uint64_t size_ = 0;
 };
 
 // A regular file below the folder, links resolved.
@@ -153,11 +167,7 @@ std::unique_ptr<Opened> open_below(const std::string& folder, const std::string&
   if (error) fail(path, "cannot be read", error.value(), "check the path");
   if (std::mismatch(home.begin(), home.end(), target.begin(), target.end()).first != home.end())
     refuse("leads out of the folder");
-  const int descriptor = ::open(target.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  if (descriptor < 0) fail(path, "cannot be read", errno, "check the path");
-  auto opened = std::make_unique<Opened>(descriptor, path);
-  if (!opened->is_regular()) refuse("is not a regular file");
-  return opened;
+  return std::make_unique<Opened>(target.string(), path, O_NOFOLLOW);
 }
 
 }  // namespace
@@ -229,6 +239,14 @@ void make_folder(const std::string& path) {
   if (!fs::is_directory(path, error)) cannot(error ? error : std::make_error_code(std::errc::not_a_directory));
 }
 
+void make_folder_in(const std::string& folder, const std::string& name) {
+  const std::string path = folder + "/" + name;
+  if (::mkdir(path.c_str(), 0777) == 0) return flush_folder(folder);
+  const int error = errno;
+  std::error_code none;
+  if (!fs::is_directory(path, none)) fail(path, "cannot be made", error, "check that its folder is there");
+}
+
 void clear_abandoned_files(const std::string& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
@@ -245,11 +263,7 @@ void clear_abandoned_files(const std::string& folder) {
   }
 }
 
-std::string read_file(const std::string& path, uint64_t most_bytes) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail(path, "cannot be read", errno, "check the path");
-  return Opened(descriptor, path).all(most_bytes);
-}
+std::string read_file(const std::string& path, uint64_t most_bytes) { return Opened(path, path).all(most_bytes); }
 
 std::string read_file_below(const std::string& folder, const std::string& name, uint64_t most_bytes) {
   return open_below(folder, name)->all(most_bytes);

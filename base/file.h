@@ -43,17 +43,21 @@ class AtomicFile {
 // Error(file) if the folder is not there afterwards.
 void make_folder(const std::string& path);
 
+// Makes one folder in a folder that is there. Throws Error(file), also if that one has gone: then files would be written where nobody
+// looks for them.
+void make_folder_in(const std::string& folder, const std::string& name);
+
 // Removes the temporary files that write_file_atomically left in this folder (not below it) when its program was
 // killed: files with such a name on which nobody holds a lock. A missing folder is no error. On a file system without
 // locks nothing is removed.
 void clear_abandoned_files(const std::string& folder);
 
-// Throws Error(file) when there is no such file, it cannot be read, or it holds more than most_bytes (a device may
-// hold any number).
+// Reads a regular file. Throws Error(file) when there is no such file, it cannot be read, it holds more than most_bytes, or it is
+// a pipe, a device or a folder: reading those might never end.
 std::string read_file(const std::string& path, uint64_t most_bytes = std::numeric_limits<uint64_t>::max());
 
-// Reads a regular file below the folder; links are resolved. Throws Error(file) as above, and also for a name that
-// leads out of the folder (absolute, "..", a link) or to a pipe or a device, because reading those might never end.
+// The same of a file below the folder; links are resolved. Throws Error(file) also for a name that leads out of the folder
+// (absolute, "..", a link).
 std::string read_file_below(const std::string& folder, const std::string& name, uint64_t most_bytes);
 
 // digest_of (base/digest.h) the bytes that read_file_below would read, for a file of any size.

@@ -41,7 +41,10 @@ bool has_surface(const DecodedImage& image, size_t pixel) {
 }
 
 Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
-  const DecodedImage image = read_image(path);
+  const DecodedImage image = read_image(path, [&](const DecodedImage& head) {
+    require_grey_channels(head);
+    require_frame_memory(path, head.width, head.height);
+  });
   Image<float> visibility(image.width, image.height);
   visibility.pixels = grey_values(image);
   for (size_t i = 0; i < visibility.size(); ++i) {
@@ -54,26 +57,39 @@ Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
   return visibility;
 }
 
+// Positions and depths have the pixels of the visibility.
+void require_size(const DecodedImage& image, const Image<float>& visibility) {
+  if (image.width != visibility.width || image.height != visibility.height)
+    refuse_picture(image.path, fmt::format("has {} x {} pixels, but the visibility has {} x {}; write both in one size",
+                                           image.width, image.height, visibility.width, visibility.height));
+}
+
 // What the channels beside alpha hold, in the renderer's coordinates. Alpha says where there is a surface.
-Image<glm::dvec3> read_positions(const std::string& path) {
-  const DecodedImage image = read_image(path);
+Image<glm::dvec3> read_positions(const std::string& path, const Image<float>& visibility) {
   std::vector<size_t> axes;
-  for (size_t c = 0; c < image.channels.size(); ++c)
-    if (c != image.alpha) axes.push_back(c);
-  if (axes.size() != 3)
-    refuse_picture(
-        path, fmt::format("has {} channels; write world positions as three channels (x, y, z)", image.channels.size()));
-  if (image.stored_as == StoredAs::uint8 || image.stored_as == StoredAs::uint16)
-    refuse_picture(path, "has whole numbers; write world positions as 32-bit floats");
+  const DecodedImage image = read_image(path, [&](const DecodedImage& head) {
+    for (size_t c = 0; c < head.channels.size(); ++c)
+      if (c != head.alpha) axes.push_back(c);
+    if (axes.size() != 3)
+      refuse_picture(path, fmt::format("has {} channels; write world positions as three channels (x, y, z)",
+                                       head.channels.size()));
+    if (head.stored_as == StoredAs::uint8 || head.stored_as == StoredAs::uint16)
+      refuse_picture(path, "has whole numbers; write world positions as 32-bit floats");
+    require_size(head, visibility);
+  });
   Image<glm::dvec3> positions(image.width, image.height, glm::dvec3(none));
   for (size_t i = 0; i < positions.size(); ++i)
     if (has_surface(image, i)) positions[i] = {image.at(i, axes[0]), image.at(i, axes[1]), image.at(i, axes[2])};
   return positions;
 }
 
-Image<glm::dvec3> positions_of_depths(const FrameFile& file, const std::string& path, const ViewMatrix& view) {
-  const DecodedImage image = read_image(path);
-  if (image.stored_as != StoredAs::float32) refuse_picture(path, "write depths as 32-bit floats");
+Image<glm::dvec3> positions_of_depths(const FrameFile& file, const std::string& path, const ViewMatrix& view,
+                                      const Image<float>& visibility) {
+  const DecodedImage image = read_image(path, [&](const DecodedImage& head) {
+    if (head.stored_as != StoredAs::float32) refuse_picture(path, "write depths as 32-bit floats");
+    require_grey_channels(head);
+    require_size(head, visibility);
+  });
   const std::vector<float> depths = grey_values(image);
   Image<glm::dvec3> positions(image.width, image.height, glm::dvec3(none));
   const glm::dmat4& m = view.clip_from_world();
@@ -105,18 +121,14 @@ bool has_nan(const Image<float>& values) {
   return false;
 }
 
-void require_size(const Image<glm::dvec3>& positions, const Image<float>& visibility, const std::string& path) {
-  if (positions.width != visibility.width || positions.height != visibility.height)
-    refuse_picture(path, fmt::format("has {} x {} pixels, but the visibility has {} x {}; write both in one size",
-                                     positions.width, positions.height, visibility.width, visibility.height));
-}
-
 GivenMap read_map(const FrameFile& file) {
   const std::string path = path_in(file, file.map->file);
-  const DecodedImage image = read_image(path);
-  if (image.stored_as != StoredAs::float32) refuse_picture(path, "write the map's depths as 32-bit floats");
-  if (image.width != image.height)
-    refuse_picture(path, fmt::format("has {} x {} texels; only square maps are read", image.width, image.height));
+  const DecodedImage image = read_image(path, [&](const DecodedImage& head) {
+    if (head.stored_as != StoredAs::float32) refuse_picture(path, "write the map's depths as 32-bit floats");
+    if (head.width != head.height)
+      refuse_picture(path, fmt::format("has {} x {} texels; only square maps are read", head.width, head.height));
+    require_grey_channels(head);
+  });
   const std::vector<float> depths = grey_values(image);
   GivenMap map{path, Image<float>(image.width, image.height), file.map_from_world(), file.map->technique};
   for (int y = 0; y < image.height; ++y)
@@ -179,15 +191,11 @@ GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
     refuse_picture(file.path, fmt::format("'map': {}", no_map_of_point_light));
   if (file.positions) {
     frame.receivers = GivenReceivers::positions;
-    const std::string of_positions = path_in(file, *file.positions);
-    frame.positions = read_positions(of_positions);
-    require_size(frame.positions, frame.visibility, of_positions);
+    frame.positions = read_positions(path_in(file, *file.positions), frame.visibility);
     for (glm::dvec3& p : frame.positions.pixels) p = glm::dvec3(file.world_from_frame * glm::dvec4(p, 1));
   } else if (file.depth) {
     frame.receivers = GivenReceivers::depth;
-    const std::string of_depth = path_in(file, *file.depth);
-    frame.positions = positions_of_depths(file, of_depth, frame.view);
-    require_size(frame.positions, frame.visibility, of_depth);
+    frame.positions = positions_of_depths(file, path_in(file, *file.depth), frame.view, frame.visibility);
   }
   frame.marks_no_surface = frame.receivers != GivenReceivers::none || has_nan(frame.visibility);
   if (file.map) frame.map = read_map(file);

@@ -33,26 +33,30 @@ Refused undecodable(const std::string& why, const char* format) {
   return Refused("cannot be decoded: " + line + "; write it again");
 }
 
-// Integers are divided in double and rounded once: 85 of 255 is the float that is nearest to 1/3, as in the lookup.
+// Integers are divided in double and rounded once: 85 of 255 is the float that is nearest to 1/3, as in the lookup. A few rows
+// at a time, so that no second copy of the picture is in memory; files with integers of such types have rows, not tiles.
 template <class T>
-std::vector<float> read_as(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const char* format,
-                           OIIO::TypeDesc type, double whole) {
-  std::vector<T> values(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
-                        static_cast<size_t>(spec.nchannels));
-  if (!input.read_image(0, 0, 0, spec.nchannels, type, values.data())) throw undecodable(input.geterror(), format);
-  std::vector<float> result(values.size());
-  for (size_t i = 0; i < values.size(); ++i) result[i] = static_cast<float>(static_cast<double>(values[i]) / whole);
-  return result;
+void read_integers(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const char* format, OIIO::TypeDesc type,
+                   double whole, float* values) {
+  constexpr int rows = 64;
+  const size_t of_a_row = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.nchannels);
+  std::vector<T> some(of_a_row * static_cast<size_t>(std::min(rows, spec.height)));
+  for (int first = 0; first < spec.height; first += rows) {
+    const int end = std::min(first + rows, spec.height);
+    if (!input.read_scanlines(0, 0, spec.y + first, spec.y + end, 0, 0, spec.nchannels, type, some.data()))
+      throw undecodable(input.geterror(), format);
+    for (size_t i = 0; i < of_a_row * static_cast<size_t>(end - first); ++i)
+      *values++ = static_cast<float>(static_cast<double>(some[i]) / whole);
+  }
 }
 
-// The file's pixels, and what DecodedPixels refers to.
-struct Decoded {
-  OIIO::ImageSpec spec;
-  std::vector<float> values;
-  StoredAs stored_as = StoredAs::float32;
-};
+StoredAs stored_as(const OIIO::ImageSpec& spec) {
+  if (spec.tile_width == 0 && spec.format == OIIO::TypeDesc::UINT8) return StoredAs::uint8;
+  if (spec.tile_width == 0 && spec.format == OIIO::TypeDesc::UINT16) return StoredAs::uint16;
+  return spec.format == OIIO::TypeDesc::HALF ? StoredAs::half : StoredAs::float32;
+}
 
-Decoded decode(const ImageToDecode& file) {
+void decode(const ImageToDecode& file) {
   OIIO::Filesystem::IOMemReader bytes(const_cast<void*>(file.bytes), file.count);
   OIIO::Filesystem::IOProxy* const source = &bytes;
   OIIO::ImageSpec as_they_are;
@@ -62,45 +66,33 @@ Decoded decode(const ImageToDecode& file) {
   const std::unique_ptr<OIIO::ImageInput> input =
       OIIO::ImageInput::open(name_inside(file.format), &as_they_are, &bytes);
   if (!input) throw undecodable(OIIO::geterror(), file.format);
-  Decoded result;
-  const OIIO::ImageSpec& spec = result.spec = input->spec();
+  const OIIO::ImageSpec spec = input->spec();
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
       spec.height != spec.full_height)
     throw Refused("has a data window that is not its display window; write the whole picture");
   if (spec.deep || spec.depth > 1) throw Refused("has deep pixels; write a flat picture");
-  // As stored and as floats, and the floats again where the program takes them over.
-  const double values = static_cast<double>(spec.width) * spec.height * spec.nchannels;
-  if (values * 3 * sizeof(float) > static_cast<double>(file.most_bytes)) throw Refused(too_large_to_decode);
-  if (spec.format == OIIO::TypeDesc::UINT8) {
-    result.stored_as = StoredAs::uint8;
-    result.values = read_as<uint8_t>(*input, spec, file.format, OIIO::TypeDesc::UINT8, 255);
-  } else if (spec.format == OIIO::TypeDesc::UINT16) {
-    result.stored_as = StoredAs::uint16;
-    result.values = read_as<uint16_t>(*input, spec, file.format, OIIO::TypeDesc::UINT16, 65535);
-  } else {
-    if (spec.format == OIIO::TypeDesc::HALF) result.stored_as = StoredAs::half;
-    result.values = read_as<float>(*input, spec, file.format, OIIO::TypeDesc::FLOAT, 1);
-  }
-  return result;
+  std::vector<const char*> names;
+  for (const std::string& name : spec.channelnames) names.push_back(name.c_str());
+  const StoredAs as = stored_as(spec);
+  float* const values =
+      file.place_for(file.context, {spec.width, spec.height, spec.nchannels, names.data(), spec.alpha_channel, as});
+  if (!values) return;
+  if (as == StoredAs::uint8)
+    read_integers<uint8_t>(*input, spec, file.format, OIIO::TypeDesc::UINT8, 255, values);
+  else if (as == StoredAs::uint16)
+    read_integers<uint16_t>(*input, spec, file.format, OIIO::TypeDesc::UINT16, 65535, values);
+  else if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values))
+    throw undecodable(input->geterror(), file.format);
 }
 
 }  // namespace
 }  // namespace noonmark
 
-extern "C" void noonmark_decode_image(const noonmark::ImageToDecode& file, void* context,
-                                      void (*done)(void*, const noonmark::DecodedPixels*, const char*)) {
-  noonmark::Decoded decoded;
-  std::vector<const char*> names;
-  std::string why;
+extern "C" void noonmark_decode_image(const noonmark::ImageToDecode& file) {
   try {
-    decoded = noonmark::decode(file);
-    for (const std::string& name : decoded.spec.channelnames) names.push_back(name.c_str());
+    noonmark::decode(file);
   } catch (const std::exception& thrown) {
-    why = thrown.what();
-    if (why.empty()) why = "cannot be decoded; write it again";
+    const std::string why = thrown.what();
+    file.refused(file.context, why.empty() ? "cannot be decoded; write it again" : why.c_str());
   }
-  const noonmark::DecodedPixels pixels{decoded.spec.width,   decoded.spec.height,        decoded.spec.nchannels,
-                                       names.data(),         decoded.spec.alpha_channel, decoded.stored_as,
-                                       decoded.values.data()};
-  done(context, why.empty() ? &pixels : nullptr, why.c_str());
 }

@@ -7,30 +7,31 @@
 
 namespace noonmark {
 
-struct ImageToDecode {
-  const char* format;  // "png" or "exr"
-  const void* bytes;   // of the whole file
-  size_t count;
-  uint64_t most_bytes;  // that the pixels may take while they are decoded
-};
-inline constexpr const char* too_large_to_decode = "takes more memory to decode than there is";
-
 // How the file stores its values. Others become floats.
 enum class StoredAs { uint8, uint16, half, float32 };
 
-struct DecodedPixels {
+// What the file says of itself.
+struct ImageHead {
   int width, height;
   int channels;                      // interleaved
   const char* const* channel_names;  // as the file names them; a PNG's are "R", "G", "B", "A" or "Y"
   int alpha_channel;                 // -1: none
   StoredAs stored_as;
-  const float* values;  // row 0 on top; integers become [0,1], without sRGB's transfer function
 };
 
-// Calls done once: with the pixels, or with null and the reason why there are none, as the end of a sentence that begins
-// with the file's name. Throws nothing.
-using DecodeImage = void(const ImageToDecode& file, void* context,
-                         void (*done)(void* context, const DecodedPixels* pixels, const char* why));
+struct ImageToDecode {
+  const char* format;  // "png" or "exr"
+  const void* bytes;   // of the whole file
+  size_t count;
+  void* context;
+  // Called once, before any pixel is decoded. Returns the place for all values: row 0 on top, integers become [0,1] without
+  // sRGB's transfer function. Null: the picture is not wanted, and nothing is decoded.
+  float* (*place_for)(void* context, const ImageHead& head);
+  // Called if there are no values, with the reason as the end of a sentence that begins with the file's name.
+  void (*refused)(void* context, const char* why);
+};
+
+using DecodeImage = void(const ImageToDecode& file);  // throws nothing
 
 inline constexpr const char* image_module_file = "noonmark_images.so";
 inline constexpr const char* image_module_decoder = "noonmark_decode_image";  // a DecodeImage

@@ -15,6 +15,7 @@
 #include "app/pictures/animated_png.h"
 #include "app/pictures/exr_encoder.h"
 #include "app/pictures/image_codec.h"
+#include "app/pictures/image_head.h"
 #include "app/pictures/npy.h"
 #include "app/pictures/png_encoder.h"
 #include "base/digest.h"
@@ -121,63 +122,91 @@ void require_image_memory(const std::string& path, double bytes) {
                                              bytes_text(bytes), available.text()));
 }
 
-DecodedImage read_image(const std::string& path) {
+DecodedImage read_image(const std::string& path, const WantedImage& wanted) {
   constexpr uint64_t of_a_pixel = 64, of_the_head = uint64_t{16} << 20;  // more than any picture of three floats
   std::error_code none;
   if (const std::uintmax_t size = std::filesystem::file_size(path, none); !none)
     require_image_memory(path, static_cast<double>(size));
   const std::string bytes = read_file(path, of_the_head + of_a_pixel * most_image_pixels);
-  if (is_npy(bytes)) return read_npy(path, bytes);
+  if (is_npy(bytes)) return read_npy(path, bytes, wanted);
   const char* const format = bytes.starts_with("\x89PNG\r\n\x1a\n")  ? "png"
                              : bytes.starts_with("\x76\x2f\x31\x01") ? "exr"
                                                                      : nullptr;
   if (!format)
     throw Error(ErrorKind::file,
                 fmt::format("{}: is neither a PNG nor an EXR nor an NPY file; write one of these", path));
+  require_possible_head(path, format, bytes);
   struct Result {
+    const WantedImage& wanted;
     DecodedImage image;
+    std::exception_ptr unwanted;
     std::string why;
-  } result;
+  } result{wanted, {}, {}, {}};
   result.image.path = path;
   DecodeImage& decode = decoder();
   const Quiet quiet;
-  const AvailableMemory available = available_memory();
-  decode({format, bytes.data(), bytes.size(), available.bytes}, &result,
-         [](void* context, const DecodedPixels* pixels, const char* why) {
-           Result& into = *static_cast<Result*>(context);
-           if (!pixels) {
-             into.why = why;
-             return;
-           }
-           DecodedImage& image = into.image;
-           image.width = pixels->width;
-           image.height = pixels->height;
-           image.channels.assign(pixels->channel_names, pixels->channel_names + pixels->channels);
-           if (pixels->alpha_channel >= 0) image.alpha = static_cast<size_t>(pixels->alpha_channel);
-           image.stored_as = pixels->stored_as;
-           image.values.assign(pixels->values, pixels->values + image.pixels() * image.channels.size());
-         });
-  if (result.why == too_large_to_decode)
-    result.why = fmt::format("{}, and {}; write a smaller picture", too_large_to_decode, available.text());
+  decode({.format = format,
+          .bytes = bytes.data(),
+          .count = bytes.size(),
+          .context = &result,
+          .place_for = [](void* context, const ImageHead& head) -> float* {
+            Result& into = *static_cast<Result*>(context);
+            DecodedImage& image = into.image;
+            try {
+              image.width = head.width;
+              image.height = head.height;
+              image.channels.assign(head.channel_names, head.channel_names + head.channels);
+              if (head.alpha_channel >= 0) image.alpha = static_cast<size_t>(head.alpha_channel);
+              image.stored_as = head.stored_as;
+              make_room(image, into.wanted);
+              return image.values.data();
+            } catch (...) {
+              into.unwanted = std::current_exception();
+              return nullptr;
+            }
+          },
+          .refused = [](void* context, const char* why) { static_cast<Result*>(context)->why = why; }});
+  if (result.unwanted) std::rethrow_exception(result.unwanted);
   if (!result.why.empty()) throw Error(ErrorKind::file, fmt::format("{}: {}", path, result.why));
   return std::move(result.image);
 }
 
-std::vector<float> grey_values(const DecodedImage& image) {
-  const auto refuse = [&](const char* why) { throw Error(ErrorKind::file, fmt::format("{}: {}", image.path, why)); };
+void make_room(DecodedImage& image, const WantedImage& wanted) {
+  if (wanted) wanted(image);
+  const double values = static_cast<double>(image.pixels()) * static_cast<double>(image.channels.size());
+  // A decoder of whole pictures (interlaced PNG, tiles) has them once more, as they are stored.
+  require_image_memory(image.path, 2 * values * sizeof(float));
+  image.values.resize(image.pixels() * image.channels.size());
+}
+
+namespace {
+
+std::vector<size_t> colours_of(const DecodedImage& image) {
   std::vector<size_t> colours;
   for (size_t c = 0; c < image.channels.size(); ++c)
     if (c != image.alpha) colours.push_back(c);
-  if (colours.size() != 1 && colours.size() != 3)
+  return colours;
+}
+
+}  // namespace
+
+void require_grey_channels(const DecodedImage& image) {
+  if (const size_t colours = colours_of(image).size(); colours != 1 && colours != 3)
     throw Error(ErrorKind::file,
                 fmt::format("{}: has {} channels; write visibility as one grey channel (or three equal ones)",
                             image.path, image.channels.size()));
+}
+
+std::vector<float> grey_values(const DecodedImage& image) {
+  require_grey_channels(image);
+  const std::vector<size_t> colours = colours_of(image);
   std::vector<float> grey(image.pixels());
   for (size_t i = 0; i < grey.size(); ++i) {
     grey[i] = image.at(i, colours[0]);
     for (const size_t c : colours)
       if (const float other = image.at(i, c); other != grey[i] && !(other != other && grey[i] != grey[i]))  // both NaN
-        refuse("has colours; write visibility as one grey channel (or three equal ones)");
+        throw Error(ErrorKind::file,
+                    image.path + ": has colours; write visibility as one grey channel (or three equal ones)");
   }
   return grey;
 }

@@ -57,10 +57,20 @@ struct DecodedImage {
 // Throws Error(file) if the program cannot take so many bytes to read the picture.
 void require_image_memory(const std::string& path, double bytes);
 
+// Says whether a picture is wanted, before it is decoded: throws Error if it is not. The picture has no values yet.
+using WantedImage = std::function<void(const DecodedImage& head)>;
+
+// Asks whether the picture is wanted, and makes room for its values. Throws Error(file) if there is too little memory.
+void make_room(DecodedImage& image, const WantedImage& wanted);
+
 // Reads a PNG or an EXR file, or the array of a NPY file (app/pictures/npy.h). Throws Error(file) if the file is something
-// else, has more than most_image_pixels pixels, or takes more memory than there is.
+// else, has more than most_image_pixels pixels, or takes more memory than there is; and what `wanted` throws. All of this is
+// known before pixels are decoded, so a file that is refused for it takes little more memory than its own size.
 inline constexpr uint64_t most_image_pixels = uint64_t{1} << 28;
-DecodedImage read_image(const std::string& path);
+DecodedImage read_image(const std::string& path, const WantedImage& wanted = {});
+
+// Throws Error(file) unless there is one channel beside alpha, or three.
+void require_grey_channels(const DecodedImage& image);
 
 // The values of the one channel beside alpha, or of three equal ones. Throws Error(file) if there are others.
 std::vector<float> grey_values(const DecodedImage& image);

@@ -10,7 +10,7 @@ namespace noonmark {
 
 std::vector<PictureRecord> keep_lights(const LightsFrame& frame, const std::vector<std::string>& names, int64_t id,
                                        const std::string& out) {
-  make_folder(out + "/images");
+  make_folder_in(out, "images");
   std::vector<std::string> colors;
   for (size_t l = 0; l < names.size(); ++l) colors.push_back(fmt::format("{}: {}", names[l], most_wrong_color(l).name));
   const struct {

@@ -10,7 +10,8 @@ namespace noonmark {
 
 bool is_npy(std::string_view bytes);
 
-// The whole numbers become [0,1]. Channels are named "0", "1" ...; none of them is alpha. Throws Error(file).
-DecodedImage read_npy(const std::string& path, std::string_view bytes);
+// The whole numbers become [0,1]. Channels are named "0", "1" ...; none of them is alpha. Throws
+// Error(file), and what `wanted` throws, before the values are read.
+DecodedImage read_npy(const std::string& path, std::string_view bytes, const WantedImage& wanted);
 
 }  // namespace noonmark

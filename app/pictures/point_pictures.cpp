@@ -73,7 +73,7 @@ Instant worst_instant(const std::vector<PointRecord>& points) {
 PictureRecord keep_motion(const std::vector<Image<Color>>& frames, int64_t id, const std::string& out) {
   constexpr int frame_ms = 200;  // slow enough to see what changes where
   const std::string path = fmt::format("images/p{:04}-{}.png", id, motion_picture);
-  make_folder(out + "/images");
+  make_folder_in(out, "images");
   const std::string digest = write_animated_png(out + "/" + path, frames, frame_ms);
   return {motion_picture, path,
           fmt::format("{} frames about this one, animated: what the shadow map shows (left) and what changes until the "
@@ -137,7 +137,7 @@ bool has_exr(const PointPictures& point) {
 
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out, PictureFormats formats) {
   const std::string folder = out + "/images";
-  make_folder(folder);
+  make_folder_in(out, "images");
   const std::string stem = fmt::format("p{:04}", id);
   PointPictures kept;
   kept.pictures = write_pictures(m, folder, "images", stem);
@@ -166,7 +166,7 @@ ImageRecord keep_live_picture(Workbench& bench, const Settings& settings, const 
   const std::optional<LivePicture> at_every_bias = bench.live_picture(settings);
   const std::string path = fmt::format("images/p{:04}-live.bin", id),
                     file = at_every_bias ? live_file(*at_every_bias) : stack_file(bench.picture_stack(settings, marks));
-  make_folder(out + "/images");
+  make_folder_in(out, "images");
   write_file_atomically(out + "/" + path, file);
   return {path, digest_of(file)};
 }

@@ -24,11 +24,6 @@ std::string picture_of(const Results& results) {
 
 }  // namespace
 
-void AtlasPage::retract() const {
-  std::error_code none;
-  for (const char* name : {"atlas.html", "atlas.md"}) fs::remove(fs::path(folder_) / name, none);
-}
-
 void AtlasPage::add(const Experiment& experiment, const std::string& out, const Results& results, bool held) {
   if (!experiment.atlas) return;
   AtlasRow row;

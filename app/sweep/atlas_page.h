@@ -16,8 +16,6 @@ class AtlasPage {
  public:
   // folder: where the page is written.
   explicit AtlasPage(std::string folder) : folder_(std::move(folder)) {}
-  // Removes the page of an earlier run, so that no stale one stays if this run fails.
-  void retract() const;
   // Adds a row if the experiment has an [atlas] section. out: the folder of its results. held: whether all its bounds and
   // laws held.
   void add(const Experiment& experiment, const std::string& out, const Results& results, bool held);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -23,6 +24,19 @@ Baseline read_baseline(const std::string& path) {
     throw Error(ErrorKind::usage, fmt::format("{}; --update-baseline writes a baseline", error.what()));
   }
   return parse_baseline(text, path);
+}
+
+// What --update-baseline may replace: also a baseline that cannot be read, as one of another version, or with the marks of a merge.
+void require_baseline_or_nothing(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(path, none))) return;
+  const std::string text = read_file(path, max_baseline_bytes);
+  const auto has = [&](const char* key) { return text.find(key) != text.npos; };
+  if (!text.empty() && !(has("\"format\":") && has("\"points\":")))
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: is not a baseline, so --update-baseline does not replace it; give another file, or "
+                            "remove it",
+                            path));
 }
 
 Baseline baseline_of(const Experiment& experiment, const SweepOutcome& outcome, bool times) {
@@ -51,7 +65,10 @@ BaselineFile::BaselineFile(const BaselineOptions& options, const Experiment& exp
   if (options_.update && !experiment.chosen.empty())
     throw Error(ErrorKind::usage,
                 "--update-baseline with --part would remove the other parts from the baseline; leave --part out");
-  if (!options_.update) before_ = read_baseline(options_.file);
+  if (options_.update)
+    require_baseline_or_nothing(options_.file);
+  else
+    before_ = read_baseline(options_.file);
 }
 
 std::optional<BaselineComparison> BaselineFile::compare_or_update(const Experiment& experiment,

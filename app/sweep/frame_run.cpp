@@ -144,6 +144,7 @@ class FrameRun {
     noonmark::judge(experiment_, outcome_.results, earlier_);
     store_->set_bounds(outcome_.results.bounds);
     write_report(outcome_.results, folder_.path());
+    store_->require_in_place();
   }
 
   SweepOutcome take() { return std::move(outcome_); }
@@ -275,7 +276,7 @@ class FrameRun {
                       climbed ? std::string(climbed->cause_of(verdict.error.index(verdict.worst.x, verdict.worst.y)))
                               : std::string(class_name(verdict.classes.at(verdict.worst.x, verdict.worst.y)))};
     if (experiment_.pictures != "none") {
-      make_folder(folder_.path() + "/images");
+      make_folder_in(folder_.path(), "images");
       const std::string stem = fmt::format("p{:04}", record.id);
       const Ladder* const ladder = climbed ? &*climbed : nullptr;
       record.pictures = write_frame_pictures(verdict, frame, ladder, folder_.path() + "/images", "images", stem);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -128,15 +129,23 @@ std::string joined_file(const Source& first, const std::string& out) {
   return without_way_up(file) == without_way_up(first.info.experiment) ? file : "";
 }
 
+constexpr const char* store_name = "results.sqlite";
+
 // Empty if the folder has no store, or one that cannot be read.
 std::optional<RunInfo> facts_in(const std::string& folder) {
   std::error_code none;
-  if (!fs::exists(folder + "/results.sqlite", none)) return std::nullopt;
+  if (!fs::exists(folder + "/" + store_name, none)) return std::nullopt;
   try {
-    return ResultStore::open(folder + "/results.sqlite").facts().info;
+    return ResultStore::open(folder + "/" + store_name).facts().info;
   } catch (const Error&) {
     return std::nullopt;
   }
+}
+
+// A merge that is killed early leaves a store without points, which does not yet say whose it is.
+bool holds_points(const std::string& folder) {
+  const ResultStore store = ResultStore::open(folder + "/" + store_name);
+  return !store.finished().empty() || !store.phases().empty();
 }
 
 void require_own_store(const ResultsFolder& out, const std::vector<std::string>& shares, bool overwrite) {
@@ -144,13 +153,18 @@ void require_own_store(const ResultsFolder& out, const std::vector<std::string>&
     if (same_folder(share, out.path()))
       throw Error(ErrorKind::usage,
                   fmt::format("{}: is one of the shares; give another folder for the joined results", out.path()));
-  const std::optional<RunInfo> there = overwrite ? std::nullopt : facts_in(out.path());
-  if (!there) return;
+  if (overwrite) return;
   const auto refuse = [&](const std::string& holds) {
     throw Error(
         ErrorKind::usage,
         fmt::format("{}: holds {}; give another folder, or pass --overwrite, which loses them", out.path(), holds));
   };
+  std::error_code none;
+  if (!fs::exists(out.path() + "/" + store_name, none)) return;
+  const std::optional<RunInfo> there = facts_in(out.path());
+  if (!there && MadeFiles(out.path()).has(store_name)) return;  // of a merge that was killed, or damaged since
+  if (!there) refuse("a file results.sqlite that is damaged, or no store of Noonmark");
+  if (!holds_points(out.path())) return;
   if (there->share != joined_share) refuse("results that were measured there, not joined ones");
   const std::optional<RunInfo> first = facts_in(shares.front());
   if (first && joined_name(first->experiment) != there->experiment)
@@ -199,7 +213,7 @@ void copy_pictures(const Source& source, const std::vector<PointPictures>& of_po
       if (digest_of_file_below(source.folder, path) != digest) return;
       constexpr uint64_t max_bytes = uint64_t{1} << 32;
       const std::string bytes = read_file_below(source.folder, path, max_bytes);
-      make_folder(out + "/images");
+      make_folder_in(out, "images");
       write_file_atomically(out + "/" + path, bytes);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::file) throw;
@@ -305,7 +319,8 @@ Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder&
   const Experiment& experiment = merged.experiment;
   const std::vector<Settings> planned = points(experiment);
 
-  const std::string path = out.path() + "/results.sqlite";
+  MadeFiles(out.path()).add(std::array{std::string(store_name)});
+  const std::string path = out.path() + "/" + store_name;
   const std::string facts = joined_fingerprint(sources);
   ResultStore store(path, facts, Existing::overwrite);
   out.remove_earlier_results();
@@ -336,6 +351,7 @@ Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder&
     write_file_atomically(out.path() + "/junit.xml", to_junit(merged.results));
     write_file_atomically(out.path() + "/summary.md", to_summary(merged.results));
   }
+  store.require_in_place();
   if (const std::string& scene = planned.front().scene.name; fs::path(scene).is_absolute())
     merged.notes.push_back(
         fmt::format("the scene's name {} is a path of one host; it has only the root in common with the path of the "

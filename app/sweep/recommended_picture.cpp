@@ -28,7 +28,7 @@ std::vector<PictureRecord> pictures_at_bias(const Measurement& m, const report::
   const PointRecord& point = *opened.point;
   const std::string bias =
       fmt::format("{} {}", curve_parameter(point), report::bias_in_unit(*opened.bias, curve_unit(point)));
-  make_folder(out + "/images");
+  make_folder_in(out, "images");
   std::vector<PictureRecord> pictures;
   const auto add = [&](const char* name, const std::string& caption, const Image<Color>& picture) {
     const std::string path = fmt::format("images/p{:04}-recommended-{}.png", point.id, name);

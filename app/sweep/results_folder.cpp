@@ -1,13 +1,10 @@
 #include "app/sweep/results_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <cctype>
-#include <cerrno>
 #include <filesystem>
+#include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -16,14 +13,6 @@
 namespace noonmark {
 
 namespace fs = std::filesystem;
-
-void make_output_folder(const std::string& path) {
-  try {
-    make_folder(path);
-  } catch (const Error& error) {
-    throw Error(ErrorKind::usage, fmt::format("{}, or give another --out", error.what()));
-  }
-}
 
 namespace {
 
@@ -38,14 +27,32 @@ void remove_verdict(const std::string& folder) {
   }
 }
 
-// The pictures that summary.md shows (app/sweep/sweep.cpp).
-void remove_summary_pictures(const std::string& folder) {
+// The pictures that summary.md shows (app/sweep/failing_pixels.cpp).
+std::vector<std::string> summary_pictures(const std::string& folder) {
+  std::vector<std::string> names;
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(summary_picture) && name.ends_with(".png")) fs::remove(entry.path(), none);
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with(summary_picture) && name.ends_with(".png"))
+      names.push_back(name);
+  return names;
+}
+
+// Whether a store of Noonmark is there. A damaged one cannot tell.
+bool has_store(const std::string& folder) {
+  std::error_code none;
+  if (!fs::is_regular_file(folder + "/results.sqlite", none)) return false;
+  try {
+    ResultStore::open(folder + "/results.sqlite");
+    return true;
+  } catch (const Error&) {
+    return false;
   }
 }
+
+// All that a run writes into its folder, but for the pictures of summary.md. The store has its own protection: it is replaced with
+// --overwrite only.
+const std::vector<std::string> written = {"junit.xml", "summary.md", "report.html", "results.csv", "images"};
 
 // Through a link, pictures would be written and removed in another folder, and the report would not read them.
 void require_own_images(const std::string& folder) {
@@ -72,36 +79,28 @@ std::string seen_from(const std::string& folder, const std::string& experiment) 
   return resolved(experiment).lexically_proximate(here).string();
 }
 
-ResultsFolder::ResultsFolder(const std::string& path, const std::string& experiment) : path_(path), descriptor_(-1) {
-  make_output_folder(path);
-  descriptor_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // Some file systems have no locks. There another run is not kept out.
-  if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(descriptor_);
-    throw Error(ErrorKind::usage,
-                fmt::format("another run is writing into {}; wait for it, or give another --out", path));
-  }
-  try {
-    const std::string owner = experiment.empty() ? "" : ResultStore::experiment_file(path + "/results.sqlite");
-    if (!experiment.empty() && (owner.empty() || owner == seen_from(path, experiment))) take();
-    require_own_images(path);
-  } catch (...) {
-    if (descriptor_ >= 0) close(descriptor_);
-    throw;
-  }
+ResultsFolder::ResultsFolder(const std::string& path, const std::string& experiment)
+    : path_((make_output_folder(path), path)), lock_(path) {
+  const std::string owner = experiment.empty() ? "" : ResultStore::experiment_file(path + "/results.sqlite");
+  if (!experiment.empty() && (owner.empty() || owner == seen_from(path, experiment))) take();
+  require_own_images(path);
 }
 
 void ResultsFolder::take() const {
   if (ours_) return;
+  MadeFiles made(path_);
+  const std::vector<std::string> pictures = summary_pictures(path_);
+  if ((!made.foreign(written).empty() || (!made.has("summary.md") && !pictures.empty())) && !has_store(path_)) {
+    made.require_ours(written);
+    made.require_ours(pictures);
+  }
+  made.add(written);
   remove_verdict(path_);
-  remove_summary_pictures(path_);
+  std::error_code none;
+  for (const std::string& picture : pictures) fs::remove(fs::path(path_) / picture, none);
   clear_abandoned_files(path_);
   clear_abandoned_files(path_ + "/images");
   ours_ = true;
-}
-
-ResultsFolder::~ResultsFolder() {
-  if (descriptor_ >= 0) close(descriptor_);
 }
 
 void ResultsFolder::remove_report() const {

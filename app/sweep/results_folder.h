@@ -8,10 +8,9 @@
 #include <optional>
 #include <string>
 
-namespace noonmark {
+#include "app/sweep/output_folder.h"
 
-// make_folder (base/file.h) for a folder from the command line. Throws Error(usage).
-void make_output_folder(const std::string& path);
+namespace noonmark {
 
 // How the names of the pictures begin that summary.md shows: "worst-pixel-p0003.png".
 inline constexpr const char* summary_picture = "worst-pixel-p";
@@ -25,18 +24,17 @@ class ResultsFolder {
   // Makes the folder if it does not exist and locks it. Calls take() unless the store there names another experiment's file.
   // experiment: the file whose results are written; empty: take() is left to the caller.
   //
-  // Throws Error(usage) if the folder cannot be made or another run is writing into it. Throws Error(file) if the
+  // Throws Error(usage) if the folder cannot be made or another run is writing into it, and as take() does. Throws Error(file) if the
   // verdict cannot be removed, or if images/ is a link or a file.
   ResultsFolder(const std::string& path, const std::string& experiment);
-  ~ResultsFolder();
-  ResultsFolder(const ResultsFolder&) = delete;
-  ResultsFolder& operator=(const ResultsFolder&) = delete;
 
   const std::string& path() const { return path_; }
 
   // Whether take() was called.
   bool ours() const { return ours_; }
-  // To be called as soon as it is known that this run may write into the folder. Removes from it
+  // To be called as soon as it is known that this run may write into the folder. Throws Error(usage), and has touched nothing, if
+  // the folder has no store and files of names that a run writes, which no list (app/sweep/output_folder.h) names: they may be a
+  // user's. Otherwise removes from it
   // - junit.xml, summary.md and its pictures, because a run that fails or is killed must not leave the verdict of an earlier run;
   // - temporary files of runs that were killed (clear_abandoned_files, base/file.h), also in images/.
   void take() const;
@@ -49,7 +47,7 @@ class ResultsFolder {
 
  private:
   std::string path_;
-  int descriptor_;  // closing it releases the lock, also when the program is killed
+  FolderLock lock_;
   mutable bool ours_ = false;
 };
 

@@ -1,6 +1,6 @@
 // Removes the verdict of an earlier run if this run fails before it opens its results' folder. That happens if the
 // command line is wrong, if threads do not start, or if two experiments have the same results' folder. Of `render`, `map`,
-// `inspect` and `judge` it removes the files of an earlier run (app/sweep/verb_outputs.h).
+// `inspect` and `judge` it removes the files of an earlier run (app/sweep/output_folder.h).
 #pragma once
 #include <functional>
 #include <set>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/sweep/verb_outputs.h"
+#include "app/sweep/output_folder.h"
 #include "base/failure.h"
 
 namespace noonmark {

@@ -269,6 +269,7 @@ void SweepRun::advise() {
 void SweepRun::write() {
   progress_->report_alone();
   write_report(outcome_.results, folder_.path());
+  store_->require_in_place();
   progress_->shown.finished(progress_->report, "the report is written");
   progress_->shown.end_line();
   require_sound(outcome_.results);

@@ -2,17 +2,40 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <stdexcept>
 
+#include "app/advise/engine_trial.h"
+#include "app/advise/recommend.h"
 #include "app/definition/default_folder.h"
 #include "app/pictures/frame_pictures.h"
 #include "app/pictures/pictures.h"
-#include "base/error.h"
 
 namespace noonmark {
 
-namespace fs = std::filesystem;
+namespace {
+
+VerbOutputs outputs_of_recommend(const std::string& out) {
+  VerbOutputs outputs{out, {"engines.txt", "recommended.json", "recommended.txt", "recommended.html"}};
+  std::vector<std::string> stems = {"recommended"};
+  for (const AnswerKind kind : answer_kinds) stems.push_back("recommended-" + answer_name(kind));
+  for (const std::string& stem : stems) {
+    outputs.files.push_back(stem + ".toml");
+    for (const std::string_view name : picture_names) outputs.files.push_back(fmt::format("{}-{}.png", stem, name));
+  }
+  outputs.inner = trial_folder;
+  // What examples/engines/shoot.mjs and the pages write for it, beside what the trial writes.
+  outputs.inner_files = {"scene.glb",      "lines.txt",     "shoot.log", "frame.json",
+                         "visibility.npy", "positions.npy", "map.npy"};
+  return outputs;
+}
+
+}  // namespace
+
+std::vector<std::string> VerbOutputs::all() const {
+  std::vector<std::string> names = files;
+  if (!inner.empty()) names.push_back(inner);
+  return names;
+}
 
 VerbOutputs outputs_of(std::string_view verb, const std::string& subject, const std::string& out) {
   const auto folder = [&](const std::string& by_default) { return out.empty() ? by_default : out; };
@@ -23,25 +46,13 @@ VerbOutputs outputs_of(std::string_view verb, const std::string& subject, const 
     for (const std::string_view name : frame_picture_names) judge.files.push_back(fmt::format("frame-{}.png", name));
     return judge;
   }
+  if (verb == "texels") return {out, {"texels.toml", "texels.json"}};
+  if (verb == "recommend") return outputs_of_recommend(out);
   if (verb != "render") throw std::logic_error(fmt::format("the outputs of {} are not listed", verb));
   VerbOutputs render{folder("out/render"), {"point.json", "ladder.exr", "map.exr"}};
   for (const std::string_view name : picture_names) render.files.push_back(fmt::format("point-{}.png", name));
   for (const std::string_view name : debug_picture_names) render.files.push_back(fmt::format("point-{}.png", name));
   return render;
-}
-
-void retract(const VerbOutputs& outputs) {
-  for (const std::string& file : outputs.files) {
-    const fs::path path = fs::path(outputs.folder) / file;
-    std::error_code error;
-    const fs::file_status status = fs::symlink_status(path, error);
-    if (!fs::is_regular_file(status) && !fs::is_symlink(status)) continue;
-    if (!fs::remove(path, error) && error)
-      throw Error(ErrorKind::file,
-                  fmt::format("{}: this file of an earlier run cannot be removed: {}; remove it, or give "
-                              "another --out",
-                              path.string(), error.message()));
-  }
 }
 
 }  // namespace noonmark

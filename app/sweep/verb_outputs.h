@@ -1,8 +1,7 @@
-// Where `render`, `map`, `inspect` and `judge` write, and the files that they write there. Those of an earlier run are removed
-// before anything else can fail, so that a run that fails or is killed leaves no file that looks like its own.
+// Where `recommend`, `render`, `map`, `inspect` and `judge` write, and the files that they write there
+// (app/sweep/output_folder.h).
 //
 //   const VerbOutputs outputs = outputs_of("render", experiment, arguments.out);
-//   retract(outputs);
 #pragma once
 #include <string>
 #include <string_view>
@@ -12,13 +11,16 @@ namespace noonmark {
 
 struct VerbOutputs {
   std::string folder;
-  std::vector<std::string> files;  // in the folder
+  std::vector<std::string> files;  // in the folder: all that the verb may write
+
+  std::string inner = {};                     // a folder in the folder; empty: none
+  std::vector<std::string> inner_files = {};  // in that one and its folders
+
+  std::vector<std::string> all() const;  // `files` and `inner`
 };
 
-// subject: the experiment, scene, model or frame of the command line. out: the value of --out; without one, the default folder.
+// subject: the experiment, scene, model or frame of the command line. out: the value of --out; without one, the default folder,
+// but `recommend` and its --texels ("texels") have --out only.
 VerbOutputs outputs_of(std::string_view verb, const std::string& subject, const std::string& out);
-
-// Removes these files, and nothing else: no folder of such a name. Throws Error(file) if one cannot be removed.
-void retract(const VerbOutputs& outputs);
 
 }  // namespace noonmark

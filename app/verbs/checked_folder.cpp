@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/definition/default_folder.h"
+#include "app/sweep/output_folder.h"
 #include "base/build_facts.h"
 #include "base/file.h"
 #include "base/text.h"
@@ -13,6 +14,10 @@
 namespace noonmark {
 
 namespace fs = std::filesystem;
+
+namespace {
+const std::vector<std::string> pages = {"index.html", "atlas.html", "atlas.md"};
+}  // namespace
 
 std::string folder_above(const std::vector<std::string>& paths) {
   std::error_code none;
@@ -26,9 +31,9 @@ CheckedFolder::CheckedFolder(const ExperimentList& list, const std::string& fold
       path_(folder + "/index.html"),
       atlas_(folder) {
   if (!wanted_) return;
-  std::error_code none;
-  fs::remove(path_, none);
-  atlas_.retract();
+  MadeFiles made(folder_);
+  made.require_ours(pages);
+  made.remove(pages);
 }
 
 IndexEntry& CheckedFolder::add(const std::string& experiment) {
@@ -46,8 +51,10 @@ void CheckedFolder::write(const std::vector<UnreadableFolder>& unreadable, bool 
   if (!wanted_) return;
   for (const UnreadableFolder& one : unreadable) add(one.folder).words = one.error.what();
   make_folder(folder_);
+  MadeFiles(folder_).add(pages);
   write_file_atomically(path_, index_page(entries_, std::string(build_facts().version)));
   if (whole) atlas_words_ = atlas_.write();
+  MadeFiles(folder_).forget_absent(pages);
 }
 
 void CheckedFolder::print() const {

@@ -20,6 +20,7 @@ std::string folder_above(const std::vector<std::string>& paths);
 
 class CheckedFolder {
  public:
+  // Throws Error(usage) if a page of this name is there that Noonmark did not make (app/sweep/output_folder.h).
   CheckedFolder(const ExperimentList& list, const std::string& folder);
 
   AtlasPage& atlas() { return atlas_; }

@@ -7,7 +7,7 @@
 
 #include "app/advise/recommend_text.h"
 #include "app/advise/texel_budget.h"
-#include "app/sweep/results_folder.h"
+#include "app/sweep/output_folder.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
@@ -58,13 +58,13 @@ int recommend_texels(Experiment whole, int64_t texels, const ExperimentArguments
   }
   const std::vector<std::pair<std::string, Settings>> lights = lights_of(whole);
   if (arguments.out.empty()) require_own_division(out, subject_of(lights.front().second));
+  OutputFolder folder(outputs_of("texels", "", out));
   Workbench bench(gl::DebugMode::log);
   Progress progress(arguments.quiet);
   const TexelBudget found =
       divide_texels(bench, lights, texels, [&](const std::string& step) { progress.say(printable(step)); });
   progress.end_line();
-  make_output_folder(out);
-  clear_abandoned_files(out);
+  folder.make();
   write_file_atomically(out + "/texels.toml", budget_experiment(found, out));
   write_file_atomically(out + "/texels.json", budget_json(found));
   if (arguments.json) {

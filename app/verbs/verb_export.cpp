@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
@@ -31,13 +32,7 @@ std::string glb_file_of(const std::string& scene) { return fs::path(scene).stem(
 
 int write_scene(const ExportOptions& options) {
   const std::string file = options.arguments.out.empty() ? glb_file_of(options.scene) : options.arguments.out;
-  std::error_code none;
-  if (!ends_with_any_case(file, ".glb"))
-    throw Error(ErrorKind::usage, fmt::format("{} does not end in .glb, which is the format that is written", file));
-  if (fs::is_directory(file, none))
-    throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the path of a file with --out", file));
-  if (!options.arguments.overwrite && fs::exists(fs::symlink_status(file, none)))
-    throw Error(ErrorKind::usage, fmt::format("{} is there already; choose another --out, or pass --overwrite", file));
+  require_new_file(file, ".glb", options.arguments.overwrite);
   ExperimentArguments arguments = options.arguments;
   take_scene(arguments, options.scene);
   const Settings settings = points(experiment_from("", arguments)).at(0);

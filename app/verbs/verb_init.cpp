@@ -7,6 +7,7 @@
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_file.h"
 #include "app/definition/first_experiment.h"
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
@@ -35,11 +36,7 @@ int write_first_experiment(const InitOptions& options) {
   if (!names_file(model))
     throw Error(ErrorKind::usage, fmt::format("{} is not a model: give the path of a .gltf or .glb file", model));
   const std::string file = options.out.empty() ? default_file(model) : options.out;
-  std::error_code none;
-  if (fs::is_directory(file, none))
-    throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the path of a file with --out", file));
-  if (!options.overwrite && fs::exists(fs::symlink_status(file, none)))
-    throw Error(ErrorKind::usage, fmt::format("{} is there already; choose another --out, or pass --overwrite", file));
+  require_new_file(file, "", options.overwrite);
   const Model loaded = load_model(model);
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
   const std::string named =

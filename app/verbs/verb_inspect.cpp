@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "app/pictures/pictures.h"
-#include "app/sweep/results_folder.h"
-#include "app/sweep/verb_outputs.h"
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/model_report.h"
 #include "app/verbs/verbs.h"
@@ -20,7 +19,7 @@ namespace {
 // Says what a glTF model holds and writes a picture of it.
 int inspect_file(const std::string& model, ExperimentArguments arguments) {
   const VerbOutputs outputs = outputs_of("inspect", model, arguments.out);
-  retract(outputs);
+  OutputFolder folder(outputs);
   // A picture that is quick to make. A finer map changes nothing in it, because its shadow is the truth.
   arguments.sets.insert(arguments.sets.begin(), {"view.width_px=960", "view.height_px=540"});
   take_scene(arguments, model);
@@ -38,7 +37,7 @@ int inspect_file(const std::string& model, ExperimentArguments arguments) {
   const Progress::Work picture_drawn = progress.add(1, 2.0);
   progress.say(fmt::format("the picture of {}", model));
   const Measurement m = bench.measure(settings, std::nullopt);
-  make_output_folder(out);
+  folder.make();
   const std::string picture = out + "/" + outputs.files.front();
   write_png(picture, lit_picture(m));
   progress.finished(picture_drawn, "the picture is drawn");

@@ -14,8 +14,7 @@
 #include "app/pictures/given_frame.h"
 #include "app/pictures/image_file.h"
 #include "app/sweep/frame_map.h"
-#include "app/sweep/results_folder.h"
-#include "app/sweep/verb_outputs.h"
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
@@ -217,7 +216,7 @@ std::string judge_json(const Subject& subject, const FrameVerdict& verdict, cons
 
 int judge_one(const JudgeOptions& options) {
   const VerbOutputs outputs = outputs_of("judge", options.subject, options.arguments.out);
-  retract(outputs);
+  OutputFolder folder(outputs);
   std::vector<Bound> bounds;
   for (const std::string& text : options.most) bounds.push_back(bound_of(text));
   const Subject subject = subject_of(options);
@@ -243,8 +242,7 @@ int judge_one(const JudgeOptions& options) {
   const bool held = std::all_of(judged.begin(), judged.end(), [](const BoundResult& bound) { return bound.held; });
   const int exit_code = verdict.refused() ? static_cast<int>(ErrorKind::file) : held ? 0 : 1;
 
-  make_output_folder(outputs.folder);
-  clear_abandoned_files(outputs.folder);
+  folder.make();
   write_frame_pictures(verdict, subject.frame, ladder, outputs.folder, ".", "frame");
   write_frame_exr(verdict, subject.frame, ladder, outputs.folder + "/frame.exr", "./frame.exr");
   const std::string json = judge_json(subject, verdict, judged, options, outputs.folder, exit_code);

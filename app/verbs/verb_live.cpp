@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/live/live_page.h"
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
@@ -52,9 +53,7 @@ Settings the_point(const LiveOptions& options) {
 
 int write_page(const LiveOptions& options) {
   const std::string file = options.arguments.out.empty() ? page_of(options.what) : options.arguments.out;
-  std::error_code none;
-  if (fs::is_directory(file, none))
-    throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the path of a file with --out", file));
+  require_new_file(file, "", options.arguments.overwrite);
   const Settings settings = live_settings(the_point(options));
   const Scene scene = make_scene(settings.scene);
   require_live(scene, settings);
@@ -77,10 +76,11 @@ RunVerb add_live(CLI::App& verb) {
   verb.add_option("--point", options->point, "Number of the point in the experiment's sweep, from 0")
       ->check(whole_number(0));
   add_sets(verb, options->arguments);
-  verb.add_option("--out", options->arguments.out, "The page that is written; one that is there is replaced")
+  verb.add_option("--out", options->arguments.out, "The page that is written")
       ->check(not_empty())
       ->type_name("FILE.html")
       ->default_str(fmt::format("{} for cube-room", page_of("cube-room")));
+  verb.add_flag("--overwrite", options->arguments.overwrite, "Replace the file if it is there already");
   return [options](const std::string&) { return write_page(*options); };
 }
 

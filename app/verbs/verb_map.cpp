@@ -5,8 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/sweep/results_folder.h"
-#include "app/sweep/verb_outputs.h"
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
@@ -58,7 +57,7 @@ std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
 
 int draw_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments) {
   const VerbOutputs outputs = outputs_of("map", scene, arguments.out);
-  retract(outputs);
+  OutputFolder folder(outputs);
   if (options.coarsest >= options.finest)
     throw Error(ErrorKind::usage, fmt::format("the coarsest resolution ({}) is not below the finest ({}); set --from "
                                               "and --to",
@@ -88,8 +87,7 @@ int draw_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   diagram.notes = notes_line(loaded);
   for (const std::string& note : light_notes(loaded, settings))
     diagram.notes += (diagram.notes.empty() ? "" : "; ") + note;
-  make_output_folder(out);
-  clear_abandoned_files(out);
+  folder.make();
   write_file_atomically(out + "/phase.html", render_phase(diagram));
   write_file_atomically(out + "/phase.csv", phase_csv(diagram));
   if (arguments.json) {

@@ -20,7 +20,7 @@
 #include "app/definition/default_folder.h"
 #include "app/pictures/image_file.h"
 #include "app/pictures/pictures.h"
-#include "app/sweep/results_folder.h"
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/recommend_output.h"
@@ -137,20 +137,6 @@ void require_own_advice(const std::string& folder, const std::string& subject) {
 // A model's file is named after itself alone, as `noonmark init` names its experiment, so that both have one folder.
 std::string folder_of_advice(const std::string& what) {
   return default_folder(is_experiment(what) ? what : std::filesystem::path(what).filename().string(), recommend_prefix);
-}
-
-// The files of an earlier run, which another answer, or none, would make stale. Before the search, because it can fail.
-void remove_earlier_advice(const std::string& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (name != "engines.txt" && !name.starts_with("recommended.") && !name.starts_with("recommended-")) continue;
-    std::error_code error;
-    if (std::filesystem::remove_all(entry.path(), error); error)
-      throw Error(ErrorKind::file,
-                  fmt::format("{}: an earlier recommendation cannot be removed: {}; remove it, or give "
-                              "another --out",
-                              entry.path().string(), error.message()));
-  }
 }
 
 struct RecommendOptions {
@@ -409,9 +395,8 @@ int recommend(const RecommendOptions& options) {
   if (!wanted.empty())
     request.elsewhere = [&](const Tried& tried) { return in_engines(bench, wanted, tried, request); };
 
-  make_output_folder(out);
-  clear_abandoned_files(out);
-  remove_earlier_advice(out);
+  OutputFolder folder(outputs_of("recommend", options.what, out));
+  folder.make();
   Advice advice = search(bench, request, say);
   if (advice.answer() && options.around)
     advice.around = settings_around(bench, under_conditions(advice.answer()->tried, request),

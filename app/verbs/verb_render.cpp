@@ -6,8 +6,7 @@
 
 #include "app/pictures/pictures.h"
 #include "app/pictures/point_files.h"
-#include "app/sweep/results_folder.h"
-#include "app/sweep/verb_outputs.h"
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/one_point.h"
 #include "app/verbs/option_values.h"
@@ -262,12 +261,11 @@ struct RenderOptions {
 int render_point(const RenderOptions& options) {
   const auto& [path, point, arguments] = options;
   const VerbOutputs outputs = outputs_of("render", path, arguments.out);
-  retract(outputs);
+  OutputFolder folder(outputs);
   const Experiment experiment = experiment_from(path, arguments);
   const Settings settings = the_point(experiment, point, "render");
   const std::string& out = outputs.folder;
-  make_output_folder(out);
-  clear_abandoned_files(out);
+  folder.make();
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/one_point.h"
 #include "app/verbs/option_values.h"
@@ -46,17 +47,6 @@ glm::ivec2 pixel_from(const std::string& text) {
                   text));
 }
 
-void require_new_file(const SectionOptions& options) {
-  const std::string& file = options.out;
-  std::error_code none;
-  if (!ends_with_any_case(file, ".svg"))
-    throw Error(ErrorKind::usage, fmt::format("{} does not end in .svg, which is the format that is written", file));
-  if (fs::is_directory(file, none))
-    throw Error(ErrorKind::usage, fmt::format("{} is a folder; give the path of a file with --out", file));
-  if (!options.arguments.overwrite && fs::exists(fs::symlink_status(file, none)))
-    throw Error(ErrorKind::usage, fmt::format("{} is there already; choose another --out, or pass --overwrite", file));
-}
-
 struct ChosenPixel {
   glm::ivec2 at{0};
   std::string why;  // "the pixel with the largest acne, 100%"; empty: it was given
@@ -84,7 +74,7 @@ int draw_section(const SectionOptions& options) {
   if (!options.pixel.empty() && !options.worst.empty())
     throw Error(ErrorKind::usage, "--pixel and --worst both choose the pixel; give one of them");
   if (!options.pixel.empty()) (void)pixel_from(options.pixel);
-  require_new_file(options);
+  require_new_file(options.out, ".svg", options.arguments.overwrite);
   const Experiment experiment = experiment_from(options.experiment, options.arguments);
   const Settings settings = the_point(experiment, options.point, "section");
   require_compared(settings, "a section");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <filesystem>
@@ -72,6 +73,7 @@ Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode
     throw Error(kind_of_failure(system), fmt::format("{}: cannot be opened: {}; {}", path, what,
                                                      advice_on_failure(system, advice(code, way_out()).c_str())));
   }
+  if (struct stat found{}; ::stat(path.c_str(), &found) == 0) device_ = found.st_dev, inode_ = found.st_ino;
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, busy_timeout_ms);
   // The file may come from anyone. These options keep its contents from running by themselves, and statements from
@@ -107,6 +109,15 @@ void Database::give_back(const std::string& sql, sqlite3_stmt* statement) {
   if (sqlite3_bind_parameter_count(statement) == 0 || free_.size() >= most_free ||
       !free_.emplace(sql, statement).second)
     sqlite3_finalize(statement);
+}
+
+void Database::require_in_place() const {
+  struct stat found {};
+  if (inode_ == 0 || (::stat(path_.c_str(), &found) == 0 && found.st_dev == device_ && found.st_ino == inode_)) return;
+  throw Error(ErrorKind::file,
+              fmt::format("{}: is no longer the file that this run writes: it or its folder was renamed, replaced or "
+                          "removed meanwhile. What was measured is in that file; put it back, or run the command again",
+                          path_));
 }
 
 void Database::execute(const std::string& sql) {

@@ -32,6 +32,10 @@ class Database {
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
+  // Throws Error(file) if the path leads to another file than when it was opened, or to none: the file or its folder was renamed,
+  // replaced or removed. SQLite would go on writing into the file, wherever it is now.
+  void require_in_place() const;
+
   // One or more statements without results.
   void execute(const std::string& sql);
   // Returns the first column of the first row, or empty if there is no row.
@@ -57,12 +61,16 @@ class Database {
   std::string path_;
   Mode mode_;
   sqlite3* handle_ = nullptr;
+  uint64_t device_ = 0, inode_ = 0;  // 0: it has no file
 };
 
 // All statements between begin and commit take effect, or none. Rolled back if destroyed before commit.
 class Transaction {
  public:
-  explicit Transaction(Database& db) : db_(db) { db_.execute("BEGIN IMMEDIATE"); }
+  explicit Transaction(Database& db) : db_(db) {
+    db_.require_in_place();
+    db_.execute("BEGIN IMMEDIATE");
+  }
   ~Transaction();
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;

@@ -201,6 +201,8 @@ void ResultStore::replace(const std::vector<std::pair<int64_t, PointRecord>>& ch
   transaction.commit();
 }
 
+void ResultStore::require_in_place() const { db_->require_in_place(); }
+
 std::string ResultStore::plan() const { return db_->ask("SELECT value FROM info WHERE key = 'plan'").value_or(""); }
 
 void ResultStore::set_plan(const std::string& fingerprint, const std::string& plan) {

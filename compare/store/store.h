@@ -111,6 +111,10 @@ class ResultStore {
   std::string fingerprint() const;
   // Throws Error(file) as load() does.
   void require_whole() const;
+
+  // Throws Error(file) if the store's file or folder was renamed, replaced or removed since it was opened. Every call that
+  // writes asks it too.
+  void require_in_place() const;
   // Takes over the points and phase diagrams of another store (compare/store/join.h).
   JoinedStore join(const std::string& path, const SceneName& scene_name);
   // The ids of points without this metric, ascending.

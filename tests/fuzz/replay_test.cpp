@@ -68,8 +68,9 @@ TEST_P(Fuzz, Mutants) {
 INSTANTIATE_TEST_SUITE_P(Target, Fuzz,
                          ::testing::Values(Replay{&gltf_target, 5000}, Replay{&experiment_target, 3000},
                                            Replay{&formula_target, 2000}, Replay{&store_target, 200},
-                                           Replay{&cells_target, 60}, Replay{&frame_target, 300},
-                                           Replay{&numbers_target, 100}, Replay{&measurement_target, 100}),
+                                           Replay{&image_target, 3000}, Replay{&cells_target, 60},
+                                           Replay{&frame_target, 300}, Replay{&numbers_target, 100},
+                                           Replay{&measurement_target, 100}),
                          [](const auto& instance) { return std::string(instance.param.target->name); });
 
 }  // namespace

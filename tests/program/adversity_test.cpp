@@ -163,9 +163,9 @@ TEST_F(Adversity, AnExperimentThatSaysNothingIsAMistake) {
     EXPECT_FALSE(fs::exists(folder_ / "out"));
   }
   EXPECT_EQ(run({"run", "/dev/zero"}, [] { alarm(60); }), 2);
-  expect_one_line("/dev/zero: holds more than");
+  expect_one_line("/dev/zero: is not a regular file");
   EXPECT_EQ(run({"run", "."}), 2);
-  expect_one_line("Is a directory");
+  expect_one_line("is not a regular file but a folder");
 }
 
 TEST_F(Adversity, AStoreThatIsNoFileIsAnError) {
@@ -192,7 +192,9 @@ TEST_F(Adversity, WhatIsNoFileBesideTheStoreIsAnError) {
 
 TEST_F(Adversity, NothingIsWrittenThroughALinkInTheImagesPlace) {
   const std::string experiment = write("x.toml", with_pictures + held_bound);
-  fs::create_directories(folder_ / "out");
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;  // so that the folder is a run's
+  fs::remove(folder_ / "out/results.sqlite");
+  fs::remove_all(folder_ / "out/images");
   fs::create_directories(folder_ / "outside");
   const std::string theirs = "p0000-truth.png";  // a name that --overwrite would remove
   write("outside/" + theirs, "theirs");
@@ -228,7 +230,7 @@ TEST_F(Adversity, TemporaryFilesOfKilledRunsAreCleared) {
   if (dead == 0) _exit(0);
   wait_for(dead);
   const std::string name = ".noonmark-" + std::to_string(dead) + "-0.tmp";
-  fs::create_directories(folder_ / "out/images");
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;  // so that the folder is a run's
   for (const std::string& file : {"out/results.csv" + name, "out/images/p0000-truth.png" + name}) write(file, "half");
   write("out/mine.tmp", "kept");
   ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;

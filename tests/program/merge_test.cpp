@@ -1,5 +1,6 @@
 // Shares of an experiment and their merge (run --shard, merge): what is refused, what is missing, and what differs. The merge of
 // whole shares is compared with one run in tests/project/many_machines_test.py.
+#include <signal.h>
 #include <stdlib.h>
 
 #include <map>
@@ -111,6 +112,43 @@ TEST_F(Merge, RefusesStoresThatDoNotBelongTogether) {
   EXPECT_EQ(run({"merge", "whole", "out/share-1-of-2"}), 2) << output_;
   EXPECT_TRUE(says("holds results that were measured there")) << output_;
   EXPECT_EQ(run({"merge", "whole", "out/share-1-of-2", "--overwrite"}), 6) << output_;
+}
+
+// Whenever it is killed, the same command joins anew. A third of the kills come before the store says that it is a joined one.
+TEST_F(Merge, AKilledMergeIsDoneAgainByTheSameCommand) {
+  measure("1/2");
+  measure("2/2");
+  const std::vector<std::string> merge = {"merge", "joined", "out/share-1-of-2", "out/share-2-of-2"};
+  ASSERT_EQ(run(merge), 0) << output_;
+  const std::string whole = without_times(folder_ / "joined/results.csv");
+  constexpr int kills = 24;
+  useconds_t longest = 0;  // until a merge ends by itself
+  for (int code = -SIGKILL; code == -SIGKILL; longest += 20000) {
+    const pid_t child = start(merge);
+    usleep(longest);
+    kill(child, SIGKILL);
+    code = wait_for(child);
+  }
+  for (int i = 0; i < kills; ++i) {
+    SCOPED_TRACE(i);
+    if (i % 2) fs::remove_all(folder_ / "joined");
+    const pid_t child = start(merge);
+    usleep(longest * static_cast<useconds_t>(i) / kills);
+    kill(child, SIGKILL);
+    wait_for(child);
+    ASSERT_EQ(run(merge), 0) << output_;
+    EXPECT_EQ(without_times(folder_ / "joined/results.csv"), whole);
+  }
+  // The moment itself: the store knows its points' settings, and not yet what it is.
+  const std::string store = (folder_ / "joined/results.sqlite").string();
+  const std::string facts = ResultStore::open(store).fingerprint(), plan = ResultStore::open(store).plan();
+  ResultStore(store, facts, Existing::overwrite).set_plan(facts, plan);
+  EXPECT_EQ(run(merge), 0) << output_;
+  // What is no store, and was not made by a merge, is not replaced.
+  fs::create_directories(folder_ / "other");
+  write("other/results.sqlite", "mine");
+  EXPECT_EQ(run({"merge", "other", "out/share-1-of-2", "out/share-2-of-2"}), 2) << output_;
+  EXPECT_EQ(text("other/results.sqlite"), "mine");
 }
 
 TEST_F(Merge, OfOtherContentsOfAScene) {

@@ -252,6 +252,32 @@ TEST_F(Stale, APipeInAFolderIsSaidAndTheRestIsChecked) {
   EXPECT_NE(text("out/b/summary.md").find("Held"), std::string::npos);
 }
 
+// A report beside no store, or beside another one, must not pass for this run's.
+TEST_F(Stale, AFolderThatIsRenamedDuringACheckIsSaid) {
+  const std::string sweep = "[sweep]\nbias.constant = {min = 0.001, max = 0.01, steps = 40}\n" + held_bound;
+  for (const std::string pictures : {"none", "first", "worst"}) {
+    SCOPED_TRACE(pictures);
+    const std::string experiment =
+        write("x.toml",
+              "pictures = \"" + pictures + "\"\nscene = \"plate\"\n[view]\nwidth_px = 48\nheight_px = 27\n" + sweep);
+    fs::remove_all(folder_ / "moved");
+    const pid_t child = start_until("[2/40]", {"check", experiment, "--out", "out"});
+    kill(child, SIGSTOP);
+    fs::rename(folder_ / "out", folder_ / "moved");
+    if (pictures == "worst") fs::create_directories(folder_ / "out");  // as by another program
+    kill(child, SIGCONT);
+    EXPECT_EQ(wait_for(child), 3);
+    EXPECT_TRUE(there("moved/results.sqlite"));
+    EXPECT_FALSE(there("out/results.sqlite") || there("out/report.html")) << "there is no store of its numbers";
+    // The folder back in its place, the run continues.
+    fs::remove_all(folder_ / "out");
+    fs::rename(folder_ / "moved", folder_ / "out");
+    EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+    EXPECT_TRUE(says(" points are in out already")) << output_;
+    fs::remove_all(folder_ / "out");
+  }
+}
+
 TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
   const std::string experiment = write("x.toml", one_point + "[sweep]\nmap.resolution = [16, 32]\n" + held_bound);
   ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
