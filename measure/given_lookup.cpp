@@ -101,10 +101,10 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   };
   made.offset = map_offset(point.depth, lookup.exact_depth,
                            declared == DepthFormat::d32f ? format_of_bits(made.metrics.at("map_bits")) : declared);
-  made.offset_unit = unit_of(made.offset.format);
-  made.declared_unit = unit_of(declared);
   made.precision_with_offset = made.metrics.at("precision");
   if (made.offset.in_map()) {
+    made.offset_unit = unit_of(made.offset.format);
+    made.declared_unit = unit_of(declared);
     const gl::ShadowMap moved =
         renderer.upload_map(moved_by(made.offset, point.depth, lookup.exact_depth), technique.settings.map);
     const Image<float> r4 = mixed_results(impl_->stages.look_up(renderer, moved, {&technique, 1}), nullptr);

@@ -43,7 +43,8 @@ struct GivenClimb {
   // the exact map had it too. Without one the latter is the metric `precision`.
   MapOffset offset;
   double precision_with_offset = 0;
-  // Window depth of one unit of a polygon offset: of offset.format, and of the format that the technique declares.
+  // Window depth of one unit of a polygon offset: of offset.format, and of the format that the technique declares. 0
+  // where no offset is in the map.
   double offset_unit = 0, declared_unit = 0;
 };
 

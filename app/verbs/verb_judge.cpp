@@ -25,6 +25,7 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/verdict.h"
 #include "compare/ladder/measure.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
@@ -214,7 +215,7 @@ void print_causes(const FrameVerdict& verdict, const Ladder& ladder) {
 }
 
 std::string judge_json(const Subject& subject, const FrameVerdict& verdict, const std::vector<BoundResult>& bounds,
-                       const Ladder* ladder, const JudgeOptions& options, const std::string& out, int exit_code) {
+                       const Ladder* ladder, const JudgeOptions& options, const std::string& out, Verdict whole) {
   using Json = nlohmann::ordered_json;
   Json checks = Json::array(), judged = Json::array(), metrics = Json::object();
   for (const CheckResult& check : verdict.checks)
@@ -225,7 +226,8 @@ std::string judge_json(const Subject& subject, const FrameVerdict& verdict, cons
     judged.push_back({{"bound", bound_text(bound)}, {"held", bound.held}, {"found", number_json(bound.found)}});
   Json all{{"noonmark", build_facts().version},
            {"command", options.arguments.command},
-           {"exit_code", exit_code},
+           {"exit_code", exit_code_of(whole)},
+           {"verdict", word_of(whole)},
            {"scene", subject.scene.name},
            {"frame", subject.frame.name},
            {"refused", verdict.refused()},
@@ -261,20 +263,23 @@ int judge_one(const JudgeOptions& options) {
     climbed = FrameMap(subject.scene, tracer).climb(subject.frame, subject.rules.accepted.contains("map"), verdict);
   const Ladder* const ladder = climbed ? &*climbed : nullptr;
 
-  PointRecord record;
+  Results results;
+  PointRecord& record = results.points.emplace_back();
   record.metrics = verdict.metrics;
-  const std::vector<BoundResult> judged =
-      verdict.refused()
-          ? std::vector<BoundResult>()
-          : evaluate_bounds({&record, 1}, bounds, [&](const PointRecord&) { return options.arguments.command; });
-  const bool held = std::all_of(judged.begin(), judged.end(), [](const BoundResult& bound) { return bound.held; });
-  const int exit_code = verdict.refused() ? static_cast<int>(ErrorKind::file) : held ? 0 : 1;
+  for (const CheckResult& check : verdict.checks)
+    if (check.state == CheckState::failed && !check.accepted) record.delivery.refused = check.says;
+  if (!verdict.refused())
+    results.bounds =
+        evaluate_bounds(results.points, bounds, [&](const PointRecord&) { return options.arguments.command; });
+  const std::vector<BoundResult>& judged = results.bounds;
+  const Verdict whole = verdict_of(results);
+  const int exit_code = exit_code_of(whole);
 
   make_output_folder(outputs.folder);
   clear_abandoned_files(outputs.folder);
   write_frame_pictures(verdict, subject.frame, ladder, outputs.folder, ".", "frame");
   write_frame_exr(verdict, subject.frame, ladder, outputs.folder + "/frame.exr", "./frame.exr");
-  const std::string json = judge_json(subject, verdict, judged, ladder, options, outputs.folder, exit_code);
+  const std::string json = judge_json(subject, verdict, judged, ladder, options, outputs.folder, whole);
   write_file_atomically(outputs.folder + "/judge.json", json);
   if (options.arguments.json) {
     fmt::print("{}", json);
