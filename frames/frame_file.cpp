@@ -179,10 +179,11 @@ std::string setting_text(const Json& value) {
   return text;
 }
 
-// What the map's matrix and its file do not say. The format is that of the numbers that are handed over.
+// What the map's matrix and its file do not say. The format is the one that the renderer drew, which gives the size of a
+// unit of its polygon offset.
 bool is_of_lookup(std::string_view name) {
-  constexpr std::string_view of_map[] = {"map.cull", "map.wrap", "map.lit_beyond_far", "map.depth_clamp",
-                                         "map.pancake"};
+  constexpr std::string_view of_map[] = {"map.format",         "map.cull",        "map.wrap",
+                                         "map.lit_beyond_far", "map.depth_clamp", "map.pancake"};
   return name.starts_with("bias.") || name.starts_with("filter.") ||
          std::find(std::begin(of_map), std::end(of_map), name) != std::end(of_map);
 }
@@ -205,7 +206,7 @@ void read_map(const std::string& path, const Object& map, const Json& json, Fram
       const Setting& setting = find_setting(name);
       if (!is_of_lookup(name))
         throw Error(ErrorKind::usage,
-                    "a technique here has bias.*, filter.*, map.cull, map.wrap, map.lit_beyond_far, "
+                    "a technique here has bias.*, filter.*, map.format, map.cull, map.wrap, map.lit_beyond_far, "
                     "map.depth_clamp and map.pancake; the rest follows from matrix and file");
       setting.set(settings, text);
     } catch (const Error& error) {

@@ -30,6 +30,20 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
+// A unit of the polygon offset of a map of floats is 2^-23 of the power of two below a triangle's largest depth. That of the
+// map's middle depth.
+double float_step(const MapDepths& exact) {
+  std::vector<double> depths(exact.depth.begin(), exact.depth.end());
+  int exponent = 0;
+  std::frexp(quantile(depths, 0.5), &exponent);
+  return std::ldexp(1.0, exponent - 1 - 23);
+}
+
+// The metric map_bits, as the format that it stands for.
+DepthFormat format_of_bits(double bits) {
+  return bits == 16 ? DepthFormat::d16 : bits == 24 ? DepthFormat::d24 : DepthFormat::d32f;
+}
+
 }  // namespace
 
 struct GivenLookup::Impl {
@@ -80,6 +94,28 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   }
   made.map_off_m = quantile(off, 0.5);
   made.depth_spread_m = quantile(depths, 0.95) - quantile(depths, 0.05);
+  // Floats are declared where nothing is, so then the depths themselves say which format they were drawn in.
+  const DepthFormat declared = technique.settings.map.format;
+  const auto unit_of = [&](DepthFormat format) {
+    return format == DepthFormat::d32f ? float_step(lookup.exact_depth) : renderer.polygon_offset_unit(format);
+  };
+  made.offset = map_offset(point.depth, lookup.exact_depth,
+                           declared == DepthFormat::d32f ? format_of_bits(made.metrics.at("map_bits")) : declared);
+  made.precision_with_offset = made.metrics.at("precision");
+  if (made.offset.in_map()) {
+    made.offset_unit = unit_of(made.offset.format);
+    made.declared_unit = unit_of(declared);
+    const gl::ShadowMap moved =
+        renderer.upload_map(moved_by(made.offset, point.depth, lookup.exact_depth), technique.settings.map);
+    const Image<float> r4 = mixed_results(impl_->stages.look_up(renderer, moved, {&technique, 1}), nullptr);
+    double differ = 0, counted = 0;
+    for (size_t i = 0; i < r4.size(); ++i)
+      if (is_counted(made.ladder, i)) {
+        differ += std::abs(static_cast<double>(made.ladder[Rung::shown][i]) - r4[i]);
+        counted += 1;
+      }
+    made.precision_with_offset = differ / counted;
+  }
   PointRecord record;
   record.metrics = made.metrics;
   if (const std::vector<Unsound> unsound = find_unsound({&record, 1}); !unsound.empty())

@@ -15,6 +15,7 @@
 #include "base/image.h"
 #include "compare/ladder/ladder.h"
 #include "compare/results/records.h"
+#include "measure/map_offset.h"
 #include "raytrace/tracer.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
@@ -38,6 +39,13 @@ struct GivenClimb {
   // Over the texels that taps read, along the light: the median distance of the map's depths from the scene's, and
   // how far apart nine tenths of the scene's are. NaN if none is read.
   double map_off_m = 0, depth_spread_m = 0;
+  // What the map holds beside the offset that the technique declares, and the mean |R5 - R4| over the counted receivers if
+  // the exact map had it too. Without one the latter is the metric `precision`.
+  MapOffset offset;
+  double precision_with_offset = 0;
+  // Window depth of one unit of a polygon offset: of offset.format, and of the format that the technique declares. 0
+  // where no offset is in the map.
+  double offset_unit = 0, declared_unit = 0;
 };
 
 class GivenLookup {

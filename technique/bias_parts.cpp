@@ -143,17 +143,23 @@ constexpr BiasPart parts[] = {
      .acts_on = BiasTarget::caster,
      .unit = "",
      .most = 1e4,
-     .help = "Polygon offset: glPolygonOffset(bias.polygon_factor, bias.polygon_units) while the map is drawn. The "
-             "factor multiplies the largest depth slope of each triangle, in depth per texel.",
+     .help =
+         "Polygon offset: glPolygonOffset(bias.polygon_factor, bias.polygon_units) while the map is drawn. The "
+         "factor multiplies the largest depth slope of each triangle, in depth per texel. A negative one moves the map "
+         "towards the light.",
      .law = "adds factor·max(|∂d/∂i|, |∂d/∂j|) to the depth in the map",
-     .no_curve = is_in_the_map},
+     .no_curve = is_in_the_map,
+     .either_sign = true},
     {.name = "polygon_units",
      .acts_on = BiasTarget::caster,
      .unit = "",
      .most = 1e8,
-     .help = "Polygon offset: the units multiply the smallest depth difference that the map's format resolves.",
+     .help =
+         "Polygon offset: the units multiply the smallest depth difference that the map's format resolves. Negative "
+         "ones move the map towards the light.",
      .law = "adds units·r to the depth in the map; r: the least difference of the format",
-     .no_curve = is_in_the_map},
+     .no_curve = is_in_the_map,
+     .either_sign = true},
 };
 
 constexpr TapReference references[] = {

@@ -39,13 +39,14 @@ struct BiasPart {
   std::string_view name;  // name of its setting bias.<name> and of its file, if it has one
   BiasTarget acts_on = BiasTarget::compared_depth;
   std::string_view unit;  // the unit of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
-  double most = 0;        // the amount is in 0 ... most
+  double most = 0;        // the amount is in 0 ... most; of a part with either sign in -most ... most
   std::string_view help;
   std::string_view law;              // what the laws say of it, for the table in docs/reference/techniques.md
   std::string_view floor_help = {};  // empty: the part has no floor; otherwise help of the setting bias.<name>_floor
   std::string_view cap_help = {};    // empty: the part has no cap; otherwise help of the setting bias.<name>_cap
   std::string_view no_curve = {};    // why one lookup pass cannot give the error at every amount; empty: it can
   BiasFormula formula = {};          // empty: the part is OpenGL's polygon offset
+  bool either_sign = false;          // the amount may be negative, which is towards the light
 };
 
 std::span<const BiasPart> bias_parts();

@@ -53,7 +53,7 @@ Setting bias_row(const BiasParameter& parameter) {
   Setting row{parameter.setting,
               parameter.part->unit,
               ValueType::real,
-              0,
+              parameter.part->either_sign && parameter.role == BiasParameter::Role::amount ? -parameter.part->most : 0,
               parameter.part->most,
               is_cap,
               {},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/pictures/picture_files.h"
+#include "app/pictures/pictures.h"
 #include "app/pictures/view_colors.h"
 
 namespace noonmark {
@@ -108,6 +109,17 @@ std::vector<PictureRecord> write_frame_pictures(const FrameVerdict& verdict, con
               [&] { return painter.causes(*ladder); });
   files.add("difference", "Too dark in orange-red, too light in blue.", [&] { return painter.difference(); });
   return files.write();
+}
+
+std::vector<Image<Color>> frame_pixel_pictures(const FrameVerdict& verdict, const GivenFrame& frame,
+                                               const Ladder* ladder, std::span<const PointRecord::WorstOf> pixels) {
+  const FramePainter painter(verdict, frame);
+  const std::array<Image<Color>, 3> pictures = {painter.shaded([&](size_t i) { return verdict.truth_at(i); }),
+                                                painter.shaded([&](size_t i) { return frame.visibility[i]; }),
+                                                ladder ? painter.causes(*ladder) : painter.classes()};
+  std::vector<Image<Color>> made;
+  for (const PointRecord::WorstOf& pixel : pixels) made.push_back(pixel_picture(pictures, pixel.x, pixel.y));
+  return made;
 }
 
 ImageRecord write_frame_exr(const FrameVerdict& v, const GivenFrame& frame, const Ladder* ladder,

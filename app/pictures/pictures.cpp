@@ -232,11 +232,13 @@ Image<Color> shown_picture(const Measurement& m) { return shaded(m, m.ladder.sho
 Image<Color> causes_picture(const Measurement& m) { return classes(m); }
 
 Image<Color> pixel_picture(const Measurement& m, int x, int y) {
+  return pixel_picture({shaded(m, m.ladder.truth()), shaded(m, m.ladder.shown()), classes(m)}, x, y);
+}
+
+Image<Color> pixel_picture(const std::array<Image<Color>, 3>& pictures, int x, int y) {
   constexpr int side = crop_px * crop_scale;
   Image<Color> picture(3 * side + 2 * crop_gap, side, Color(255));
-  enlarge(shaded(m, m.ladder.truth()), x, y, picture, 0);
-  enlarge(shaded(m, m.ladder.shown()), x, y, picture, side + crop_gap);
-  enlarge(classes(m), x, y, picture, 2 * (side + crop_gap));
+  for (int i = 0; i < 3; ++i) enlarge(pictures[static_cast<size_t>(i)], x, y, picture, i * (side + crop_gap));
   return picture;
 }
 

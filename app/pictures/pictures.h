@@ -1,5 +1,6 @@
 // The PNGs of a measured point, for people. app/pictures/point_files.h writes the files for other programs.
 #pragma once
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,5 +42,7 @@ Image<Color> causes_picture(const Measurement& m);
 // is in the middle of each and framed. x, y: in the picture, row 0 on top. What lies beyond the picture's edge is black.
 inline constexpr int crop_px = 17, crop_scale = 10, crop_gap = 6;
 Image<Color> pixel_picture(const Measurement& m, int x, int y);
+// The same of three pictures, from left to right.
+Image<Color> pixel_picture(const std::array<Image<Color>, 3>& pictures, int x, int y);
 
 }  // namespace noonmark

@@ -43,8 +43,7 @@ bool under_github_actions() {
   return set != nullptr && std::string_view(set) == "true";
 }
 
-std::string github_annotations(const std::string& experiment, const Results& results,
-                               const BaselineComparison* compared) {
+std::string github_annotations(const std::string& experiment, const Results& results) {
   std::string text;
   for (const PointRecord* frame : refused_frames(results.points))
     text += annotation("error", experiment, "", "frame refused", why_refused(*frame));
@@ -55,8 +54,9 @@ std::string github_annotations(const std::string& experiment, const Results& res
   for (const LawResult& law : results.laws)
     if (!law.held)
       text += annotation("error", experiment, "", "law broken", fmt::format("{}: {}", law.name, law_text(law)));
-  if (compared)
-    for (const std::string& line : compared->worse) text += annotation("error", experiment, "", "baseline", line);
+  if (results.baseline)
+    for (const std::string& line : results.baseline->worse)
+      text += annotation("error", experiment, "", "baseline", line);
   return text;
 }
 

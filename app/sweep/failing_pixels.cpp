@@ -39,19 +39,24 @@ std::vector<FailingPixel> failing_pixels(const Results& results) {
 
 SummaryPicture draw(const Measurement& m, const FailingPixel& failing, const std::string& name,
                     const std::string& out) {
+  return write_pixel(pixel_picture(m, failing.pixel.x, failing.pixel.y), "the shadow map", failing, name, out);
+}
+
+SummaryPicture write_pixel(const Image<Color>& picture, std::string_view middle, const FailingPixel& failing,
+                           const std::string& name, const std::string& out) {
   const PointRecord& point = *failing.point;
   const PointRecord::WorstOf& pixel = failing.pixel;
-  const bool error = pixel.metric == "error" || pixel.metric == "wrong";
+  const bool error = pixel.metric == "error" || pixel.metric == "wrong" || pixel.metric == "frame_error";
   const std::string file = fmt::format("{}{:04}-{}.png", summary_picture, point.id, pixel.metric);
-  write_png(out + "/" + file, pixel_picture(m, pixel.x, pixel.y));
+  write_png(out + "/" + file, picture);
   return {
       file,
       fmt::format("Point {} ({}), {} {}: the pixel with the largest {}, ({}, {}), is framed; {} {}{}. Left the truth, "
-                  "in the middle the shadow map, right the causes; {} x {} pixels, enlarged.",
+                  "in the middle {}, right the causes; {} x {} pixels, enlarged.",
                   point.id, name, failing.of_bound ? "broken bound" : "broken law", failing.broken,
                   error ? "error" : pixel.metric, pixel.x, pixel.y, error ? "error" : pixel.metric,
                   quantity_text(pixel.size, find_quantity(pixel.metric, {&point, 1}).unit),
-                  error ? ", cause " + point.worst.cause : "", crop_px, crop_px)};
+                  error ? ", cause " + point.worst.cause : "", middle, crop_px, crop_px)};
 }
 
 }  // namespace noonmark

@@ -27,4 +27,8 @@ std::vector<FailingPixel> failing_pixels(const Results& results);
 // Writes the picture of the pixel's surroundings beside summary.md. m: of the pixel's point. name: the point's.
 SummaryPicture draw(const Measurement& m, const FailingPixel& failing, const std::string& name, const std::string& out);
 
+// The same of a picture that is drawn already. middle: what it shows between the truth and the causes.
+SummaryPicture write_pixel(const Image<Color>& picture, std::string_view middle, const FailingPixel& failing,
+                           const std::string& name, const std::string& out);
+
 }  // namespace noonmark

@@ -20,11 +20,11 @@ constexpr double least_unexplained = 0.002;
 
 Settings settings_of(const GivenMap& map, const Light& light, const Image<float>& picture) {
   Settings settings;
+  settings.map.format = DepthFormat::d32f;  // as the depths are handed over, unless the file says what was drawn
   for (const auto& [name, value] : map.technique) find_setting(name).set(settings, value);
   settings.view.width_px = picture.width;
   settings.view.height_px = picture.height;
   settings.map.resolution = map.depth.width;
-  settings.map.format = DepthFormat::d32f;  // what is uploaded; the renderer's own rounding is in the numbers
   settings.light.kind = light.kind == LightKind::spot ? LightChoice::spot : LightChoice::directional;
   return settings;
 }
@@ -44,6 +44,35 @@ glm::dvec3 eye_of(const ViewMatrix& view, int width, int height) {
   const glm::dvec3 eye = glm::inverse(rows) * -glm::dvec3(m[3][0], m[3][1], m[3][3]);
   if (std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z)) return eye;
   return view.pixel_ray(width / 2, height / 2, width, height).origin;
+}
+
+// A bias that the map holds and that is not declared makes two causes that cancel: the exact map lacks it, so R4 is off by it,
+// and R5 is off by as much the other way. So does any other difference of the two maps that is larger than the frame's whole
+// error. Then no cause says anything of the frame. Empty: the map is as declared.
+std::string undeclared_text(const GivenClimb& climbed, const Settings& declared, double frame_error) {
+  const double precision = climbed.metrics.at("precision");
+  const std::string apart =
+      fmt::format("an exact map gives a picture that is {:.4f}% off the handed map's", 100 * precision);
+  const MapOffset& offset = climbed.offset;
+  if (offset.in_map() && climbed.precision_with_offset < precision / 2) {
+    Settings drawn;
+    drawn.map.format = offset.format;
+    return fmt::format(
+        "the map holds a bias that is not declared: {}, but {:.4f}% with a polygon offset in it; add to 'technique' "
+        "{{\"bias.polygon_factor\": {:.4g}, \"bias.polygon_units\": {:.4g}, \"map.format\": \"{}\"}} (below 0: towards "
+        "the light), or what the renderer moves its casters by (bias.caster_*)",
+        apart, 100 * climbed.precision_with_offset, declared.bias["polygon_factor"] + offset.factor,
+        (declared.bias["polygon_units"] * climbed.declared_unit + offset.constant) / climbed.offset_unit,
+        find_setting("map.format").get(drawn));
+  }
+  if (precision > frame_error)
+    return fmt::format(
+        "{}, which is more than the frame's whole error of {:.4f}%: causes cancel, so they say nothing of the frame; "
+        "the "
+        "casters are drawn otherwise than declared: check map.cull, a bias in the map (bias.polygon_*, bias.caster_*), "
+        "near and far of the matrix",
+        apart, 100 * frame_error);
+  return "";
 }
 
 // The technique of a file that cannot be is a mistake in the file.
@@ -81,10 +110,11 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
       picture[i] = 0;
     }
   const int width = picture.width, height = picture.height;
+  const Technique technique = technique_of(given, frame.light, frame.visibility, map.frame);
   GivenClimb climbed = lookup_.climb({.receivers = std::move(receivers),
                                       .eye_m = eye_of(frame.view, width, height),
                                       .truth = std::move(truth),
-                                      .technique = technique_of(given, frame.light, frame.visibility, map.frame),
+                                      .technique = technique,
                                       .depth = map.mirrored ? upside_down(given.depth) : given.depth,
                                       .frame = {.name = std::string(frame_rung),
                                                 .picture = std::move(picture),
@@ -99,10 +129,14 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
     check.state = CheckState::failed;
     check.says = fmt::format(
         "the lookup that is declared is {:.4f}% off the frame, whose error is {:.4f}%: it is not the frame's own; "
-        "check "
-        "bias (its unit, too), filter, map.cull and the matrix",
+        "check bias (its unit, too), filter, map.cull and the matrix",
         100 * unexplained, 100 * error);
   }
+  if (check.state == CheckState::passed)
+    if (const std::string why = undeclared_text(climbed, technique.settings, error); !why.empty()) {
+      check.state = CheckState::failed;
+      check.says = why;
+    }
   *std::find_if(verdict.checks.begin(), verdict.checks.end(),
                 [&](const CheckResult& one) { return one.name == check.name; }) = check;
   if (verdict.refused()) return std::nullopt;

@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +15,7 @@
 #include "app/definition/frame_metrics.h"
 #include "app/pictures/frame_pictures.h"
 #include "app/pictures/given_frame.h"
+#include "app/sweep/failing_pixels.h"
 #include "app/sweep/frame_map.h"
 #include "app/sweep/identity.h"
 #include "app/sweep/judging.h"
@@ -142,7 +145,9 @@ class FrameRun {
   void judge_and_write() {
     outcome_.results = store_->load();
     noonmark::judge(experiment_, outcome_.results, earlier_);
+    compare_with_baseline(options_, outcome_, *store_);
     store_->set_bounds(outcome_.results.bounds);
+    show_failures();
     write_report(outcome_.results, folder_.path());
     store_->require_in_place();
   }
@@ -150,6 +155,16 @@ class FrameRun {
   SweepOutcome take() { return std::move(outcome_); }
 
  private:
+  // The worst pixel of each broken bound, for summary.md.
+  void show_failures() {
+    if (outcome_.interrupted) return;
+    for (const FailingPixel& one : failing_pixels(outcome_.results))
+      if (const auto crop = crops_.find({one.point->id, one.pixel.metric}); crop != crops_.end())
+        outcome_.worst_pixels.push_back(write_pixel(crop->second, "the frame", one,
+                                                    experiment_.frames[static_cast<size_t>(one.point->id)].name,
+                                                    folder_.path()));
+  }
+
   // A frame.json, or why it cannot be read.
   struct ReadFile {
     std::optional<FrameFile> file;
@@ -207,8 +222,11 @@ class FrameRun {
     PointRecord record = empty_record(static_cast<int64_t>(i), point);
     std::optional<Judged> judged;
     record.delivery.refused = files_[i].why_not;
+    const auto begin = std::chrono::steady_clock::now();
     if (files_[i].file) record.delivery.refused = fault_of([&] { judged.emplace(judged_frame(i)); });
     if (judged) fill(record, *judged);
+    record.times["judge_ms"] =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     if (!record.delivery.refused.empty())
       for (const Metric& row : metrics_table())
         if (row.of_frames) record.metrics[std::string(row.name)] = std::numeric_limits<double>::quiet_NaN();
@@ -275,6 +293,11 @@ class FrameRun {
       record.worst = {verdict.worst.x, verdict.worst.y, verdict.error.at(verdict.worst.x, verdict.worst.y),
                       climbed ? std::string(climbed->cause_of(verdict.error.index(verdict.worst.x, verdict.worst.y)))
                               : std::string(class_name(verdict.classes.at(verdict.worst.x, verdict.worst.y)))};
+    if (options_.worst_pixels && experiment_.pictures != "none") {
+      std::vector<Image<Color>> crops =
+          frame_pixel_pictures(verdict, frame, climbed ? &*climbed : nullptr, record.worst_of);
+      for (size_t i = 0; i < crops.size(); ++i) crops_[{record.id, record.worst_of[i].metric}] = std::move(crops[i]);
+    }
     if (experiment_.pictures != "none") {
       make_folder_in(folder_.path(), "images");
       const std::string stem = fmt::format("p{:04}", record.id);
@@ -294,6 +317,7 @@ class FrameRun {
   std::vector<BoundResult> earlier_;  // of the run before
   SceneOfFrames scene_;
   std::vector<std::string> scene_names_, notes_;
+  std::map<std::pair<int64_t, std::string>, Image<Color>> crops_;  // by point and metric: about its worst pixel
   SweepOutcome outcome_;
 };
 

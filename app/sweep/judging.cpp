@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "compare/judge/baseline.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/deliveries.h"
 #include "compare/judge/last_run.h"
@@ -57,7 +58,7 @@ void judge(const Experiment& experiment, Results& results, const std::vector<Bou
   add_last_run(results.bounds, earlier);
 }
 
-std::string verdict_words(const Results& results, const BaselineComparison* compared) {
+std::string verdict_words(const Results& results) {
   size_t bounds_held = 0, warnings = 0, laws_held = 0;
   for (const BoundResult& bound : results.bounds) {
     bounds_held += bound.held;
@@ -65,6 +66,7 @@ std::string verdict_words(const Results& results, const BaselineComparison* comp
   }
   for (const LawResult& law : results.laws) laws_held += law.held;
   std::string verdict = refused_words(results.points);
+  if (results.baseline) verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*results.baseline);
   if (!results.bounds.empty())
     verdict += fmt::format("{}{} of {} held", verdict.empty() ? "" : ", ", bounds_held,
                            counted(results.bounds.size(), "bound"));
@@ -72,7 +74,6 @@ std::string verdict_words(const Results& results, const BaselineComparison* comp
   if (!results.laws.empty())
     verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
                            results.laws.size() == 1 ? "holds" : "hold");
-  if (compared) verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*compared);
   return verdict.empty() ? "nothing is promised" : verdict;
 }
 
@@ -85,7 +86,7 @@ std::string refused_text(const Results& results) {
   return text;
 }
 
-std::string findings_text(const Results& results, const BaselineComparison* compared) {
+std::string findings_text(const Results& results) {
   std::string text = refused_text(results);
   for (const BoundResult& bound : results.bounds)
     text += describe(bound, find_point(results.points, bound.point), results.info.swept);
@@ -93,15 +94,10 @@ std::string findings_text(const Results& results, const BaselineComparison* comp
   for (const LawResult& law : results.laws)
     if (!law.found.empty()) text += fmt::format("found: {}\n", printable(law.found));
   if (const std::string since = last_run_text(results); !since.empty()) text += printable(since) + "\n";
-  if (compared)
+  if (const auto& compared = results.baseline)
     for (const auto* lines : {&compared->changed, &compared->worse, &compared->better, &compared->notes})
       for (const std::string& line : *lines) text += printable(line) + "\n";
   return text;
-}
-
-bool all_held(const Results& results) {
-  return std::none_of(results.bounds.begin(), results.bounds.end(), breaks) &&
-         std::all_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return law.held; });
 }
 
 void require_sound(const Results& results) {

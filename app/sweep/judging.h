@@ -8,7 +8,6 @@
 #include <string>
 
 #include "app/definition/experiment.h"
-#include "compare/judge/baseline.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
@@ -16,17 +15,14 @@ namespace noonmark {
 // Judges every part's bounds and laws on that part's points. earlier: the bounds of the run before (compare/judge/last_run.h).
 void judge(const Experiment& experiment, Results& results, const std::vector<BoundResult>& earlier = {});
 
-// "3 of 3 bounds held, 2 of 2 laws hold". compared: the comparison with a baseline, or null.
-std::string verdict_words(const Results& results, const BaselineComparison* compared = nullptr);
+// "worse than the baseline in 1 of 2 values, 3 of 3 bounds held, 2 of 2 laws hold": what the verdict is made of.
+std::string verdict_words(const Results& results);
 
 // The bounds and laws, each with what was found, one or more lines each.
-std::string findings_text(const Results& results, const BaselineComparison* compared = nullptr);
+std::string findings_text(const Results& results);
 
 // Of frames: a line for each that is refused, and what to do; empty if none is.
 std::string refused_text(const Results& results);
-
-// Whether no bound and no law is broken. A bound that only warns breaks nothing.
-bool all_held(const Results& results);
 
 // Throws Error(defect) at the first point with a metric beyond its limit in compare/judge/soundness.h. Points without a
 // facing receiver are not checked.

@@ -338,6 +338,7 @@ Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder&
     merged.missing = find_missing(store, experiment, planned, sources);
     merged.results = store.load();
     judge(experiment, merged.results);
+    merged.results.stopped = !merged.missing.empty();
     store.set_bounds(merged.results.bounds);
     store.set_laws(merged.results.laws);
   } catch (...) {

@@ -131,12 +131,8 @@ Json answer_of(const Results& results) {
 Json results_json(const SweepOutcome& outcome, const JsonRun& run) {
   const Results& results = outcome.results;
   const RunInfo& info = results.info;
-  Json json = {{"experiment", run.experiment}, {"title", info.title}, {"exit_code", run.exit_code}};
-  json["verdict"] = outcome.interrupted                       ? "incomplete"
-                    : !refused_frames(results.points).empty() ? "refused"
-                    : !run.judges                             ? "measured"
-                    : run.exit_code == 0                      ? "held"
-                                                              : "broken";
+  Json json = {{"experiment", run.experiment}, {"title", info.title}, {"exit_code", exit_code_of(run.verdict)}};
+  json["verdict"] = word_of(run.verdict);
   json["folder"] = run.folder;
   json["points_planned"] = results.planned_points;
   json["points_measured"] = outcome.measured;
@@ -148,10 +144,9 @@ Json results_json(const SweepOutcome& outcome, const JsonRun& run) {
   for (const char* list : {"bounds", "laws"}) json[list] = Json::array();
   for (const BoundResult& bound : results.bounds) json["bounds"].push_back(bound_of(bound));
   for (const LawResult& law : results.laws) json["laws"].push_back(law_of(law));
-  if (run.baseline)
-    json["baseline"] = {{"held", run.baseline->held()},     {"compared", run.baseline->compared},
-                        {"changed", run.baseline->changed}, {"worse", run.baseline->worse},
-                        {"better", run.baseline->better},   {"notes", run.baseline->notes}};
+  if (const auto& baseline = results.baseline)
+    json["baseline"] = {{"held", baseline->held()}, {"compared", baseline->compared}, {"changed", baseline->changed},
+                        {"worse", baseline->worse}, {"better", baseline->better},     {"notes", baseline->notes}};
   json["answer"] = answer_of(results);
   json["points"] = Json::array();
   for (const PointRecord& point : results.points) json["points"].push_back(point_of(point, info));

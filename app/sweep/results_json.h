@@ -1,22 +1,20 @@
 // What `run` and `check` print with --json: the results of each experiment, for programs. docs/reference/command-line.md describes the
 // keys.
 //
-//   nlohmann::ordered_json one = results_json(outcome, {.folder = "out/x", .exit_code = 0});
+//   nlohmann::ordered_json one = results_json(outcome, {.folder = "out/x", .verdict = verdict_of(outcome.results)});
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "app/sweep/sweep.h"
-#include "compare/judge/baseline.h"
+#include "compare/judge/verdict.h"
 
 namespace noonmark {
 
 struct JsonRun {
   std::string experiment, folder;
-  int exit_code = 0;
-  bool judges = false;  // `check`: bounds and laws decide the exit code
-  const BaselineComparison* baseline = nullptr;
+  Verdict verdict = Verdict::measured;
 };
 
 // The points with their swept settings, metrics and quantities of the curve, bounds and laws with what was found, the

@@ -8,7 +8,7 @@
 #include "app/sweep/sweep_run.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "compare/judge/deliveries.h"
+#include "compare/judge/soundness.h"
 
 namespace noonmark {
 
@@ -17,10 +17,11 @@ std::string SweepOutcome::counts() const {
                    : fmt::format("{} measured, {} kept", counted(static_cast<size_t>(measured), "point"), kept);
 }
 
-int SweepOutcome::exit_code(bool held) const {
-  if (interrupted) return static_cast<int>(ErrorKind::incomplete);
-  if (!refused_frames(results.points).empty()) return static_cast<int>(ErrorKind::file);
-  return held ? 0 : 1;
+void compare_with_baseline(const SweepOptions& options, SweepOutcome& outcome, ResultStore& store) {
+  outcome.results.stopped = outcome.interrupted;
+  if (!options.baseline || outcome.interrupted || !find_unsound(outcome.results.points).empty()) return;
+  outcome.results.baseline = options.baseline(outcome);
+  if (outcome.results.baseline) store.set_baseline(*outcome.results.baseline);
 }
 
 std::string stopped_text(const SweepOutcome& outcome) {
@@ -54,6 +55,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   run.picture_lights();
   run.judge();
   run.advise();
+  run.compare();  // after the last change of the run's facts
   run.show_recommended();
   run.show_failures();
   run.write();

@@ -5,6 +5,7 @@
 //
 //   SweepOutcome outcome = run_sweep(experiment, ResultsFolder("out/cube-room", "cube-room.toml"), {.command = "noonmark run ..."});
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,11 @@
 #include "app/sweep/shares.h"
 #include "compare/report/summary.h"
 #include "compare/results/records.h"
+#include "compare/store/store.h"
 
 namespace noonmark {
+
+struct SweepOutcome;
 
 struct SweepOptions {
   bool overwrite = false;         // start anew; the results in the folder's store are lost
@@ -24,6 +28,9 @@ struct SweepOptions {
   std::optional<Shard> shard{};   // measure only this share of the points, and judge nothing
   std::vector<int64_t> points{};  // the share's, in the order to measure them (split); at least one
   bool worst_pixels = false;      // draw what fails where a bound or a law is broken, for summary.md
+  // Compares the judged results with a baseline, or writes one, before the report is written. Called only of a whole and sound
+  // measurement.
+  std::function<std::optional<BaselineComparison>(const SweepOutcome&)> baseline{};
 };
 
 struct SweepOutcome {
@@ -31,8 +38,6 @@ struct SweepOutcome {
   bool interrupted = false;        // by SIGINT or SIGTERM; the finished points are stored
   int64_t measured = 0, kept = 0;  // points: by this run, and from earlier runs
   std::string counts() const;      // "1 point measured, 2 kept"
-  // Of `run` and `check`: incomplete if interrupted, file if a frame is refused, 1 if something is broken, otherwise 0.
-  int exit_code(bool held) const;
   std::vector<SummaryPicture> worst_pixels;
   // For each planned point: the digest of the contents of its scene's file. Empty if the scene is built in.
   std::vector<std::string> scenes;
@@ -47,6 +52,9 @@ struct SweepOutcome {
 // their errors (worst, extremes, answers) are not drawn: both need all points (app/sweep/merge.h). Its store continues on any machine; each
 // point keeps the machine that measured it.
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
+
+// Sets the comparison with the baseline, and keeps it in the store.
+void compare_with_baseline(const SweepOptions& options, SweepOutcome& outcome, ResultStore& store);
 
 // "stopped after 3 of 8 points; the same command continues from there"
 std::string stopped_text(const SweepOutcome& outcome);

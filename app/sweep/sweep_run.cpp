@@ -266,6 +266,8 @@ void SweepRun::advise() {
   }
 }
 
+void SweepRun::compare() { compare_with_baseline(options_, outcome_, *store_); }
+
 void SweepRun::write() {
   progress_->report_alone();
   write_report(outcome_.results, folder_.path());

@@ -38,6 +38,7 @@ class SweepRun {
   void picture_lights();
   void judge();
   void advise();            // the lines for other engines, of the point that the answer names
+  void compare();           // with the baseline
   void show_recommended();  // the point of the head of the report, at the recommended bias
   void show_failures();     // the worst pixel of each broken bound and law, for summary.md
   void write();             // the report

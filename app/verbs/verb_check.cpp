@@ -26,7 +26,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "compare/judge/deliveries.h"
+#include "compare/judge/verdict.h"
 #include "compare/report/index_page.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
@@ -43,11 +43,10 @@ struct CheckOptions {
 };
 
 // The bounds and laws, each with what was found, and the verdict in the last line.
-std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& outcome,
-                         const BaselineComparison* compared) {
-  return findings_text(outcome.results, compared) +
-         fmt::format("{}: {}; {}; the report is {}/report.html\n", printable(listed.file),
-                     verdict_words(outcome.results, compared), outcome.counts(), printable(listed.out));
+std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& outcome) {
+  return findings_text(outcome.results) + fmt::format("{}: {}; {}; the report is {}/report.html\n",
+                                                      printable(listed.file), verdict_words(outcome.results),
+                                                      outcome.counts(), printable(listed.out));
 }
 
 // What is printed of a checked experiment: text, or JSON.
@@ -77,24 +76,25 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
                     path));
   entry.title = experiment.title;
   const BaselineFile baseline(options.baseline, experiment);  // read before anything is measured
-  const SweepOutcome outcome = run_sweep(
-      experiment, folder.get(),
-      {.overwrite = arguments.overwrite, .command = arguments.command, .quiet = arguments.quiet, .worst_pixels = true});
   Checked checked;
-  const std::optional<BaselineComparison> compared =
-      outcome.interrupted ? std::nullopt : baseline.compare_or_update(experiment, outcome, checked.text);
-  const BaselineComparison* const comparison = compared ? &*compared : nullptr;
-  write_file_atomically(out + "/junit.xml", to_junit(outcome.results, comparison));
-  write_file_atomically(out + "/summary.md", to_summary(outcome.results, comparison, outcome.worst_pixels));
+  const SweepOutcome outcome = run_sweep(experiment, folder.get(),
+                                         {.overwrite = arguments.overwrite,
+                                          .command = arguments.command,
+                                          .quiet = arguments.quiet,
+                                          .worst_pixels = true,
+                                          .baseline = [&](const SweepOutcome& judged) {
+                                            return baseline.compare_or_update(experiment, judged, checked.text);
+                                          }});
   const Results& results = outcome.results;
-  const bool held = all_held(results) && (!compared || compared->held());
-  const bool judged = refused_frames(results.points).empty();
+  const Verdict verdict = verdict_of(results);
+  write_file_atomically(out + "/junit.xml", to_junit(results));
+  write_file_atomically(out + "/summary.md", to_summary(results, outcome.worst_pixels));
   entry.report = page.report_of(listed);
   entry.numbers = worst_numbers(results);
   const std::string broken = broken_in_words(results);
-  entry.words = outcome.interrupted ? "stopped before its end"
-                                    : (broken.empty() ? "" : broken + "; ") + verdict_words(results, comparison);
-  if (!outcome.interrupted) entry.verdict = held && judged ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
+  entry.words =
+      outcome.interrupted ? "stopped before its end" : (broken.empty() ? "" : broken + "; ") + verdict_words(results);
+  if (!outcome.interrupted) entry.verdict = passes(verdict) ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
   if (const std::string picture = picture_of_index(results); !picture.empty()) {
     try {
       entry.thumbnail = read_picture(out, picture, results.points);
@@ -102,14 +102,13 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
       // The report says why the picture cannot be read.
     }
   }
-  if (!outcome.interrupted) page.atlas().add(experiment, out, results, held);
-  checked.exit_code = outcome.exit_code(held);
-  if (under_github_actions() && !outcome.interrupted)
-    checked.annotations = github_annotations(path, results, comparison);
+  if (!outcome.interrupted) page.atlas().add(experiment, out, results, passes(verdict));
+  checked.exit_code = exit_code_of(verdict);
+  if (under_github_actions() && !outcome.interrupted) checked.annotations = github_annotations(path, results);
   if (arguments.json)
-    checked.json = results_json(outcome, {path, out, checked.exit_code, true, comparison});
+    checked.json = results_json(outcome, {path, out, verdict});
   else
-    checked.text += outcome.interrupted ? stopped_text(outcome) + "\n" : verdict_text(listed, outcome, comparison);
+    checked.text += outcome.interrupted ? stopped_text(outcome) + "\n" : verdict_text(listed, outcome);
   return checked;
 }
 
@@ -130,8 +129,9 @@ Checked measure_share(const ListedExperiment& listed, const ExperimentArguments&
                                           .quiet = arguments.quiet,
                                           .shard = arguments.shard,
                                           .points = share});
-  checked.exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : 0;
-  checked.json = results_json(outcome, {.experiment = listed.file, .folder = out, .exit_code = checked.exit_code});
+  const Verdict verdict = verdict_without_promises(outcome.results);
+  checked.exit_code = exit_code_of(verdict);
+  checked.json = results_json(outcome, {.experiment = listed.file, .folder = out, .verdict = verdict});
   checked.text = outcome.interrupted ? stopped_text(outcome) + "\n"
                                      : fmt::format("{}: share {}: {}; not judged: noonmark merge does that\n",
                                                    printable(listed.file), arguments.shard->text(), outcome.counts());

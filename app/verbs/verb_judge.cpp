@@ -24,6 +24,8 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/verdict.h"
+#include "compare/ladder/measure.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
 #include "frames/frame_keys.h"
@@ -174,22 +176,46 @@ void print_verdict(const Subject& subject, const FrameVerdict& verdict) {
                verdict.error.at(verdict.worst.x, verdict.worst.y), verdict.worst.x, verdict.worst.y);
 }
 
-// By the rungs of the frame's own map.
-void print_causes(const FrameVerdict& verdict, const Ladder& ladder) {
-  fmt::print("\n  the error by cause, from the frame's own map and its declared lookup\n");
+// A cause of a frame with its own map, as it is printed and written.
+struct FrameCause {
+  CauseColor row;
+  double part;  // of frame_error
+  double size;  // the metric
+};
+
+std::vector<FrameCause> causes_of_frame(const FrameVerdict& verdict, const Ladder& ladder) {
   PointRecord record;
   record.causes = ladder.brought;
   record.metrics = verdict.metrics;
+  const std::vector<double> parts = parts_of_error(ladder);
+  std::vector<FrameCause> causes;
   for (const CauseColor& cause : causes_of({&record, 1}))
-    if (const auto found = verdict.metrics.find(std::string(cause.name));
-        found != verdict.metrics.end() && cause.name != "aliasing" && cause.name != "coverage")  // sums of others
-      fmt::print("  {:<14}{:>11.5f}%   {}\n", cause.name, 100 * found->second, cause.label);
-  fmt::print("  at {:.5f}% of the receivers the frame is not what that lookup gives\n",
-             100 * verdict.metrics.at(std::string(frame_lookup_differs)));
+    for (size_t c = 0; c < parts.size(); ++c)  // sums of others are no images of the ladder
+      if (ladder.causes[c].name == cause.name)
+        causes.push_back({cause, parts[c], verdict.metrics.at(std::string(cause.name))});
+  return causes;
+}
+
+// By the rungs of the frame's own map.
+void print_causes(const FrameVerdict& verdict, const Ladder& ladder) {
+  fmt::print(
+      "\n  the error by cause, from the frame's own map and its declared lookup\n"
+      "  {:<14}{:>12}{:>12}\n",
+      "", "its part", "by itself");
+  for (const FrameCause& cause : causes_of_frame(verdict, ladder))
+    fmt::print("  {:<14}{:>11.5f}%{:>11.5f}%   {}\n", cause.row.name, 100 * cause.part, 100 * cause.size,
+               cause.row.label);
+  fmt::print(
+      "  the parts sum to frame_error; where causes of opposite signs meet in a pixel they cancel, so by itself a "
+      "cause can "
+      "be more than its part\n"
+      "  acne here is what map and bias make dark; frame_acne above is a place, whatever made it dark\n"
+      "  at {:.5f}% of the receivers the frame is not what that lookup gives\n",
+      100 * verdict.metrics.at(std::string(frame_lookup_differs)));
 }
 
 std::string judge_json(const Subject& subject, const FrameVerdict& verdict, const std::vector<BoundResult>& bounds,
-                       const JudgeOptions& options, const std::string& out, int exit_code) {
+                       const Ladder* ladder, const JudgeOptions& options, const std::string& out, Verdict whole) {
   using Json = nlohmann::ordered_json;
   Json checks = Json::array(), judged = Json::array(), metrics = Json::object();
   for (const CheckResult& check : verdict.checks)
@@ -198,19 +224,23 @@ std::string judge_json(const Subject& subject, const FrameVerdict& verdict, cons
     for (const auto& [name, value] : verdict.metrics) metrics[name] = number_json(value);
   for (const BoundResult& bound : bounds)
     judged.push_back({{"bound", bound_text(bound)}, {"held", bound.held}, {"found", number_json(bound.found)}});
-  const Json all{{"noonmark", build_facts().version},
-                 {"command", options.arguments.command},
-                 {"exit_code", exit_code},
-                 {"scene", subject.scene.name},
-                 {"frame", subject.frame.name},
-                 {"refused", verdict.refused()},
-                 {"checks", std::move(checks)},
-                 {"metrics", std::move(metrics)},
-                 {"edge_m", number_json(verdict.edge_m)},
-                 {"contact_m", number_json(verdict.contact_m)},
-                 {"worst", {{"x", verdict.worst.x}, {"y", verdict.worst.y}}},
-                 {"bounds", std::move(judged)},
-                 {"folder", out}};
+  Json all{{"noonmark", build_facts().version},
+           {"command", options.arguments.command},
+           {"exit_code", exit_code_of(whole)},
+           {"verdict", word_of(whole)},
+           {"scene", subject.scene.name},
+           {"frame", subject.frame.name},
+           {"refused", verdict.refused()},
+           {"checks", std::move(checks)},
+           {"metrics", std::move(metrics)},
+           {"edge_m", number_json(verdict.edge_m)},
+           {"contact_m", number_json(verdict.contact_m)},
+           {"worst", {{"x", verdict.worst.x}, {"y", verdict.worst.y}}},
+           {"bounds", std::move(judged)},
+           {"folder", out}};
+  if (ladder)
+    for (const FrameCause& cause : causes_of_frame(verdict, *ladder))
+      all["causes"][cause.row.name] = {{"part", number_json(cause.part)}, {"size", number_json(cause.size)}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -233,19 +263,22 @@ int judge_one(const JudgeOptions& options) {
     climbed = FrameMap(subject.scene, tracer).climb(subject.frame, subject.rules.accepted.contains("map"), verdict);
   const Ladder* const ladder = climbed ? &*climbed : nullptr;
 
-  PointRecord record;
+  Results results;
+  PointRecord& record = results.points.emplace_back();
   record.metrics = verdict.metrics;
-  const std::vector<BoundResult> judged =
-      verdict.refused()
-          ? std::vector<BoundResult>()
-          : evaluate_bounds({&record, 1}, bounds, [&](const PointRecord&) { return options.arguments.command; });
-  const bool held = std::all_of(judged.begin(), judged.end(), [](const BoundResult& bound) { return bound.held; });
-  const int exit_code = verdict.refused() ? static_cast<int>(ErrorKind::file) : held ? 0 : 1;
+  for (const CheckResult& check : verdict.checks)
+    if (check.state == CheckState::failed && !check.accepted) record.delivery.refused = check.says;
+  if (!verdict.refused())
+    results.bounds =
+        evaluate_bounds(results.points, bounds, [&](const PointRecord&) { return options.arguments.command; });
+  const std::vector<BoundResult>& judged = results.bounds;
+  const Verdict whole = verdict_of(results);
+  const int exit_code = exit_code_of(whole);
 
   folder.make();
   write_frame_pictures(verdict, subject.frame, ladder, outputs.folder, ".", "frame");
   write_frame_exr(verdict, subject.frame, ladder, outputs.folder + "/frame.exr", "./frame.exr");
-  const std::string json = judge_json(subject, verdict, judged, options, outputs.folder, exit_code);
+  const std::string json = judge_json(subject, verdict, judged, ladder, options, outputs.folder, whole);
   write_file_atomically(outputs.folder + "/judge.json", json);
   if (options.arguments.json) {
     fmt::print("{}", json);

@@ -57,18 +57,19 @@ int merge_shares(const MergeOptions& options, const std::string& command) {
   for (const std::string& text : machines.warnings) fmt::print(stderr, "warning: {}\n", printable(text));
   for (const std::string& text : merged.notes) fmt::print(stderr, "note: {}\n", printable(text));
   for (const std::string& text : merged.missing) fmt::print(stderr, "{}\n", printable(text));
-  const int exit_code = !merged.missing.empty() ? static_cast<int>(ErrorKind::incomplete) : all_held(results) ? 0 : 1;
+  const Verdict verdict = verdict_of(results);
+  const int exit_code = exit_code_of(verdict);
   if (options.json) {
     SweepOutcome outcome;
     outcome.results = merged.results;
     outcome.interrupted = !merged.missing.empty();
     outcome.kept = static_cast<int64_t>(results.points.size());
     outcome.scenes.resize(static_cast<size_t>(results.planned_points));
-    fmt::print("{}", results_text(command, exit_code,
-                                  {results_json(outcome, {.experiment = merged.experiment.path,
-                                                          .folder = options.out,
-                                                          .exit_code = exit_code,
-                                                          .judges = true})}));
+    fmt::print(
+        "{}",
+        results_text(command, exit_code,
+                     {results_json(
+                         outcome, {.experiment = merged.experiment.path, .folder = options.out, .verdict = verdict})}));
   } else {
     fmt::print("{}{}: {}; {} of {} from {}{}; the report is {}/report.html\n", findings_text(results),
                printable(merged.experiment.path), verdict_words(results), results.points.size(),

@@ -8,6 +8,7 @@
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "compare/judge/verdict.h"
 #include "compare/store/store.h"
 
 namespace noonmark {
@@ -24,8 +25,7 @@ int write_report_again(const std::string& folder) {
   write_report(results, folder);
   fmt::print("{} of {}; the report is {}/report.html\n", results.points.size(),
              counted(static_cast<size_t>(results.planned_points), "point"), printable(folder));
-  return results.points.size() < static_cast<size_t>(results.planned_points) ? static_cast<int>(ErrorKind::incomplete)
-                                                                             : 0;
+  return verdict_of(results) == Verdict::incomplete ? exit_code_of(Verdict::incomplete) : 0;
 }
 
 RunVerb add_report(CLI::App& verb) {

@@ -50,11 +50,11 @@ int run_experiment(const std::string& path, const ExperimentArguments& arguments
                                           .quiet = arguments.quiet,
                                           .shard = arguments.shard,
                                           .points = share});
-  const int exit_code = outcome.exit_code(true);
+  const Verdict verdict = verdict_without_promises(outcome.results);
+  const int exit_code = exit_code_of(verdict);
   if (arguments.json)
-    fmt::print("{}",
-               results_text(arguments.command, exit_code,
-                            {results_json(outcome, {.experiment = path, .folder = out, .exit_code = exit_code})}));
+    fmt::print("{}", results_text(arguments.command, exit_code,
+                                  {results_json(outcome, {.experiment = path, .folder = out, .verdict = verdict})}));
   else if (outcome.interrupted)
     fmt::print("{}\n", stopped_text(outcome));
   else

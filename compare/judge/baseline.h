@@ -32,8 +32,9 @@ struct BaselineValue {
 };
 
 struct BaselinePoint {
-  std::string part;                             // the experiment's part; empty if it has no parts
-  std::map<std::string, std::string> settings;  // every setting; a scene's file without its folder
+  std::string part;  // the experiment's part; empty if it has no parts
+  // Every setting, of a frame those that it has; a scene's file without its folder.
+  std::map<std::string, std::string> settings;
   std::string scene;                            // digest of the contents of a scene's file; empty: a built-in scene
   std::map<std::string, BaselineValue> values;  // by the name of a metric or of a quantity of the curve
 };
@@ -58,13 +59,6 @@ std::string baseline_text(const Baseline& baseline);
 
 // Reads what baseline_text writes. Values have no `better`. path: for messages. Throws Error(usage) for any other text.
 Baseline parse_baseline(std::string_view text, const std::string& path);
-
-struct BaselineComparison {
-  std::vector<std::string> worse, better, notes;  // one line each
-  std::vector<std::string> changed;               // the settings and scenes that are not as they were; one line each
-  size_t compared = 0;                            // number of values
-  bool held() const { return worse.empty(); }
-};
 
 // Points are matched by their part and the values that it sweeps, before or now. So a point keeps its name when a fixed
 // setting or the model changes; what changed is said beside what became worse. A setting that the file does not name has its

@@ -90,6 +90,20 @@ double error_of(const Ladder& ladder) {
   return counted == 0 ? std::numeric_limits<double>::quiet_NaN() : error / counted;
 }
 
+std::vector<double> parts_of_error(const Ladder& ladder) {
+  std::vector<double> parts(ladder.causes.size());
+  double counted = 0;
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    if (!is_counted(ladder, i)) continue;
+    ++counted;
+    const double error = static_cast<double>(ladder.shown()[i]) - ladder.soft_truth()[i];
+    if (error == 0) continue;
+    for (size_t c = 0; c < parts.size(); ++c) parts[c] += std::copysign(1.0, error) * ladder.causes[c].step[i];
+  }
+  for (double& part : parts) part /= counted;
+  return parts;
+}
+
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
   uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;

@@ -41,6 +41,11 @@ double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 // Mean |shown - R1| over the counted receivers, the metric `error`. NaN if there are none.
 double error_of(const Ladder& ladder);
 
+// Of each of ladder.causes its part in the mean |shown - R0| over the counted receivers: its step where it has the sign of the
+// receiver's error, less its step where it has the other one. They sum to that mean. Below 0: it cancels more of other causes
+// than it adds. NaN if there are none.
+std::vector<double> parts_of_error(const Ladder& ladder);
+
 // Every metric of the table that is about the ladder; those of the light's plane (law_metrics.h), of soundness, of the
 // view, of the shaded frame and the times come from elsewhere. If a rung was put on top of R5, `error` is measured
 // against that rung, and the mean step of its cause is added under the cause's name. A value in the images that is not

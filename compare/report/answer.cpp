@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "compare/judge/baseline.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/deliveries.h"
@@ -19,6 +20,7 @@
 #include "compare/judge/recommendation.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
+#include "compare/judge/verdict.h"
 #include "compare/report/blocks.h"
 #include "compare/report/broken.h"
 #include "compare/report/findings.h"
@@ -235,8 +237,16 @@ Markup delivery_items(const Results& results) {
   return out;
 }
 
+Markup baseline_items(const Results& results) {
+  Markup out;
+  if (!results.baseline) return out;
+  for (const std::string& line : results.baseline->worse) out += item("bad", "Against the baseline, " + line + ".");
+  for (const std::string& line : results.baseline->changed) out += item("note", "Since the baseline, " + line + ".");
+  return out;
+}
+
 Markup health_items(const Results& results) {
-  Markup out = unsound_items(results) + refused_items(results);
+  Markup out = unsound_items(results) + refused_items(results) + baseline_items(results);
   size_t not_finite = 0;
   double ambiguous = 0;
   for (const PointRecord& point : results.points) {
@@ -349,17 +359,23 @@ Markup verdict_line(const Results& results) {
                                                 : fmt::format("All {} {}s hold", list.size(), noun);
     add(broken ? "broken" : "held", text + at);
   };
-  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty()) {
+  const Verdict verdict = verdict_of(results);
+  if (verdict == Verdict::unsound) {
     // If the numbers are not sound, the verdicts on them have no meaning.
     add("broken", "Not sound: the measurement contradicts itself");
   } else {
+    if (verdict == Verdict::incomplete)
+      add("broken", prose("Incomplete: {} of {} points", results.points.size(), results.planned_points));
+    if (const std::string refused = refused_words(results.points); !refused.empty()) add("broken", refused);
+    if (results.baseline) {
+      std::string words = baseline_verdict(*results.baseline);
+      words.front() = results.baseline->held() ? 'N' : 'W';
+      add(results.baseline->held() ? "held" : "broken", words);
+    }
     judge(results.bounds, "bound", "The bound holds", as_set, breaks);
     judge(results.laws, "law", "The law holds", "", [](const LawResult& law) { return !law.held; });
   }
-  if (pills.empty()) add("none", "No bounds were set");
-  if (const std::string refused = refused_words(results.points); !refused.empty()) add("broken", refused);
-  if (static_cast<int64_t>(results.points.size()) < results.planned_points)
-    add("broken", prose("Incomplete: {} of {} points", results.points.size(), results.planned_points));
+  if (verdict == Verdict::measured) add("none", "No bounds were set");
   return paragraph(css("verdict"), joined(pills, " "));
 }
 

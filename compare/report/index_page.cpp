@@ -17,23 +17,23 @@ namespace noonmark {
 namespace {
 
 using report::Markup;
-using Verdict = IndexEntry::Verdict;
+using Listed = IndexEntry::Verdict;
 
-size_t count(const std::vector<IndexEntry>& entries, Verdict verdict) {
+size_t count(const std::vector<IndexEntry>& entries, Listed verdict) {
   return static_cast<size_t>(
       std::count_if(entries.begin(), entries.end(), [&](const IndexEntry& one) { return one.verdict == verdict; }));
 }
 
-int rank(Verdict verdict) { return verdict == Verdict::broken ? 0 : verdict == Verdict::not_judged ? 1 : 2; }
+int rank(Listed verdict) { return verdict == Listed::broken ? 0 : verdict == Listed::not_judged ? 1 : 2; }
 
 Markup row(const IndexEntry& entry) {
   using namespace report;
-  const char* const mark = entry.verdict == Verdict::held     ? "✓ held"
-                           : entry.verdict == Verdict::broken ? "✗ broken"
-                                                              : "! not judged";
-  const char* const kind = entry.verdict == Verdict::held     ? "held"
-                           : entry.verdict == Verdict::broken ? "broken"
-                                                              : "warning";
+  const char* const mark = entry.verdict == Listed::held     ? "✓ held"
+                           : entry.verdict == Listed::broken ? "✗ broken"
+                                                             : "! not judged";
+  const char* const kind = entry.verdict == Listed::held     ? "held"
+                           : entry.verdict == Listed::broken ? "broken"
+                                                             : "warning";
   const std::string name = entry.title.empty() ? entry.experiment : entry.title;
   const Markup thumbnail = element("img", css("thumb"), Attribute("alt", "What the shadow map showed in " + name),
                                    Attribute("src", "data:image/png;base64," + base64(entry.thumbnail)));
@@ -79,9 +79,9 @@ std::string picture_of_index(const Results& results) {
 
 std::string index_words(const std::vector<IndexEntry>& entries) {
   std::string out = fmt::format("{} experiment{}: {} held", entries.size(), entries.size() == 1 ? "" : "s",
-                                count(entries, Verdict::held));
-  if (const size_t broken = count(entries, Verdict::broken)) out += fmt::format(", {} broken", broken);
-  if (const size_t others = count(entries, Verdict::not_judged)) out += fmt::format(", {} not judged", others);
+                                count(entries, Listed::held));
+  if (const size_t broken = count(entries, Listed::broken)) out += fmt::format(", {} broken", broken);
+  if (const size_t others = count(entries, Listed::not_judged)) out += fmt::format(", {} not judged", others);
   return out;
 }
 
@@ -92,7 +92,7 @@ std::string index_page(const std::vector<IndexEntry>& entries, const std::string
   using namespace report;
   Markup rows;
   for (const IndexEntry& entry : ordered) rows += row(entry);
-  const bool all = count(entries, Verdict::held) == entries.size();
+  const bool all = count(entries, Listed::held) == entries.size();
   const Markup head = heads({"Verdict", "Experiment", "In words", "Worst numbers", "Picture"});
   return plain_page(
       {.title = "Checked experiments",

@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "base/text.h"
+#include "compare/judge/baseline.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/deliveries.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
+#include "compare/judge/verdict.h"
 #include "compare/report/escape.h"
 #include "compare/results/quantities.h"
 
@@ -26,11 +30,21 @@ std::string timestamp(const std::string& started) {
   return started.size() >= length ? started.substr(0, length) : "1970-01-01T00:00:00";
 }
 
+// What the stages of these points took.
+double seconds_of(std::span<const PointRecord> points) {
+  double ms = 0;
+  for (const PointRecord& point : points)
+    for (const auto& [name, value] : point.times)
+      if (name.ends_with("_ms") && std::isfinite(value)) ms += value;
+  return ms / 1000;
+}
+
 }  // namespace
 
-std::string to_junit(const Results& results, const BaselineComparison* baseline) {
+std::string to_junit(const Results& results) {
+  const BaselineComparison* const baseline = results.baseline ? &*results.baseline : nullptr;
   const auto finished = static_cast<int64_t>(results.points.size());
-  const bool incomplete = finished < results.planned_points;
+  const bool incomplete = results.stopped || finished < results.planned_points;
   const bool frames = judges_frames(results.points);
   const size_t refused = refused_frames(results.points).size();
   const auto failures =
@@ -41,17 +55,21 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
 
   std::string xml(head);
   xml += fmt::format(
-      "  <testsuite name=\"{}\" package=\"noonmark\" id=\"0\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"0\" "
-      "timestamp=\"{}\" hostname=\"localhost\">\n",
+      "  <testsuite name=\"{}\" package=\"noonmark\" id=\"0\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
+      "time=\"{:.3f}\" timestamp=\"{}\" hostname=\"localhost\">\n",
       xml_text(suite),
       results.bounds.size() + results.laws.size() + (frames ? results.points.size() : 0) + (baseline ? 1 : 0) +
           (incomplete ? 1 : 0),
-      failures, refused + (incomplete ? 1 : 0), xml_text(timestamp(results.info.started)));
+      failures, refused + (incomplete ? 1 : 0), seconds_of(results.points), xml_text(timestamp(results.info.started)));
   xml += "    <properties>\n";
-  const std::pair<std::string_view, const std::string&> properties[] = {
-      {"experiment", results.info.experiment},   {"command", results.info.command},
-      {"commit", results.info.commit},           {"version", results.info.version},
-      {"gl_renderer", results.info.gl_renderer}, {"embree_isa", results.info.embree_isa}};
+  const std::string verdict(word_of(verdict_of(results)));
+  const std::pair<std::string_view, const std::string&> properties[] = {{"experiment", results.info.experiment},
+                                                                        {"command", results.info.command},
+                                                                        {"commit", results.info.commit},
+                                                                        {"version", results.info.version},
+                                                                        {"gl_renderer", results.info.gl_renderer},
+                                                                        {"embree_isa", results.info.embree_isa},
+                                                                        {"verdict", verdict}};
   for (const auto& [name, value] : properties)
     xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, xml_text(printable(value)));
   xml += "    </properties>\n";
@@ -61,7 +79,7 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
                             const auto& text) {
     std::string name = printable(title);
     for (int copy = 2; !taken.insert(name).second; ++copy) name = fmt::format("{} #{}", printable(title), copy);
-    xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\"", xml_text(suite), xml_text(name));
+    xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_text(suite), xml_text(name));
     if (held)
       xml += "/>\n";
     else if (warns)
@@ -76,7 +94,8 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
     if (!frames) break;
     const std::string name = printable("the delivery of " + frame_name(frame));
     taken.insert(name);
-    xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\">\n", xml_text(suite), xml_text(name));
+    xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n", xml_text(suite), xml_text(name),
+                       seconds_of({&frame, 1}));
     if (!frame.delivery.refused.empty())
       xml += fmt::format("      <error message=\"{}\" type=\"refused\">{}</error>\n",
                          xml_text(printable(frame.delivery.refused)), xml_text(printable(why_refused(frame))));
@@ -108,7 +127,7 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
         });
   if (incomplete)
     xml += fmt::format(
-        "    <testcase classname=\"{}\" name=\"the sweep is complete\" time=\"0\">\n      <error "
+        "    <testcase classname=\"{}\" name=\"the sweep is complete\">\n      <error "
         "message=\"{} of {} points are finished; run it again to continue\" type=\"incomplete\"/>\n    </testcase>\n",
         xml_text(suite), finished, results.planned_points);
   return xml.append(foot);
@@ -117,9 +136,9 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
 std::string to_junit(const Unjudged& unjudged) {
   const std::string suite = xml_text(printable(unjudged.experiment));
   return fmt::format(
-      "{0}  <testsuite name=\"{1}\" package=\"noonmark\" id=\"0\" tests=\"1\" failures=\"0\" errors=\"1\" time=\"0\" "
+      "{0}  <testsuite name=\"{1}\" package=\"noonmark\" id=\"0\" tests=\"1\" failures=\"0\" errors=\"1\" "
       "timestamp=\"{2}\" hostname=\"localhost\">\n    <properties>\n      <property name=\"command\" value=\"{3}\"/>\n"
-      "    </properties>\n    <testcase classname=\"{1}\" name=\"the experiment can be judged\" time=\"0\">\n"
+      "    </properties>\n    <testcase classname=\"{1}\" name=\"the experiment can be judged\">\n"
       "      <error message=\"{4}\" type=\"exit code {5}\"/>\n    </testcase>\n{6}",
       head, suite, xml_text(timestamp(unjudged.started)), xml_text(printable(unjudged.command)),
       xml_text(printable(unjudged.why)), unjudged.exit_code, foot);

@@ -2,7 +2,6 @@
 #pragma once
 #include <string>
 
-#include "compare/judge/baseline.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
@@ -11,9 +10,10 @@ namespace noonmark {
 // warns, its testcase is marked as skipped, and the message is the warning. The reason: CI servers show skipped
 // testcases in a separate list, but most of them hide the output of a testcase that passed. If the sweep did not finish,
 // there is one more testcase with an error, so that an incomplete sweep never passes. The file is valid against the
-// JUnit schemas of Ant (windyroad) and Jenkins, and well-formed for any bytes in the names. baseline: one testcase
-// more, with a failure if a value is worse; null: without it.
-std::string to_junit(const Results& results, const BaselineComparison* baseline = nullptr);
+// JUnit schema of Jenkins, and well-formed for any bytes in the names. A comparison with a baseline is one testcase
+// more, with a failure if a value is worse. The suite's time is what all points took to measure; that of a frame's testcase
+// what the frame took. The others have no time of their own.
+std::string to_junit(const Results& results);
 
 // One testcase with an error that says why nothing was judged.
 std::string to_junit(const Unjudged& unjudged);

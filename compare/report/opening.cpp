@@ -8,7 +8,7 @@
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
-#include "compare/judge/soundness.h"
+#include "compare/judge/verdict.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/part_answers.h"
 #include "compare/report/point_data.h"
@@ -38,12 +38,7 @@ const PointRecord* point_to_open(const Results& results, const std::vector<Compa
 
 }  // namespace
 
-bool opens_as_set(const Results& results) {
-  return static_cast<int64_t>(results.points.size()) < results.planned_points ||
-         std::any_of(results.bounds.begin(), results.bounds.end(), breaks) ||
-         std::any_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return !law.held; }) ||
-         !find_unsound(results.points).empty() || largest_light(results);
-}
+bool opens_as_set(const Results& results) { return !passes(verdict_of(results)) || largest_light(results); }
 
 const ImageRecord* live_image(const PointRecord& point) {
   for (const ImageRecord& image : point.images)

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.h"
+#include "compare/judge/baseline.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/deliveries.h"
@@ -15,8 +17,8 @@
 #include "compare/judge/machines.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
-#include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
+#include "compare/judge/verdict.h"
 #include "compare/report/escape.h"
 #include "compare/results/metrics.h"
 #include "compare/results/number_text.h"
@@ -39,46 +41,16 @@ std::string short_or_missing(std::optional<double> value, std::string_view unit 
   return value ? quantity_text(*value, unit) : "–";
 }
 
-// "3 bounds", "the law"
-std::string all_of(size_t count, std::string_view what) {
-  return count == 1 ? fmt::format("the {}", what) : fmt::format("all {} {}s", count, what);
-}
-
 std::string verdict(const Results& results) {
-  const auto finished = static_cast<int64_t>(results.points.size());
-  std::string broken, held;
-  const auto judge = [&](const auto& list, std::string_view what, const auto& is_broken) {
-    const auto count = std::count_if(list.begin(), list.end(), is_broken);
-    if (count > 0)
-      broken += fmt::format("{}{} of {} {}{}", broken.empty() ? "" : ", ", count, list.size(), what,
-                            list.size() == 1 ? "" : "s");
-    const auto kept = std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
-    const bool all = kept == static_cast<std::ptrdiff_t>(list.size());  // otherwise some are warnings
-    if (!list.empty())
-      held += (held.empty() ? "" : " and ") +
-              (all ? all_of(list.size(), what) : fmt::format("{} of {} {}s", kept, list.size(), what));
-  };
-  judge(results.bounds, "bound", breaks);
-  judge(results.laws, "law", [](const LawResult& law) { return !law.held; });
-  std::string text;
-  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty())
-    text = fmt::format("**Not sound: {}.** Do not rely on these numbers.", text_of(unsound.front()));
-  else if (finished < results.planned_points)
-    text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to continue.", finished,
-                       results.planned_points);
-  else if (const std::string refused = refused_words(results.points); !refused.empty())
-    text = fmt::format("**{}{}.** The bounds are judged over the other frames.", refused,
-                       broken.empty() ? "" : "; broken: " + broken);
-  else if (!broken.empty())
-    text = fmt::format("**Broken: {}.**", broken);
-  else if (!held.empty())
-    text = fmt::format("**Held: {} over {} point{}.**", held, finished, finished == 1 ? "" : "s");
-  else
-    text = fmt::format("**Measured {} point{}.** The experiment sets no bounds.", finished, finished == 1 ? "" : "s");
+  const Verdict verdict = verdict_of(results);
+  std::string text = fmt::format("**{}**", markdown(verdict_sentence(results)));
+  if (verdict == Verdict::unsound) text += " Do not rely on these numbers.";
+  if (verdict == Verdict::incomplete) text += " Run it again to continue.";
+  if (verdict == Verdict::refused) text += " The bounds are judged over the other frames.";
+  if (verdict == Verdict::measured) text += " The experiment sets no bounds.";
   const auto warnings = std::count_if(results.bounds.begin(), results.bounds.end(),
                                       [](const BoundResult& bound) { return !bound.held && bound.warns; });
-  if (warnings > 0) text += fmt::format(" {} warning{}.", warnings, warnings == 1 ? "" : "s");
-  if (finished < results.planned_points && !broken.empty()) text += fmt::format(" Broken so far: {}.", broken);
+  if (warnings > 0) text += fmt::format(" {}.", counted(static_cast<size_t>(warnings), "warning"));
   return text + "\n";
 }
 
@@ -255,8 +227,7 @@ std::string best_table(const Results& results) {
 
 }  // namespace
 
-std::string to_summary(const Results& results, const BaselineComparison* baseline,
-                       const std::vector<SummaryPicture>& pictures) {
+std::string to_summary(const Results& results, const std::vector<SummaryPicture>& pictures) {
   const RunInfo& info = results.info;
   std::string text =
       fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
@@ -270,7 +241,7 @@ std::string to_summary(const Results& results, const BaselineComparison* baselin
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
     text += fmt::format("\nNote: {}.\n", markdown(doubt));
   for (const std::string& note : info.scene_notes) text += fmt::format("\nAbout the scene {}.\n", markdown(note));
-  if (baseline) text += baseline_list(*baseline);
+  if (results.baseline) text += baseline_list(*results.baseline);
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
   for (const SummaryPicture& picture : pictures)

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "compare/judge/baseline.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
@@ -15,10 +14,8 @@ struct SummaryPicture {
 };
 
 // First the verdict, then the bounds (broken ones with the command that reproduces them), then the points with the
-// least error and the bias that each needs. baseline: its comparison stands before the bounds; null: without it. pictures:
-// stand after the bounds.
-std::string to_summary(const Results& results, const BaselineComparison* baseline = nullptr,
-                       const std::vector<SummaryPicture>& pictures = {});
+// least error and the bias that each needs. A comparison with a baseline stands before the bounds; pictures: stand after them.
+std::string to_summary(const Results& results, const std::vector<SummaryPicture>& pictures = {});
 
 // The reason why nothing was judged.
 std::string to_summary(const Unjudged& unjudged);

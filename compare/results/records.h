@@ -262,6 +262,14 @@ struct RunInfo {
   std::string share;  // "2/4": only this share of the experiment was measured; "joined": of several stores; empty: all
 };
 
+// What became of the values of a baseline (compare/judge/baseline.h).
+struct BaselineComparison {
+  std::vector<std::string> worse, better, notes;  // one line each
+  std::vector<std::string> changed;               // the settings and scenes that are not as they were; one line each
+  uint64_t compared = 0;                          // number of values
+  bool held() const { return worse.empty(); }
+};
+
 struct Results {
   RunInfo info;
   std::vector<PointRecord> points;  // ordered by id; an interrupted sweep has fewer than planned
@@ -269,6 +277,8 @@ struct Results {
   std::vector<BoundResult> bounds;
   std::vector<LawResult> laws;
   std::vector<PhaseDiagram> phases;  // one for each part that asks for it; an interrupted sweep may have fewer
+  std::optional<BaselineComparison> baseline;  // empty: it was compared with none
+  bool stopped = false;                        // by a signal, even if no point is missing; the store has none of this
 };
 
 // An experiment that failed before it could be judged.

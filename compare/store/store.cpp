@@ -72,6 +72,20 @@ bool is_finished(Database& db, int64_t point) {
   return rows.step();
 }
 
+constexpr std::string_view baseline_key = "baseline";
+constexpr std::pair<const char*, std::vector<std::string> BaselineComparison::*> baseline_lists[] = {
+    {"worse", &BaselineComparison::worse},
+    {"better", &BaselineComparison::better},
+    {"notes", &BaselineComparison::notes},
+    {"changed", &BaselineComparison::changed}};
+
+BaselineComparison baseline_of(const nlohmann::json& text) {
+  BaselineComparison found;
+  for (const auto& [name, member] : baseline_lists) text.at(name).get_to(found.*member);
+  text.at("compared").get_to(found.compared);
+  return found;
+}
+
 void load_info(Database& db, Results& results) {
   RunInfo& info = results.info;
   for (Statement rows(db, "SELECT key, value FROM info"); rows.step();) {
@@ -86,6 +100,7 @@ void load_info(Database& db, Results& results) {
     if (key == "sweep_notes") info.sweep_notes = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "triangles") info.triangles = std::stoull(value);
     if (key == "planned_points") results.planned_points = std::stoll(value);
+    if (key == baseline_key) results.baseline = baseline_of(nlohmann::json::parse(value));
   }
 }
 
@@ -340,6 +355,16 @@ void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
   insert.run("scene_notes", json_text(info.scene_notes));
   insert.run("sweep_notes", json_text(info.sweep_notes));
   insert.run("planned_points", std::to_string(planned_points));
+  seal_info(*db_);
+  transaction.commit();
+}
+
+void ResultStore::set_baseline(const BaselineComparison& baseline) {
+  nlohmann::json text = {{"compared", baseline.compared}};
+  for (const auto& [name, member] : baseline_lists) text[name] = baseline.*member;
+  Transaction transaction(*db_);
+  Statement(*db_, "INSERT OR REPLACE INTO info VALUES (?, ?)")
+      .run(std::string(baseline_key), text.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   seal_info(*db_);
   transaction.commit();
 }

@@ -99,6 +99,8 @@ class ResultStore {
   void set_metrics(const std::map<int64_t, std::map<std::string, double>>& of_points);
   // Replaces the stored facts of the run.
   void set_info(const RunInfo& info, int64_t planned_points);
+  // Until the facts of the run are replaced.
+  void set_baseline(const BaselineComparison& baseline);
   void set_bounds(const std::vector<BoundResult>& bounds);
   void set_laws(const std::vector<LawResult>& laws);
 

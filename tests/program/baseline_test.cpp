@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "tests/program/fixture.h"
 
@@ -44,6 +45,57 @@ TEST_F(ProgramBaseline, SaysWhatIsWorse) {
   write("b.json", first.substr(0, value) + "0.9" + first.substr(first.find('\n', value)));
   EXPECT_EQ(check({}), 0) << output_;
   EXPECT_TRUE(says("better: error at map.resolution = 64")) << output_;
+}
+
+// The value between the quotes behind `key="`, from the first place of `from` on.
+std::string quoted(const std::string& text, const std::string& from, const std::string& key) {
+  const size_t element = text.find(from), at = text.find(key + "=\"", element);
+  if (element == text.npos || at == text.npos) return "none";
+  const size_t begin = at + key.size() + 2;
+  return text.substr(begin, text.find('"', begin) - begin);
+}
+
+// All bounds hold, and a value is worse than in the baseline.
+TEST_F(ProgramBaseline, EveryFileHasTheOneVerdict) {
+  ASSERT_EQ(check({"--update-baseline"}), 0) << output_;
+  const std::string first = text("b.json");
+  const size_t value = first.find("\"error\": ") + 9;
+  write("b.json", first.substr(0, value) + "0.000001" + first.substr(first.find('\n', value)));
+  EXPECT_EQ(run({"check", "x.toml", "--out", "out", "--baseline", "b.json", "--quiet", "--json"}), 1) << output_;
+  const nlohmann::json said = nlohmann::json::parse(output_.substr(output_.find('{')));
+  const nlohmann::json& one = said["experiments"][0];
+  EXPECT_EQ(said["exit_code"], 1);
+  EXPECT_EQ(one["exit_code"], 1);
+  EXPECT_EQ(one["verdict"], "worse");
+  EXPECT_EQ(one["baseline"]["held"], false);
+  const auto files_are = [&](const std::string& verdict, bool good) {
+    const std::string junit = text("out/junit.xml"), summary = text("out/summary.md"), report = text("out/report.html");
+    EXPECT_EQ(quoted(junit, "<property name=\"verdict\"", "value"), verdict);
+    EXPECT_EQ(quoted(junit, "<testsuite ", "failures"), good ? "0" : "1");
+    EXPECT_EQ(summary.find("**Held") == std::string::npos, !good) << summary;
+    EXPECT_EQ(summary.find("**Worse than the baseline") != std::string::npos, !good) << summary;
+    const size_t line = report.find("<p class=\"verdict\"");
+    EXPECT_EQ(quoted(report.substr(line), "<span", "class"), good ? "pill held" : "pill broken");
+  };
+  files_are("worse", false);
+  EXPECT_EQ(run({"check", "x.toml", "--out", "out", "--baseline", "b.json", "--quiet"}), 1) << output_;
+  const size_t last = output_.find("x.toml: ");
+  ASSERT_NE(last, output_.npos) << output_;
+  EXPECT_EQ(output_.compare(last, 31, "x.toml: worse than the baseline"), 0) << output_;
+  EXPECT_EQ(run({"report", "out"}), 0) << output_;
+  files_are("worse", false);  // the store has it
+  // The next run without a baseline knows nothing of it.
+  EXPECT_EQ(run({"check", "x.toml", "--out", "out", "--quiet"}), 0) << output_;
+  files_are("held", true);
+  EXPECT_EQ(run({"report", "out"}), 0) << output_;
+  files_are("held", true);
+}
+
+TEST_F(ProgramBaseline, JUnitHasTheSecondsThatWereMeasured) {
+  ASSERT_EQ(run({"check", "x.toml", "--out", "out"}), 0) << output_;
+  const std::string junit = text("out/junit.xml");
+  EXPECT_GT(std::atof(quoted(junit, "<testsuite ", "time").c_str()), 0) << junit;
+  EXPECT_EQ(junit.find("time=", junit.find("<testcase")), junit.npos) << "a bound takes no time of its own: " << junit;
 }
 
 TEST_F(ProgramBaseline, OtherSettingsAreNamed) {

@@ -3,7 +3,10 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "app/pictures/image_file.h"
+#include "app/pictures/pictures.h"
 #include "tests/program/own_frame.h"
 
 namespace noonmark::acceptance {
@@ -72,6 +75,41 @@ TEST_F(CheckFrames, ABaselineIsCompared) {
   EXPECT_EQ(run({"check", "checks/frames.toml", "--baseline", "b.json", "--update-baseline", "--out", "out"}), 3);
   EXPECT_TRUE(says("the baseline b.json is not written: 1 of 3 frames refused")) << output_;
   EXPECT_EQ(text("b.json"), before);
+}
+
+// A baseline has no settings of a technique or a view of ours, which no frame has.
+TEST_F(CheckFrames, ABaselineKeepsWhatAFrameHas) {
+  frames_with_stripe_in(-1);
+  ASSERT_EQ(run({"check", "checks/frames.toml", "--baseline", "b.json", "--update-baseline", "--out", "out"}), 0)
+      << output_;
+  const nlohmann::json file = nlohmann::json::parse(text("b.json"));
+  std::set<std::string> names;
+  for (const auto& [name, value] : file["settings"].items()) names.insert(name);
+  for (const auto& point : file["points"])
+    for (const auto& [name, value] : point["settings"].items()) names.insert(name);
+  EXPECT_EQ(names, (std::set<std::string>{"given.frame", "scene.name", "view.height_px", "view.width_px"}));
+}
+
+// As of a sweep: the worst pixel of a broken bound is shown, enlarged.
+TEST_F(CheckFrames, TheWorstPixelOfABrokenBoundHasAPicture) {
+  frames_with_stripe_in(1);
+  ASSERT_EQ(run({"check", "checks/frames.toml", "--out", "out"}), 1) << output_;
+  const std::string summary = text("out/summary.md");
+  const size_t begin = summary.find("](", summary.find("![")) + 2;
+  ASSERT_NE(summary.find("!["), std::string::npos) << summary;
+  const std::string picture = summary.substr(begin, summary.find(')', begin) - begin);
+  EXPECT_EQ(picture, "worst-pixel-p0001-frame_acne.png");
+  const DecodedImage crop = read_image((folder_ / "out" / picture).string());
+  EXPECT_EQ(crop.height, crop_px * crop_scale);
+  EXPECT_EQ(crop.width, 3 * crop_px * crop_scale + 2 * crop_gap);
+  // A frame takes time of its own.
+  const std::string junit = text("out/junit.xml");
+  const size_t frame = junit.find("time=\"", junit.find("<testcase"));
+  ASSERT_NE(frame, junit.npos);
+  EXPECT_GT(std::atof(junit.c_str() + frame + 6), 0) << junit;
+  frames_with_stripe_in(-1);
+  ASSERT_EQ(run({"check", "checks/frames.toml", "--out", "out"}), 0) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out" / picture)) << "a picture of the run before";
 }
 
 // A frame that is refused, or not there, hides nothing of the others: their bounds stand in every file.

@@ -1,4 +1,5 @@
 // noonmark judge with the frame's own shadow map: its causes are those that the ladder finds for the same map.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace {
 // A frame whose own shadow map is handed over: what `render` wrote of a point, as another renderer would deliver it.
 class JudgeWithMap : public Program {
  protected:
-  static constexpr int width = 320, height = 180;
+  int width = 320, height = 180;
   // top_row_first, zero_to_one, reversed, mirrored: how the other renderer has its map.
   struct Convention {
     bool top_row_first = false, zero_to_one = false, reversed = false, mirrored = false;
@@ -254,6 +255,66 @@ TEST_F(JudgeWithMap, ALookupThatIsNotTheFramesIsNamed) {
   EXPECT_FALSE(fs::exists(folder_ / "out/frame-causes.png")) << "or drawn";
   frame["map"]["technique"] = {{"bias.constant", 10}};
   judged(frame, 3);
+}
+
+// A polygon offset lies in the map that is handed over. Not declared, R4 and R5 have two causes that cancel.
+TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamed) {
+  struct Case {
+    const char *factor, *units, *bias;
+  };
+  for (const Case& one : {Case{"4", "10", "0"}, Case{"0", "20000", "0"}, Case{"1.1", "4", "0"}, Case{"-1", "-1", "0"},
+                          Case{"0", "-20000", "0.001"}}) {
+    SCOPED_TRACE(fmt::format("{} {}", one.factor, one.units));
+    measure({{"bias.polygon_factor", one.factor},
+             {"bias.polygon_units", one.units},
+             {"bias.constant", one.bias},
+             {"map.format", "24"}});
+    nlohmann::json frame = deliver({});
+    expect_causes(judged(frame));
+    nlohmann::json& technique = frame["map"]["technique"];
+    for (const char* key : {"bias.polygon_factor", "bias.polygon_units", "map.format"}) technique.erase(key);
+    const nlohmann::json said = judged(frame, 3);
+    EXPECT_TRUE(said["metrics"].empty());
+    // What it says to add is JSON; added, the frame is judged, and its causes are those of the point.
+    std::string says;
+    for (const auto& check : said["checks"])
+      if (check["name"] == "map") says = check["says"];
+    const size_t begin = says.find('{'), end = says.find('}');
+    ASSERT_NE(end, std::string::npos) << says;
+    const nlohmann::json add = nlohmann::json::parse(says.substr(begin, end + 1 - begin));
+    EXPECT_NEAR(add["bias.polygon_factor"], std::atof(one.factor), 0.125) << says;  // what the grid alone can do
+    if (std::abs(std::atof(one.units)) > 1000)
+      EXPECT_NEAR(add["bias.polygon_units"].get<double>() / std::atof(one.units), 1, 0.02) << says;
+    technique.update(add);
+    const nlohmann::json with = judged(frame);
+    for (const char* cause : {"acne", "peter_panning", "precision"})
+      EXPECT_NEAR(with["metrics"][cause], metrics_.at(cause), with["metrics"]["frame_error"].get<double>() / 10)
+          << cause;
+  }
+}
+
+TEST_F(JudgeWithMap, CastersThatAreDrawnOtherwiseAreNamed) {
+  measure({{"map.cull", "front"}});
+  nlohmann::json frame = deliver({});
+  expect_causes(judged(frame));
+  frame["map"]["technique"].erase("map.cull");  // then the exact map has 47% acne, and the handed one takes it away
+  judged(frame, 3);
+  EXPECT_TRUE(says("map         FAILED")) << output_;
+  EXPECT_TRUE(says("map.cull")) << output_;
+}
+
+TEST_F(JudgeWithMap, ThePartsOfTheCausesSumToTheError) {
+  measure({{"bias.constant", "0.002"}, {"filter.kind", "box"}});
+  const nlohmann::json said = judged(deliver({}));
+  double parts = 0, sizes = 0;
+  for (const auto& [name, cause] : said["causes"].items()) {
+    parts += cause["part"].get<double>();
+    sizes += cause["size"].get<double>();
+    EXPECT_LE(std::abs(cause["part"].get<double>()), cause["size"].get<double>() + 1e-9) << name;
+  }
+  const double error = said["metrics"]["frame_error"];
+  EXPECT_NEAR(parts, error, 1e-7);
+  EXPECT_GT(sizes, error) << "or the test shows nothing";
 }
 
 TEST_F(JudgeWithMap, CheckKnowsTheCausesToo) {

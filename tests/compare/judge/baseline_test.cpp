@@ -164,11 +164,13 @@ TEST(Baseline, OtherTextIsRefused) {
 
 TEST(Baseline, StandsInJUnitAndInTheSummary) {
   BaselineComparison found = compared(one(0.1), one(0.2));
-  const Results results;
-  EXPECT_NE(to_junit(results, &found).find("tests=\"1\" failures=\"1\""), std::string::npos);
-  EXPECT_NE(to_summary(results, &found).find("**Worse.**"), std::string::npos);
-  found.worse.clear();
-  EXPECT_NE(to_junit(results, &found).find("tests=\"1\" failures=\"0\""), std::string::npos);
+  Results results;
+  results.baseline = found;
+  EXPECT_NE(to_junit(results).find("tests=\"1\" failures=\"1\""), std::string::npos);
+  EXPECT_NE(to_summary(results).find("**Worse.**"), std::string::npos);
+  results.baseline->worse.clear();
+  EXPECT_NE(to_junit(results).find("tests=\"1\" failures=\"0\""), std::string::npos);
+  results.baseline.reset();
   EXPECT_EQ(to_summary(results).find("Baseline"), std::string::npos);
 }
 

@@ -393,7 +393,7 @@ TEST(Summary, GivesTheVerdictFirst) {
   Results results = judged({0.1}, {at_most(0)});
   results.planned_points = 2;
   EXPECT_EQ(verdict(results),
-            "**Incomplete: 1 of 2 points are finished.** Run it again to continue. Broken so far: 1 of 1 bound.");
+            "**Incomplete: 1 of 2 points are finished; broken so far: 1 of 1 bound.** Run it again to continue.");
 }
 
 TEST(Summary, OrdersByErrorAndKeepsTheTableWhole) {
@@ -425,7 +425,7 @@ TEST(Bounds, AWarningDoesNotBreakTheVerdict) {
   EXPECT_NE(junit.find("failures=\"0\""), std::string::npos) << junit;
   EXPECT_NE(junit.find("<skipped message=\"warning: found 10%\">"), std::string::npos) << junit;
   const std::string summary = to_summary(results);
-  EXPECT_NE(summary.find("**Held: 0 of 1 bounds over 1 point.** 1 warning."), std::string::npos) << summary;
+  EXPECT_NE(summary.find("**Held: 0 of 1 bound over 1 point.** 1 warning."), std::string::npos) << summary;
   EXPECT_NE(summary.find("| warning | acne"), std::string::npos) << summary;
   bound.level = "loud";
   EXPECT_THROW(check_bound(bound), Error);
