@@ -36,7 +36,7 @@ constexpr FrameKey within(FrameKey key, const NumberRange& range, std::string_vi
 
 constexpr FrameKey key_rows[] = {
     {"", "noonmark_frame", Kind::version, "The version of this format: 1. Required."},
-    {"", "scene", Kind::text, "A built-in scene, or the path of a .gltf or .glb file, from this file's folder."},
+    {"", "scene", Kind::text, "A built-in scene, or the path of a .gltf, .glb or .vrm file, from this file's folder."},
     {"", "visibility", Kind::object, "The picture that is judged. Required."},
     {"visibility", "file", Kind::text,
      "EXR (half or float), PNG (8 or 16 bits) or NPY (uint8, uint16, float16, float32, float64): 1 is lit, 0 shadowed; "

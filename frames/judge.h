@@ -1,7 +1,7 @@
 // Judges a frame: the truth of its receivers, the share of each class of error by place, and the checks of the delivery.
 //
 //   FrameVerdict verdict = judge_frame(scene, tracer, frame, {.accepted = {"coverage"}});
-//   if (verdict.refused()) ...               // a check failed that was not accepted: the numbers say nothing of the shadows
+//   if (!verdict.refused())                  // otherwise a check failed that was not accepted: the numbers say nothing
 //   verdict.metrics.at("frame_error");
 #pragma once
 #include <array>

@@ -54,7 +54,7 @@ enum {
 /* Noonmark's version, "0.1.0". */
 NOONMARK_API const char *noonmark_version(void);
 
-/* A built-in scene by its name, or a .gltf or .glb file. It has the status and messages of noonmark_scene_status() and is never
+/* A built-in scene by its name, or a .gltf, .glb or .vrm file. It has the status and messages of noonmark_scene_status() and is never
    NULL, but where there is no memory for it. */
 NOONMARK_API noonmark_scene *noonmark_scene_load(const char *name);
 /* Triangles of a program: positions are vertices x 3 floats in metres, each from -1e9 to 1e9, right-handed and Y up; indices are triangles x 3, counter-

@@ -20,12 +20,13 @@ void declare(std::string& text, const ActivePart& active) {
 // Each sum is a statement of its own, so that the shader adds in the same order as the host.
 std::string looked_up_text(const Bias& bias) {
   if (!bias.moves_lookup()) return "vec3 looked_up(vec3 position, Surface surface) { return position; }\n";
-  std::string text = "vec3 looked_up(vec3 position, Surface surface) {\n  float texel_m = texel_m_at(position);\n";
+  std::string text = fmt::format("vec3 looked_up(vec3 position, Surface surface) {{\n  float unit_m = {};\n",
+                                 bias.offset_unit() == OffsetUnit::m ? "1.0" : "texel_m_at(position)");
   std::string sum = "position";
   for (const ActivePart& active : bias.moving()) {
     const std::string_view name = active.part->name;
     text += fmt::format(
-        "  precise float {0}_m = {1} * texel_m;\n"
+        "  precise float {0}_m = {1} * unit_m;\n"
         "  precise vec3 {0}_offset = {0}_m * {0}_way(surface);\n"
         "  precise vec3 {0}_sum = {2} + {0}_offset;\n",
         name, uniform(active), sum);
@@ -69,6 +70,7 @@ std::string bias_text_name(const Bias& bias) {
   std::string name = "bias";
   for (const auto parts : {bias.compared(), bias.moving()})
     for (const ActivePart& active : parts) name += fmt::format(" {}", active.part->name);
+  if (bias.moves_lookup() && bias.offset_unit() == OffsetUnit::m) name += " in m";
   return fmt::format("{} over {}", name, bias.reference().name);
 }
 

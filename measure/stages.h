@@ -4,14 +4,20 @@
 //
 // The stages of a measurement, each from named inputs to a small type:
 //
-//   scene → view → truth → map → lookup → shown → ladder
+// scene → view → truth → map → lookup → shown → ladder
 //
 // Workbench::measure() alone joins them, and it keeps the results that consecutive points share. The settings' rows name
 // the stages that read them (technique/settings.h). A test replaces a stage by deriving from Pipeline, and measures
 // through the same Workbench:
 //
-//   struct FlippedMap : Pipeline { MapStage draw_map(...) override; };
-//   Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<FlippedMap>());
+//   struct AllDark : Pipeline {
+//     MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques) override {
+//       MapResults results = Pipeline::look_up(renderer, map, techniques);
+//       std::fill(results.own.pixels.begin(), results.own.pixels.end(), 0.0f);
+//       return results;
+//     }
+//   };
+//   Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<AllDark>());
 #pragma once
 #include <functional>
 #include <map>

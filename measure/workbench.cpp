@@ -117,6 +117,27 @@ std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<con
   return places;
 }
 
+std::optional<Workbench::Hider> Workbench::hider(const Settings& settings) {
+  const Impl::Asked asked = impl_->begin(settings);
+  const auto [view, truth] = impl_->look(asked);
+  const Scene& scene = *asked.loaded.scene;
+  Image<uint8_t> hidden = truth.receivers.facing;
+  for (size_t i = 0; i < hidden.size(); ++i) hidden[i] = hidden[i] && !truth.receivers.lit[i];
+  std::vector<uint32_t> first =
+      asked.loaded.tracer->first_on_the_way(view.receivers, asked.technique.frame, hidden).pixels;
+  std::erase(first, no_primitive);
+  std::optional<Hider> most;
+  for (const Part& part : scene.parts) {
+    const auto is_of = [&](uint32_t t) {
+      return t - part.first_triangle < part.triangle_count;
+    };  // wraps below the first
+    const double share =
+        static_cast<double>(std::count_if(first.begin(), first.end(), is_of)) / static_cast<double>(first.size());
+    if (share > (most ? most->share : 0)) most = {part.name, share};
+  }
+  return most;
+}
+
 PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup) {
   Impl& b = *impl_;
   const Impl::Asked asked = b.begin(settings);

@@ -2,7 +2,7 @@
 //
 //   Workbench bench(gl::DebugMode::log);
 //   Measurement m = bench.measure(settings, curve_options);
-//   save(m.record); write_pictures(m, ...);
+//   save(m.record);
 #pragma once
 #include <functional>
 #include <memory>
@@ -111,6 +111,14 @@ class Workbench {
   // the same limits. marks: as of stack_values(), in the part's own unit; its `otherwise` is here the bias of one texel, or 1 of a
   // part that does not act on the compared depth. Throws Error.
   PictureStack picture_stack(const Settings& settings, const std::vector<double>& marks);
+
+  // What hides the light from the view: the part of the scene that the light meets first on its way to the most of the receivers
+  // that face it in shadow, and the share of these receivers. Empty without such a receiver. Throws Error.
+  struct Hider {
+    std::string part;
+    double share = 0;
+  };
+  std::optional<Hider> hider(const Settings& settings);
 
   // The peak memory that measure() would take. pictures: whether its pictures and EXR files are written. Throws Error.
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);

@@ -452,7 +452,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     }
     laws = join_laws(cascades);
     if (checks == Checks::all) {
-      soundness = join_soundness(cascades);
+      soundness = join_soundness(cascades, maps.front().climbed.soundness);
       soundness["cascade_choice_excess"] = choice->excess;
     }
     keep_cascade_metrics(cascades);

@@ -139,7 +139,7 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
     }
     add_picture(*stack, value, *ladder);
   }
-  if (part) stack->unit = part->unit == "bias.unit" ? find_setting("bias.unit").get(settings) : std::string(part->unit);
+  if (part) stack->unit = unit_of_amount(part->unit, settings.bias);
   stack->why = why_no_live_picture(settings);
   stack->scale = scale;
   return *stack;

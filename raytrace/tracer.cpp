@@ -230,4 +230,16 @@ Image<float> Tracer::occluder_distance(const ReceiverImage& given, const LightFr
   return distance;
 }
 
+Image<uint32_t> Tracer::first_on_the_way(const ReceiverImage& receivers, const LightFrame& frame,
+                                         const Image<uint8_t>& mask) const {
+  const LightView view(traced_->scene, frame);
+  Image<uint32_t> first(receivers.width(), receivers.height(), no_primitive);
+  tbb::parallel_for(size_t{0}, mask.size(), [&](size_t i) {
+    if (!mask[i]) return;
+    const glm::dvec3 place = view.place_of(frame.to_light(glm::dvec3(receivers.position[i])));
+    view.first_hits(traced_->embree, 1, &place, &first[i]);
+  });
+  return first;
+}
+
 }  // namespace noonmark::raytrace

@@ -122,6 +122,11 @@ class Tracer {
   Image<float> occluder_distance(const ReceiverImage& receivers, const LightFrame& frame,
                                  const Image<uint8_t>& mask) const;
 
+  // For the pixels where mask is not 0: the triangle that the light meets first on its way to the receiver. An index into
+  // Scene::triangles; no_primitive at other pixels.
+  Image<uint32_t> first_on_the_way(const ReceiverImage& receivers, const LightFrame& frame,
+                                   const Image<uint8_t>& mask) const;
+
  private:
   bool uses_cells() const { return method_ == TruthMethod::automatic; }
   // The receivers on the first of coincident triangles, the one that the rays know; `made` holds them where they

@@ -25,7 +25,7 @@ namespace {
 // A model or an experiment in the working directory that has this name, "Lantern/Lantern.gltf". Empty if there is none.
 std::string file_of_name(const std::string& name) {
   for (const char* folder : {"", "/"})
-    for (const char* extension : {".gltf", ".glb", ".toml"}) {
+    for (const char* extension : {".gltf", ".glb", ".vrm", ".toml"}) {
       const std::string path = (*folder ? name + folder : std::string()) + name + extension;
       if (std::error_code none; std::filesystem::is_regular_file(path, none)) return path;
     }
@@ -47,9 +47,10 @@ Scene scene_as_built(const SceneSettings& settings) {
   if (near.empty()) near = nearest_name(settings.name, names);
   throw Error(
       ErrorKind::usage,
-      fmt::format("there is no built-in scene '{}'{}; give one that `noonmark scenes` lists, or the path of a .gltf or "
-                  ".glb file",
-                  settings.name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+      fmt::format(
+          "there is no built-in scene '{}'{}; give one that `noonmark scenes` lists, or the path of a .gltf, .glb or "
+          ".vrm file",
+          settings.name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
 
 template <class T>
@@ -114,7 +115,8 @@ void require_shape(Scene& scene, const Placement& placement) {
 }  // namespace
 
 bool names_file(std::string_view scene_name) {
-  return ends_with_any_case(scene_name, ".gltf") || ends_with_any_case(scene_name, ".glb");
+  return std::any_of(std::begin(model_endings), std::end(model_endings),
+                     [&](const char* ending) { return ends_with_any_case(scene_name, ending); });
 }
 
 const Camera& camera_named(const Scene& scene, std::string_view name) {

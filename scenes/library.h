@@ -13,10 +13,13 @@
 
 namespace noonmark {
 
+// Of the files of models. A .vrm is a GLB.
+inline constexpr const char* model_endings[] = {".gltf", ".glb", ".vrm"};
+
 // Whether scene.name is the path of a file rather than a built-in name.
 bool names_file(std::string_view scene_name);
 
-// Makes the scene of a built-in name, or of a path that ends in .gltf or .glb (in upper or lower case), adds a floor if
+// Makes the scene of a built-in name, or of a path that ends in one of model_endings (in upper or lower case), adds a floor if
 // settings.floor asks for it, and cuts it into triangles as settings.mesh says. Throws Error(usage) for an unknown name (with the nearest name), and, before
 // they are made, for more triangles than are allowed or fit into memory. Throws Error(file) for a file that cannot be
 // used.

@@ -5,7 +5,7 @@
 // The types of a scene. The project's conventions are defined here and nowhere else.
 //
 //   Scene scene = make_scene(settings.scene);        // a built-in name or a .gltf/.glb path (scenes/library.h)
-//   for (glm::uvec3 t : scene.triangles) use(scene.positions[t.x], ...);
+//   for (glm::uvec3 t : scene.triangles) use(scene.positions[t.x]);
 //
 // Conventions
 // - Right-handed world, metres, Y up (glTF). Matrices are named to_from: `clip_from_world`.
@@ -53,10 +53,6 @@ struct Camera {
 enum class LightKind { directional, spot, point };
 enum class LightShape { sphere, disc };
 
-// - Directional: position_m and target_m give the light's direction, and the point from which its map's depth and
-//   centre are measured, as lookAt(position, target, up) does.
-// - Spot: the light is at position_m and points at target_m.
-// - Point: the light is at position_m; target_m is not used.
 // How strong a light is, as glTF's extension KHR_lights_punctual defines it. A shadow does not depend on it. In a frame with
 // several lights, it gives each light its weight (measure/lights_frame.h).
 struct LightPower {
@@ -66,6 +62,10 @@ struct LightPower {
   double inner_cone_deg = 0;  // spot: the whole angle in which it has its full intensity; it falls to 0 at cone_deg
 };
 
+// - Directional: position_m and target_m give the light's direction, and the point from which its map's depth and
+//   centre are measured, as lookAt(position, target, up) does.
+// - Spot: the light is at position_m and points at target_m.
+// - Point: the light is at position_m; target_m is not used.
 struct Light {
   LightKind kind = LightKind::directional;
   glm::dvec3 position_m{0, 10, 0};

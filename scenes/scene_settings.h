@@ -15,7 +15,7 @@ inline constexpr std::string_view mesh_forms[] = {"as_built", "one_mesh", "split
                                                   "doubled",  "tiles",    "t_junctions"};
 
 struct SceneSettings {
-  std::string name = "cube-room";  // a built-in scene, or the path of a .gltf or .glb file
+  std::string name = "cube-room";  // a built-in scene, or the path of a .gltf, .glb or .vrm file
   double theta_deg = 45;           // plane: the angle between its normal and the light
   double phi_deg = 0;              // plane: azimuth of the slope in the light's plane, against the texel axes; plate:
                                    // how far it is turned about the vertical

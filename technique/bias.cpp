@@ -25,6 +25,7 @@ ActivePart active_part(const BiasSettings& settings, const BiasPart& part) {
 
 Bias::Bias(const BiasSettings& settings)
     : unit_(settings.unit),
+      offset_unit_(settings.offset_unit),
       reference_(&tap_reference(settings.reference)),
       plane_cap_(rounded(settings.plane_cap.value_or(std::numeric_limits<double>::infinity()))) {
   for (const BiasPart& part : bias_parts()) {
@@ -35,6 +36,14 @@ Bias::Bias(const BiasSettings& settings)
   }
   const PolygonOffset offset{rounded(settings["polygon_factor"]), rounded(settings["polygon_units"])};
   if (offset.factor != 0 || offset.units != 0) polygon_offset_ = offset;
+}
+
+std::string unit_of_amount(std::string_view unit, const BiasSettings& settings) {
+  Settings all;
+  all.bias = settings;
+  if (unit == "bias.unit") return find_setting(unit).get(all);
+  if (unit == "bias.offset_unit") return settings.offset_unit == OffsetUnit::m ? "m" : "texels";
+  return std::string(unit);
 }
 
 float Bias::at(const LookupProbe& probe, size_t i) const {
@@ -59,8 +68,8 @@ glm::dvec3 Bias::moved_m(const LightFrame& frame, glm::dvec3 position, glm::dvec
   glm::dvec3 moved(0);
   if (moving_.empty()) return moved;
   const in_double::Surface surface = surface_at(frame, position, normal);
-  const double texel_m = frame.texel_m(frame.to_light(position));
-  for (const ActivePart& active : moving_) moved += active.amount * texel_m * active.part->formula.way(surface);
+  const double unit_m = offset_m(frame.texel_m(frame.to_light(position)));
+  for (const ActivePart& active : moving_) moved += active.amount * unit_m * active.part->formula.way(surface);
   return moved;
 }
 

@@ -30,6 +30,10 @@ struct ActivePart {
   float held(float factor) const { return std::min(std::max(amount * factor, floor), cap); }
 };
 
+// The unit of an amount of the bias that has the row's unit `unit` with these settings: "depth", "m", "texel" of bias.unit, "texels" or
+// "m" of bias.offset_unit, otherwise itself.
+std::string unit_of_amount(std::string_view unit, const BiasSettings& settings);
+
 // All active parts of the bias. A part whose amount and floor are both 0 is not in the lists.
 class Bias {
  public:
@@ -37,6 +41,9 @@ class Bias {
   explicit Bias(const BiasSettings& settings);
 
   BiasUnit unit() const { return unit_; }
+  OffsetUnit offset_unit() const { return offset_unit_; }
+  // The metres of 1 in offset_unit(), where a texel is texel_m wide.
+  double offset_m(double texel_m) const { return offset_unit_ == OffsetUnit::m ? 1 : texel_m; }
   const TapReference& reference() const { return *reference_; }
   float plane_cap() const { return plane_cap_; }  // in units of bias.unit
 
@@ -73,6 +80,7 @@ class Bias {
 
  private:
   BiasUnit unit_ = BiasUnit::depth;
+  OffsetUnit offset_unit_ = OffsetUnit::texel;
   const TapReference* reference_ = tap_references().data();
   float plane_cap_ = std::numeric_limits<float>::max();
   std::vector<ActivePart> compared_, moving_, casting_;

@@ -38,7 +38,7 @@ struct BiasFormula {
 struct BiasPart {
   std::string_view name;  // name of its setting bias.<name> and of its file, if it has one
   BiasTarget acts_on = BiasTarget::compared_depth;
-  std::string_view unit;  // the unit of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
+  std::string_view unit;  // the unit of the amount: "bias.unit"; "bias.offset_unit" of what moves a place; "" ...
   double most = 0;        // the amount is in 0 ... most; of a part with either sign in -most ... most
   std::string_view help;
   std::string_view law;              // what the laws say of it, for the table in docs/reference/techniques.md

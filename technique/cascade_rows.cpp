@@ -65,9 +65,12 @@ std::string without_blend(const Settings& s, LightKind light) {
   return s.cascades.blend > 0 ? "" : "with cascades.blend = 0";
 }
 
-std::string without_blend_by_depth(const Settings& s, LightKind light) {
+// It says where the band by depth begins, to which the maps are fitted also where another way than the depth chooses them.
+std::string without_band_by_depth(const Settings& s, LightKind light) {
   if (std::string why = without_blend(s, light); !why.empty()) return why;
-  return s.cascades.select == "depth" ? "" : "with cascades.select = " + s.cascades.select;
+  return s.cascades.select == "depth" || s.cascades.cover_band
+             ? ""
+             : fmt::format("with cascades.select = {} and cascades.cover_band = false", s.cascades.select);
 }
 
 std::string spheres_without_sphere(const Settings& s, std::optional<LightKind>) {
@@ -135,12 +138,14 @@ std::vector<Setting> cascade_rows() {
            MEMBER(blend))
           .idle(without_cascades),
       choice("cascades.blend_of", {"slice", "end", "square"},
-             "cascades.select = depth: of what cascades.blend is a part. slice: of the depth of the slice, as in "
+             "Of what cascades.blend is a part by depth: by cascades.select = map or sphere too the maps are fitted to "
+             "this "
+             "band, if cascades.cover_band = true. slice: of the depth of the slice, as in "
              "Babylon.js; end: of the depth at which it ends, as in Bevy; square: of the square of that depth over the "
              "way from near to the reach, half of it before the end and half after it, as three.js's CSM fades "
              "(cascades.blend = 0.25).",
              MEMBER(blend_of))
-          .idle(without_blend_by_depth),
+          .idle(without_band_by_depth),
       named("cascades.blend_shape", "How the weight of the next cascade grows over the band.", cascade_blends(),
             MEMBER(blend_shape))
           .idle(without_blend),

@@ -72,8 +72,7 @@ std::span<const CascadeSelection> cascade_selections() {
   static const std::vector<CascadeSelection> all = {
       {"depth", "shaders/cascade/by_depth.glsl", "by the depth along the view, as in Bevy and Godot", depth_in_double,
        depth_in_bounds},
-      {"map", "shaders/cascade/by_map.glsl",
-       "the first whose map holds the receiver with all its taps: never a coarser one than by the depth", map_in_double,
+      {"map", "shaders/cascade/by_map.glsl", "the first whose map holds the receiver with all its taps", map_in_double,
        map_in_bounds},
       {"sphere", "shaders/cascade/by_sphere.glsl",
        "map.fit = sphere: the first whose sphere holds the receiver, as in Unity", sphere_in_double, sphere_in_bounds},

@@ -26,10 +26,10 @@ std::vector<glm::vec3> caster_positions(const Scene& scene, const LightFrame& fr
   std::vector<glm::vec3> moved = scene.positions;
   for (size_t i = 0; i < moved.size(); ++i) {
     const glm::dvec3 p = scene.positions[i];
-    const double texel_m = std::max(0.0, frame.texel_m(frame.to_light(p)));
+    const double unit_m = bias.offset_m(std::max(0.0, frame.texel_m(frame.to_light(p))));
     const in_double::Surface surface = surface_at(frame, p, normals[i]);
     glm::dvec3 way(0);
-    for (const ActivePart& part : bias.casting()) way += part.amount * texel_m * part.part->formula.way(surface);
+    for (const ActivePart& part : bias.casting()) way += part.amount * unit_m * part.part->formula.way(surface);
     glm::dvec3 to = p + way;
     if (map.pancake) to += std::max(0.0, frame.near_m - frame.depth_m(frame.to_light(to))) * frame.forward;
     moved[i] = glm::vec3(to);

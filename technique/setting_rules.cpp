@@ -124,6 +124,10 @@ std::string without_part_in_unit(const Settings& s, LightKind) {
   const bool capped = s.bias.plane_cap && tap_reference(s.bias.reference).reads_cap;
   return capped || curve_part(s.bias) ? "" : "without a part of the bias in that unit";
 }
+std::string without_offset(const Settings& s, LightKind) {
+  const Bias bias(s.bias);
+  return bias.moves_lookup() || bias.moves_casters() ? "" : "without a part of the bias that moves a place";
+}
 std::string without_capped_plane(const Settings& s, LightKind) {
   return tap_reference(s.bias.reference).reads_cap ? "" : "with bias.reference = " + s.bias.reference;
 }

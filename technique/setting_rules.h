@@ -70,6 +70,7 @@ std::string on_flat_map(const Settings&, LightKind);
 std::string where_map_is_given(const Settings&, LightKind);
 std::string without_size_of_light(const Settings&, LightKind);
 std::string without_part_in_unit(const Settings&, LightKind);
+std::string without_offset(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
 std::string without_slice_fit(const Settings&, LightKind);
 std::string without_reach(const Settings&, LightKind);  // of the map: not fitted to a slice of the view, nor cascades

@@ -119,7 +119,7 @@ Setting light_kind_row() {
 
 std::vector<Setting> make_table() {
   std::vector<Setting> table = {
-      text("scene.name", "A built-in scene, or the path of a .gltf or .glb file.", MEMBER(scene.name)),
+      text("scene.name", "A built-in scene, or the path of a .gltf, .glb or .vrm file.", MEMBER(scene.name)),
       real("scene.theta_deg", "deg", 0, 89.9,
            "plane: the angle between its normal and the light; crease: the same of the face that rises.",
            MEMBER(scene.theta_deg))
@@ -396,6 +396,13 @@ std::vector<Setting> make_table() {
              "or texels of the map at the receiver.",
              MEMBER(bias.unit))
           .idle(without_part_in_unit),
+      choice("bias.offset_unit", {"texel", "m"},
+             "Unit of the parts of the bias that move a place: the receiver's that is looked up (bias.normal_offset "
+             "...) or "
+             "the caster's (bias.caster_offset ...). texel: the width of a texel there; m: metres, as in three.js.",
+             MEMBER(bias.offset_unit))
+          .idle(without_offset)
+          .only_read_by({Stage::map, Stage::lookup}),
       named("bias.reference", "The depth that a tap is compared with, before the bias is subtracted.", tap_references(),
             MEMBER(bias.reference))
           .refused(plane_on_cube_or_blended),

@@ -39,6 +39,7 @@ enum class MapFit { scene, tight, view, sphere, casters, corner_sphere, corner_s
 enum class DepthRange { fit, scene };
 enum class CubePass { layered, six_passes };
 enum class BiasUnit { depth, m, texel };
+enum class OffsetUnit { texel, m };
 enum class LightChoice { automatic, directional, spot, point };
 
 struct LightSettings {  // automatic and empty: as the scene's light
@@ -133,9 +134,10 @@ inline constexpr int most_cascades = 8;
 
 // A bias is the sum of its parts (technique/bias_parts.h). Each part is 0 unless it is set.
 struct BiasSettings {
-  BiasUnit unit = BiasUnit::depth;       // the unit of the parts whose own unit is "bias.unit"
-  std::string reference = "own_depth";   // the name of one of tap_references()
-  std::optional<double> plane_cap = {};  // in bias.unit; empty: no cap
+  BiasUnit unit = BiasUnit::depth;             // the unit of the parts whose own unit is "bias.unit"
+  OffsetUnit offset_unit = OffsetUnit::texel;  // the same of those whose unit is "bias.offset_unit"
+  std::string reference = "own_depth";         // the name of one of tap_references()
+  std::optional<double> plane_cap = {};        // in bias.unit; empty: no cap
 
   // A parameter of a part: its amount ("slope"), floor ("slope_floor") or cap ("tan_cap"; infinity means no cap).
   double& operator[](std::string_view parameter) { return values_[bias_parameter_index(parameter)]; }

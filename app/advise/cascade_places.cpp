@@ -9,6 +9,7 @@
 
 #include "app/advise/experiment_engines.h"
 #include "app/advise/recommend_space.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "scenes/camera_fit.h"
 #include "technique/cascade_splits.h"
@@ -128,8 +129,8 @@ CascadePlaces cascade_places(Workbench& bench, std::span<const Settings> conditi
       best = std::move(place);
     }
     if (!best) continue;
-    say(fmt::format("{} cascades: of the practical splits lambda = {:g} errs least, {:.3g}%", count, best_lambda,
-                    100 * least));
+    say(fmt::format("{} cascades: of the practical splits lambda = {:g} errs least, {}", count, best_lambda,
+                    share_text(least)));
     const size_t before = found.places.size();
     for (const std::string& engine : engines)
       if (std::optional<MapPlace> laid = laid_in(engine, bench, first, *best, seen))

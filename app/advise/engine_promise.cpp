@@ -7,6 +7,7 @@
 #include "app/advise/recommend_filtered.h"
 #include "app/advise/recommend_judge.h"
 #include "base/error.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "measure/memory_estimate.h"
 #include "technique/lookups.h"
@@ -23,8 +24,6 @@ constexpr int most_in_all_views = 4096;
 void raise(double& most, double value) {
   if (!(value <= most)) most = value;
 }
-
-std::string percent_of(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
 }  // namespace
 
@@ -85,8 +84,8 @@ EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engi
 
 std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended) {
   if (!advice.promise) return "error not known: " + advice.why_not_emulated;
-  return fmt::format("error {} with these lines (recommended: {}){}{}", percent_of(advice.promise->error),
-                     percent_of(recommended.error),
+  return fmt::format("error {} with these lines (recommended: {}){}{}", share_text(advice.promise->error),
+                     share_text(recommended.error),
                      advice.promise->all_views ? "" : ", measured at the given view alone", format_text(advice));
 }
 
@@ -100,7 +99,7 @@ std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& 
   std::string broken;
   const auto compare = [&](const char* name, double value, double bound) {
     if (value <= bound) return;
-    broken += fmt::format("{}{} {} (bound {})", broken.empty() ? "" : ", ", name, percent_of(value), percent_of(bound));
+    broken += fmt::format("{}{} {} (bound {})", broken.empty() ? "" : ", ", name, share_text(value), share_text(bound));
   };
   compare("acne", advice.promise->acne, bounds.acne_bound);
   compare("Peter Panning", advice.promise->peter_panning, bounds.peter_panning_bound);

@@ -14,6 +14,7 @@
 #include "app/pictures/given_frame.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "frames/judge.h"
 #include "measure/given_lookup.h"
@@ -131,7 +132,7 @@ class Trial {
     judge_view(view, folder + "/frame.json", condition, advice);
     const auto require = [&](const char* what, double found, double most) {
       if (!(found <= most))
-        view.broken.push_back(fmt::format("{} {:.3g}% (bound {:.3g}%)", what, 100 * found, 100 * most));
+        view.broken.push_back(fmt::format("{} {} (bound {})", what, share_text(found), share_text(most)));
     };
     if (!view.refused.empty()) return view;
     require("acne", view.measured.acne, bounds_.bounds.acne_bound);

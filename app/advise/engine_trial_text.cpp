@@ -6,6 +6,7 @@
 
 #include "app/advise/engine_trial.h"
 #include "base/error.h"
+#include "compare/results/number_text.h"
 
 namespace noonmark {
 namespace {
@@ -51,8 +52,8 @@ std::vector<std::string> trial_text(const EngineAdvice& engine) {
           "{}, view {}: measured {}{}. So these lines are not an answer in this engine.", engine.engine, view.name,
           fmt::join(view.broken, " and "),
           view.promise
-              ? fmt::format(", promised acne {:.3g}%, Peter Panning {:.3g}% and error {:.3g}%",
-                            100 * view.promise->acne, 100 * view.promise->peter_panning, 100 * view.promise->error)
+              ? fmt::format(", promised acne {}, Peter Panning {} and error {}", share_text(view.promise->acne),
+                            share_text(view.promise->peter_panning), share_text(view.promise->error))
               : ""));
   }
   return lines;

@@ -68,8 +68,6 @@ std::string name_of(const DescribedChoice& choice, const Results& results) {
   return text;
 }
 
-std::string percent_of_error(double share) { return fmt::format("{:.3g}%", 100 * share); }
-
 double measured_error(const DescribedChoice& choice, const std::string& accuracy) {
   double most = 0;
   for (const PointRecord* point : choice.points)
@@ -105,10 +103,10 @@ void promise_lines(Workbench& bench, EngineAdvice& engine, const DescribedChoice
   }
   const Settings& first = choice.conditions.front();
   engine.promised = fmt::format(
-      "error {} with these lines ({}){}, in {}; the point itself{} has {}", percent_of_error(engine.promise->error),
-      accuracy, format_text(engine), where_measured(choice),
+      "error {} with these lines ({}){}, in {}; the point itself{} has {}", share_text(engine.promise->error), accuracy,
+      format_text(engine), where_measured(choice),
       reads_moments(first) ? fmt::format(", with map.moments = {},", find_setting("map.moments").get(first)) : "",
-      percent_of_error(measured_error(choice, accuracy)));
+      share_text(measured_error(choice, accuracy)));
   if (!engine.promise->all_views) engine.promised += "; the lines were measured under the first condition alone";
 }
 

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/results/number_text.h"
 #include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/light_frame.h"
@@ -219,6 +220,7 @@ class Search {
       break;  // that is enough to know
     }
     if (!candidate.holds()) return;
+    if (screening_.lit() == 0) refuse_dark_views();
     std::vector<PointRecord> points;
     for (auto& [which, record] : of_condition) points.push_back(std::move(record));
     candidate.conditions = points.size();
@@ -239,6 +241,20 @@ class Search {
     if (!candidate.holds()) say_(fmt::format("{}: {}", name_of(tried, request_), tried.why_not));
   }
 
+  // Where all is in shadow the least bias holds every bound, whatever the map, and that says nothing of any lit surface.
+  [[noreturn]] void refuse_dark_views() {
+    const std::optional<Workbench::Hider> hider =
+        bench_.hider(small_picture(request_.conditions.front(), request_.width_px));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("in no view is anything lit that faces the light{}, so no bias can be too small here, and an "
+                    "answer would say nothing of what is lit elsewhere; leave that mesh out of the scene if it "
+                    "casts no shadow, or move the light or the camera (light.position_m, view.eye_m)",
+                    hider ? fmt::format(": the light meets the mesh '{}' first on its way to {} of it",
+                                        printable(hider->part), share_text(hider->share))
+                          : ""));
+  }
+
   void ask_elsewhere(Tried& tried) {
     if (!request_.elsewhere) return;
     Elsewhere found = request_.elsewhere(tried);
@@ -254,7 +270,7 @@ class Search {
   std::string why_not_covered(const PointRecord& record, const Tried& tried) const {
     const double coverage = metric_of(record, "coverage");
     if (!request_.places[tried.place].moves_with || coverage <= searched_.acne_bound) return "";
-    return fmt::format("its map leaves out {:.3g}% of what a view shows", 100 * coverage);
+    return fmt::format("its map leaves out {} of what a view shows", share_text(coverage));
   }
 
   void verify(Candidate& candidate, bool by_rendering) {
@@ -273,14 +289,14 @@ class Search {
       const std::string cause = why_not_filtered(filtered_shares(*broken), request_.curve);
       tried.why_not = fmt::format(
           "at another placement of the grid {}",
-          cause.empty() ? fmt::format("its error is {:.3g}%", 100 * worst_placed(*broken, request_.accuracy)) : cause);
+          cause.empty() ? fmt::format("its error is {}", share_text(worst_placed(*broken, request_.accuracy))) : cause);
       tried.worst = broken;
       return;
     }
     tried.why_not =
-        fmt::format("at another placement of the grid it has {:.3g}% acne, {:.3g}% Peter Panning and {:.3g}% error",
-                    100 * worst_placed(*broken, "acne"), 100 * worst_placed(*broken, "peter_panning"),
-                    100 * worst_placed(*broken, request_.accuracy));
+        fmt::format("at another placement of the grid it has {} acne, {} Peter Panning and {} error",
+                    share_text(worst_placed(*broken, "acne")), share_text(worst_placed(*broken, "peter_panning")),
+                    share_text(worst_placed(*broken, request_.accuracy)));
     tried.worst = broken;
   }
 
@@ -365,8 +381,8 @@ class Search {
 
   static std::string why_worse(const Tried& tried, const Tried& answer) {
     const double work = tried.cost / answer.cost;
-    const auto errors = fmt::format("an error of {:.3g}% in place of {:.3g}%, under the first condition",
-                                    100 * tried.screened_error, 100 * answer.screened_error);
+    const auto errors = fmt::format("an error of {} in place of {}, under the first condition",
+                                    share_text(tried.screened_error), share_text(answer.screened_error));
     if (work == 1) return fmt::format("it has the same work and {}", errors);
     if (work < 1) return fmt::format("it has {:.2g} times less work, but {}", 1 / work, errors);
     return tried.screened_error < answer.screened_error

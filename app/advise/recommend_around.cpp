@@ -150,7 +150,7 @@ Tornado settings_around(Workbench& bench, std::span<const Settings> conditions, 
     say(fmt::format("around {} = {}", row.name, row.get(first)));
     TornadoRow made;
     made.setting = row.name, made.unit = row.unit, made.value = row.get(first);
-    if (made.unit == "bias.unit") made.unit = find_setting("bias.unit").get(first);
+    made.unit = unit_of_amount(made.unit, first.bias);
     made.half = around.at(row, value / 2);
     made.twice = around.at(row, value * 2);
     TornadoEnd here = recommended;

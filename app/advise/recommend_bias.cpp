@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/ladder/ladder.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -52,10 +53,9 @@ NearestBias nearest_bias(const PointRecord& point, const CurveOptions& bounds) {
 }
 
 std::string why_no_window(const PointRecord& point, const NearestBias& nearest) {
-  return fmt::format(
-      "no bias keeps both within {}: the best, {} = {:.3g} {}, leaves {:.3g}% acne and {:.3g}% Peter Panning",
-      searched_text(), point.curve->parameter, nearest.bias, setting_of(point, "bias.unit"), 100 * nearest.acne,
-      100 * nearest.peter_panning);
+  return fmt::format("no bias keeps both within {}: the best, {} = {:.3g} {}, leaves {} acne and {} Peter Panning",
+                     searched_text(), point.curve->parameter, nearest.bias, setting_of(point, "bias.unit"),
+                     share_text(nearest.acne), share_text(nearest.peter_panning));
 }
 
 PointRecord::Worst worst_of_bias(const Measurement& m) {

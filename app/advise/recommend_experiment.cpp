@@ -19,7 +19,7 @@ constexpr std::string_view relied_groups[] = {"scene.", "view.", "light.", "map.
 // answer that was written. Parts of a bias that are not there, motion and frames of others are no part of it.
 bool relies_on(std::string_view setting, bool filtered) {
   if (filtered && setting.starts_with("lookup.")) return true;
-  if (setting == "bias.unit" || setting == "bias.reference") return true;
+  if (setting == "bias.unit" || setting == "bias.offset_unit" || setting == "bias.reference") return true;
   return setting == "filter.kind" || std::any_of(std::begin(relied_groups), std::end(relied_groups),
                                                  [&](std::string_view group) { return setting.starts_with(group); });
 }

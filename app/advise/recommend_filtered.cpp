@@ -12,6 +12,7 @@
 #include "compare/judge/moment_cures.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/reduction_window.h"
+#include "compare/results/number_text.h"
 #include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/filters.h"
@@ -45,8 +46,6 @@ BiasLevel filtered_level(const std::string& lookup, bool with_bias) {
   };
   return level;
 }
-
-std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
 }  // namespace
 
@@ -89,7 +88,8 @@ void raise(FilteredShares& most, const FilteredShares& other) {
 std::string why_not_filtered(const FilteredShares& shares, const CurveOptions& bounds) {
   std::vector<std::string> broken;
   const auto hold = [&](const char* what, double share, double bound) {
-    if (!(share <= bound)) broken.push_back(fmt::format("{} {}, more than {}", what, percent(share), percent(bound)));
+    if (!(share <= bound))
+      broken.push_back(fmt::format("{} {}, more than {}", what, share_text(share), share_text(bound)));
   };
   hold("it leaks", shares.leak, bounds.peter_panning_bound);
   hold("its Peter Panning is", shares.peter_panning, bounds.peter_panning_bound);
@@ -163,7 +163,7 @@ std::string why_no_reduction(const PointRecord& point, const CurveOptions& searc
   if (window_of(point)) return "";
   return fmt::format(
       "no lookup.reduction keeps the leak within {} and what it darkens within {}: without one it leaks {}",
-      percent(searched.peter_panning_bound), percent(searched.acne_bound), percent(leak));
+      share_text(searched.peter_panning_bound), share_text(searched.acne_bound), share_text(leak));
 }
 
 namespace {

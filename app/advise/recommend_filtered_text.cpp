@@ -9,14 +9,11 @@
 #include "app/advise/recommend_filtered.h"
 #include "base/text.h"
 #include "compare/judge/recommendation.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
-namespace {
-
-std::string share_percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
-
-}  // namespace
+namespace {}  // namespace
 
 std::string lookup_text(const Settings& settings) {
   if (!reduction_is_free(settings.lookup.kind)) return engine_form_name(settings);
@@ -34,27 +31,27 @@ std::string lookup_text(const Settings& settings) {
 std::string filtered_bounds_text(const CurveOptions& bounds) {
   return fmt::format(
       "leak and Peter Panning each within {}, over-darkening and what the reduction darkens each within {}",
-      share_percent(bounds.peter_panning_bound), share_percent(bounds.acne_bound));
+      share_text(bounds.peter_panning_bound), share_text(bounds.acne_bound));
 }
 
 std::string glossed_filtered_bounds_text(const CurveOptions& bounds) {
   return fmt::format(
       "leak (light where shadows overlap) and Peter Panning (a shadow leaves its object) each within {}, "
       "over-darkening (shade on what is lit) and what lookup.reduction darkens each within {}",
-      share_percent(bounds.peter_panning_bound), share_percent(bounds.acne_bound));
+      share_text(bounds.peter_panning_bound), share_text(bounds.acne_bound));
 }
 
 std::string filtered_beside_compared(const CurveOptions& bounds) {
   return fmt::format(
       "A filtered map has no acne. It keeps its leak (light where shadows overlap) and its Peter Panning each within "
       "{}, and its over-darkening and what its reduction darkens each within {}.",
-      share_percent(bounds.peter_panning_bound), share_percent(bounds.acne_bound));
+      share_text(bounds.peter_panning_bound), share_text(bounds.acne_bound));
 }
 
 std::string shares_text(const FilteredShares& shares) {
   return fmt::format("{} leak, {} Peter Panning, {} over-darkening, {} darkened by the reduction",
-                     share_percent(shares.leak), share_percent(shares.peter_panning),
-                     share_percent(shares.over_darkening), share_percent(shares.reduction));
+                     share_text(shares.leak), share_text(shares.peter_panning), share_text(shares.over_darkening),
+                     share_text(shares.reduction));
 }
 
 std::string allowed_text(const Tried& tried) {
@@ -67,9 +64,8 @@ std::string enough_bounds_text(const PointRecord& worst, const CurveOptions& bou
   const auto enough = [](double bound, double found, double share) { return std::max(bound, found / share); };
   return fmt::format(
       "Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
-      share_percent(enough(bounds.acne_bound, std::max(left.over_darkening, left.reduction), searched_acne)),
-      share_percent(
-          enough(bounds.peter_panning_bound, std::max(left.leak, left.peter_panning), searched_peter_panning)));
+      share_text(enough(bounds.acne_bound, std::max(left.over_darkening, left.reduction), searched_acne)),
+      share_text(enough(bounds.peter_panning_bound, std::max(left.leak, left.peter_panning), searched_peter_panning)));
 }
 
 std::string kept_filtered_text(const Answer& answer, const CurveOptions& bounds) {
@@ -84,7 +80,7 @@ std::string kept_filtered_text(const Answer& answer, const CurveOptions& bounds)
                        engine_form_text(tried.settings.lookup.kind));
   if (!tried.reduction) return "";
   return fmt::format("lookup.reduction keeps the leak within {} and what it darkens within {} from {} {}",
-                     share_percent(searched.peter_panning_bound), share_percent(searched.acne_bound),
+                     share_text(searched.peter_panning_bound), share_text(searched.acne_bound),
                      window_text(*tried.reduction), where);
 }
 
@@ -97,10 +93,10 @@ std::string promise_of_both(const Answer& answer) {
       "The error to expect is the larger of two, {}: {} {}, and {} of OpenGL's own map at the other placements. At the "
       "worst of these OpenGL's map differs from the exact one by {} (depth format and rasteriser) and {} (rounding of "
       "the moments).",
-      share_percent(std::max(searched, rendered)), share_percent(searched),
+      share_text(std::max(searched, rendered)), share_text(searched),
       placed ? "at the worst of the searched placements of the exact map" : "with the grid where the settings put it",
-      share_percent(rendered), share_percent(metric_of(*shown, "precision")),
-      share_percent(metric_of(*shown, "moment_precision")));
+      share_text(rendered), share_text(metric_of(*shown, "precision")),
+      share_text(metric_of(*shown, "moment_precision")));
 }
 
 }  // namespace noonmark

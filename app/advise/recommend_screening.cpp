@@ -8,6 +8,7 @@
 #include "app/advise/recommend_filtered.h"
 #include "app/advise/recommend_judge.h"
 #include "base/error.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "measure/memory_estimate.h"
 #include "technique/cost.h"
@@ -42,7 +43,11 @@ Settings Screening::of_choice(Settings settings, size_t level, size_t place, con
   return settings;
 }
 
-void Screening::see(const PointRecord& record) { shadowed_ = std::max(shadowed_, 1 - metric_of(record, "lit")); }
+void Screening::see(const PointRecord& record) {
+  const double lit = metric_of(record, "lit");
+  shadowed_ = std::max(shadowed_, 1 - lit);
+  lit_ = std::max(lit_, lit);
+}
 
 void Screening::run() {
   for (int resolution : request_.resolutions) {
@@ -65,7 +70,7 @@ bool Screening::try_at(const Candidate& like, int resolution) {
 
 std::string why_too_wrong(const Tried& tried, const AdviceRequest& request) {
   if (!request.error || tried.error <= *request.error) return "";
-  return fmt::format("its error of {:.3g}% is above {:.3g}%", 100 * tried.error, 100 * *request.error);
+  return fmt::format("its error of {} is above {}", share_text(tried.error), share_text(*request.error));
 }
 
 double Screening::error_of(const Tried& tried) const {
@@ -268,7 +273,7 @@ void Screening::measure(const Choice& choice) {
     tried.why_not = "it costs more than the budget";
   if (made.possible)
     say_(fmt::format("{}: {}", name_of(tried, request_),
-                     made.holds() ? fmt::format("usable, error {:.3g}%", 100 * tried.error) : tried.why_not));
+                     made.holds() ? fmt::format("usable, error {}", share_text(tried.error)) : tried.why_not));
   candidates_.push_back(std::move(made));
 }
 

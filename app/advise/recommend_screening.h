@@ -69,6 +69,7 @@ class Screening {
   // What was measured tells the largest share of receivers that are dark in the truth.
   void see(const PointRecord& record);
   double shadowed() const { return shadowed_; }
+  double lit() const { return lit_; }
 
  private:
   struct Choice {
@@ -100,6 +101,7 @@ class Screening {
   std::vector<Candidate> candidates_;
   std::optional<SeenShare> seen_;  // empty until some settings are measured
   double shadowed_ = 0;
+  double lit_ = 0;
 };
 
 // For people: "one constant bias, 512 texels, filter none".

@@ -19,8 +19,6 @@
 namespace noonmark {
 namespace {
 
-std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
-
 std::string million(double work) { return fmt::format("{:.3g} million", work / 1e6); }
 
 std::string filter_text(const FilterSettings& filter) {
@@ -99,8 +97,8 @@ std::string causes_text(const PointRecord& point) {
 }
 
 std::string bounds_text(const CurveOptions& bounds) {
-  return fmt::format("acne within {} and Peter Panning within {}", percent(bounds.acne_bound),
-                     percent(bounds.peter_panning_bound));
+  return fmt::format("acne within {} and Peter Panning within {}", share_text(bounds.acne_bound),
+                     share_text(bounds.peter_panning_bound));
 }
 
 bool asks_for_filtered(const AdviceRequest& request) {
@@ -118,7 +116,7 @@ std::string glossed_bounds_text(const Advice& advice) {
     return glossed_filtered_bounds_text(bounds);
   return fmt::format(
       "acne (a surface shadows itself) within {} and Peter Panning (a shadow leaves its object) within {}",
-      percent(bounds.acne_bound), percent(bounds.peter_panning_bound));
+      share_text(bounds.acne_bound), share_text(bounds.peter_panning_bound));
 }
 
 std::string eye_bounds_text(const AdviceRequest& request) {
@@ -146,14 +144,14 @@ std::string needed_text(const Advice& advice) {
            "make none where there are none.";
   const std::string without =
       fmt::format("Without shadows {} of the picture that faces the light would be wrong, in the worst view",
-                  percent(advice.shadowed));
+                  share_text(advice.shadowed));
   const double with = advice.answer()->tried.error;
   if (with >= advice.shadowed)
-    return fmt::format("{}; this map leaves {}, so it does not pay.", without, percent(with));
+    return fmt::format("{}; this map leaves {}, so it does not pay.", without, share_text(with));
   if (advice.request.error && advice.shadowed <= *advice.request.error)
     return fmt::format("{}. That is within the error of {} that is allowed, so the scene needs no shadow map.", without,
-                       percent(*advice.request.error));
-  return fmt::format("{}; this map leaves {}, so it removes {:.3g}% of that error.", without, percent(with),
+                       share_text(*advice.request.error));
+  return fmt::format("{}; this map leaves {}, so it removes {:.3g}% of that error.", without, share_text(with),
                      100 * (1 - with / advice.shadowed));
 }
 
@@ -206,20 +204,20 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
       lines.push_back(fmt::format(
           "A larger --error: {} holds with these settings. Or finer texels: errors fall as their width on average (law "
           "5), so some {} texels, or an extent {} times smaller.",
-          percent(nearest.error), times * nearest.settings.map.resolution, times));
+          share_text(nearest.error), times * nearest.settings.map.resolution, times));
   } else if (nearest.usable() && nearest.eye) {
     lines.push_back(fmt::format(
         "Larger bounds for the eye: --edges {:.3g} --patch {} on these settings. Or finer texels: edges come "
         "nearer to the true ones as texels do (law 5).",
         std::max(nearest.eye->edge_p95_pixels, most_edge_pixels),
-        percent(std::max(nearest.eye->wrong_patch, most_wrong_patch))));
+        share_text(std::max(nearest.eye->wrong_patch, most_wrong_patch))));
   } else if (nearest.nearest) {
     // Of the bounds only a share is used up while searching.
     const auto enough = [](double bound, double left, double share) { return std::max(bound, left / share); };
     lines.push_back(fmt::format(
         "Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
-        percent(enough(request.curve.acne_bound, nearest.nearest->acne, searched_acne)),
-        percent(enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning, searched_peter_panning))));
+        share_text(enough(request.curve.acne_bound, nearest.nearest->acne, searched_acne)),
+        share_text(enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning, searched_peter_panning))));
   }
   if (nearest.filtered() && !nearest.usable() && nearest.worst)
     lines.push_back(enough_bounds_text(*nearest.worst, request.curve));
@@ -238,11 +236,11 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
 
 std::vector<std::string> nothing_works(const Advice& advice) {
   std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("Nothing that was tried keeps {}{}{} under all conditions{}.", kept_text(advice.request),
-                  eye_bounds_text(advice.request),
-                  advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : "",
-                  advice.nearest && advice.nearest->fails_elsewhere ? ", here and in the engine that it is for" : ""));
+  lines.push_back(fmt::format(
+      "Nothing that was tried keeps {}{}{} under all conditions{}.", kept_text(advice.request),
+      eye_bounds_text(advice.request),
+      advice.request.error ? fmt::format(" and the error within {}", share_text(*advice.request.error)) : "",
+      advice.nearest && advice.nearest->fails_elsewhere ? ", here and in the engine that it is for" : ""));
   const std::optional<Tried>& nearest = advice.nearest;
   if (!nearest) return lines;
   lines.push_back(fmt::format("Nearest came {}: {}.", settings_text(*nearest, advice.request), nearest->why_not));
@@ -313,9 +311,9 @@ std::vector<std::string> answers_table(const Advice& advice) {
   for (const Answer& answer : advice.answers) {
     const Tried& tried = answer.tried;
     rows.push_back(
-        {kinds_text(answer), million(tried.cost), percent(tried.error),
+        {kinds_text(answer), million(tried.cost), share_text(tried.error),
          tried.eye ? fmt::format("{:.2f} and {:.3g}", tried.eye->edge_mean_pixels, tried.eye->edge_p95_pixels) : "-",
-         tried.eye ? percent(tried.eye->wrong_patch) : "-",
+         tried.eye ? share_text(tried.eye->wrong_patch) : "-",
          tried.bias        ? may_vary(*tried.bias)
          : tried.reduction ? "reduction " + window_text(*tried.reduction)
          : tried.as_is     ? "fixed"
@@ -377,9 +375,9 @@ std::string steps_text(const Advice& advice) {
   std::string text;
   for (size_t i = 1; i < advice.answers.size(); ++i) {
     const Answer &from = advice.answers[i - 1], &to = advice.answers[i];
-    text += fmt::format("From {} to {}: {:.2g} times the work, for an error of {:.3g}% in place of {:.3g}%. ",
+    text += fmt::format("From {} to {}: {:.2g} times the work, for an error of {} in place of {}. ",
                         answer_name(from.kinds.back()), answer_name(to.kinds.front()), to.tried.cost / from.tried.cost,
-                        100 * to.tried.error, 100 * from.tried.error);
+                        share_text(to.tried.error), share_text(from.tried.error));
   }
   const Answer& last = advice.answers.back();
   if (last.tried.error > 0)
@@ -422,7 +420,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
   lines.push_back(fmt::format(
       "That is the answer \"{}\". All answers keep {}{}{}{}{}:", kinds_text(answer), glossed_bounds_text(advice),
       eye_bounds_text(advice.request),
-      advice.request.error ? fmt::format(", {} within {}", advice.request.accuracy, percent(*advice.request.error))
+      advice.request.error ? fmt::format(", {} within {}", advice.request.accuracy, share_text(*advice.request.error))
                            : "",
       advice.request.source_of_bounds.empty() ? "" : fmt::format(" (bounds: {})", advice.request.source_of_bounds),
       advice.request.held_in.empty()
@@ -463,14 +461,14 @@ std::vector<std::string> advice_text(const Advice& advice) {
                       : fmt::format(", {} of them rendered by OpenGL", answer.verified.rendered),
                   std::min(advice.request.width_px, tried.settings.view.width_px),
                   tried.filtered() ? shares_text(answer.verified.filtered)
-                                   : fmt::format("{} acne, {} Peter Panning", percent(answer.verified.worst_acne),
-                                                 percent(answer.verified.worst_peter_panning)),
-                  percent(answer.verified.worst_error)));
+                                   : fmt::format("{} acne, {} Peter Panning", share_text(answer.verified.worst_acne),
+                                                 share_text(answer.verified.worst_peter_panning)),
+                  share_text(answer.verified.worst_error)));
   if (const std::string both = promise_of_both(answer); !both.empty()) lines.push_back(both);
   if (tried.worst) {
     const std::string causes = causes_text(*tried.worst);
-    lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(tried.error),
-                                causes.empty() ? "" : ", most of it " + causes));
+    lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy,
+                                share_text(tried.error), causes.empty() ? "" : ", most of it " + causes));
   }
   if (advice.shadowed > 0) lines.push_back(needed_text(advice));
   if (advice.request.places[tried.place].of_casters)

@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
+#include "compare/results/number_text.h"
 #include "measure/lights_frame.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
@@ -274,8 +275,6 @@ std::string with_spaces(int64_t number) {
   return text;
 }
 
-std::string share_of(double share) { return fmt::format("{:.3g}%", 100 * share); }
-
 nlohmann::ordered_json json_of(const TexelDivision& division) {
   nlohmann::ordered_json json = {{"lights_error", division.error}, {"texels", division.texels}};
   for (const LightShare& light : division.lights)
@@ -317,7 +316,7 @@ std::vector<std::string> budget_text(const TexelBudget& budget) {
   for (const LightShare& light : budget.best.lights)
     lines.push_back(fmt::format("  {:<{}} {:>8} {:>12} {:>14} {:>14}", light.name, width,
                                 light.resolution == 0 ? "none" : fmt::format("{}", light.resolution),
-                                share_of(light.weight), share_of(light.error), share_of(light.without)));
+                                share_text(light.weight), share_text(light.error), share_text(light.without)));
   std::vector<std::string> equal;
   for (const LightShare& light : budget.equal.lights)
     equal.push_back(fmt::format("{} {}", light.name, light.resolution));
@@ -325,16 +324,17 @@ std::vector<std::string> budget_text(const TexelBudget& budget) {
   lines.push_back(
       fmt::format("The frame's error is {} (lights_error, the mean of {} placements of the grids that the search did "
                   "not see), with {} texels.",
-                  share_of(budget.best.error), judged_placements.size(), with_spaces(budget.best.texels)));
+                  share_text(budget.best.error), judged_placements.size(), with_spaces(budget.best.texels)));
   lines.push_back(budget.best.error < budget.equal.error
                       ? fmt::format("An equal split ({}) has {}: {} more than this.", fmt::join(equal, ", "),
-                                    share_of(budget.equal.error), share_of(budget.equal.error / budget.best.error - 1))
+                                    share_text(budget.equal.error),
+                                    share_text(budget.equal.error / budget.best.error - 1))
                       : std::string("It is an equal split: no other division that was tried has less error."));
   lines.push_back("noonmark run measures one placement of each grid, so its lights_error differs.");
   for (const LightShare& light : budget.best.lights)
     if (light.resolution == 0)
       lines.push_back(fmt::format("{} needs no map: without its shadow the frame is wrong by {}.", light.name,
-                                  share_of(light.without)));
+                                  share_text(light.without)));
   return lines;
 }
 
@@ -365,7 +365,7 @@ std::string budget_experiment(const TexelBudget& budget, const std::string& fold
     if (light.resolution == 0) {
       text +=
           fmt::format("\n# {} has no map: without its shadow the frame is wrong by {}. It is left out of this frame.\n",
-                      printable(light.name), share_of(light.without));
+                      printable(light.name), share_text(light.without));
       continue;
     }
     text += fmt::format("\n[[part]]\nname = {}\n", toml_string(light.name));

@@ -29,12 +29,17 @@ namespace {
 
 class Reader : private SettingsReader {
  public:
-  explicit Reader(const std::string& path) : SettingsReader(path), promises_(path, experiment_) {
+  Reader(const std::string& path, const std::vector<std::string>& sets)
+      : SettingsReader(path), promises_(path, experiment_), sets_(sets) {
     experiment_.path = path;
   }
   // Reads a part, which starts with the settings that stand outside the parts.
-  explicit Reader(const Experiment& defaults)
-      : SettingsReader(defaults.path), experiment_(defaults), promises_(defaults.path, experiment_), in_part_(true) {}
+  Reader(const Experiment& defaults, const std::vector<std::string>& sets)
+      : SettingsReader(defaults.path),
+        experiment_(defaults),
+        promises_(defaults.path, experiment_),
+        in_part_(true),
+        sets_(sets) {}
 
   Experiment read(const toml::table& root) {
     for (const Item& item : items(root)) {
@@ -92,6 +97,7 @@ class Reader : private SettingsReader {
       read_parts(*parts_);
       if (lights_) read_parts_as_lights(*lights_);
       if (times_) read_times(*times_);
+      take_sets();
       points(experiment_);
       require_curve_over();
       return std::move(experiment_);
@@ -101,6 +107,7 @@ class Reader : private SettingsReader {
     if (bounds_) promises_.read_bounds(*bounds_);
     if (laws_) promises_.read_laws(*laws_);
     if (times_) read_times(*times_);
+    take_sets();
     if (!in_part_) points(experiment_);
     if (lights_) read_lights(*lights_);
     require_curve_over();
@@ -173,7 +180,7 @@ class Reader : private SettingsReader {
     std::vector<Experiment> lights;
     if (node.is_array_of_tables())
       for (const toml::node& element : *node.as_array())
-        lights.push_back(Reader(experiment_).read_light(*element.as_table()));
+        lights.push_back(Reader(experiment_, sets_).read_light(*element.as_table()));
     else
       for (const toml::node* element : list(node, "lights"))
         lights.push_back(named_light(string(*element, "lights"), *element));
@@ -254,7 +261,7 @@ class Reader : private SettingsReader {
     std::vector<Experiment> parts;
     std::vector<std::string> notes;
     for (const toml::node& element : *node.as_array()) {
-      Experiment part = Reader(experiment_).read(*element.as_table());
+      Experiment part = Reader(experiment_, sets_).read(*element.as_table());
       for (const Experiment& other : parts) {
         if (other.part == part.part) fail(element, fmt::format("two parts have the name '{}'", part.part));
         for (const Law& law : part.laws)
@@ -392,6 +399,11 @@ class Reader : private SettingsReader {
     }
     if (over_values) read_over_values(*over_values);
   }
+  // Before what the settings mean together is checked.
+  void take_sets() {
+    for (const std::string& assignment : sets_) apply_override(experiment_, assignment);
+  }
+
   // That a point has the curve that this table asks for.
   void require_curve_over() const {
     if (!curve_over_) return;
@@ -486,6 +498,7 @@ class Reader : private SettingsReader {
   Experiment experiment_;
   PromiseReader promises_;
   bool in_part_ = false;
+  const std::vector<std::string>& sets_;
   std::set<std::string> given_;  // the settings that this part of the file gives
   const toml::node* times_ = nullptr;
   const toml::node* parts_ = nullptr;
@@ -502,11 +515,11 @@ class Reader : private SettingsReader {
 
 }  // namespace
 
-Experiment parse_experiment(std::string_view toml, const std::string& path) {
+Experiment parse_experiment(std::string_view toml, const std::string& path, const std::vector<std::string>& sets) {
   check_toml_text(toml, path);
   try {
     const toml::table root = toml::parse(toml, path);
-    return Reader(path).read(root);
+    return Reader(path, sets).read(root);
   } catch (const toml::parse_error& error) {
     const bool named_before = error.description().find("existing string 'scene' as table") != std::string_view::npos;
     throw Error(ErrorKind::usage, fmt::format("{}:{}:{}: {}{}", path, error.source().begin.line,
@@ -537,7 +550,7 @@ bool says_nothing(std::string_view text) {
 
 }  // namespace
 
-Experiment load_experiment(const std::string& path) {
+Experiment load_experiment(const std::string& path, const std::vector<std::string>& sets) {
   if (names_file(path))
     throw Error(ErrorKind::usage,
                 fmt::format("{} is a model, not an experiment; noonmark init {} writes a first experiment for it", path,
@@ -557,7 +570,7 @@ Experiment load_experiment(const std::string& path) {
   }
   if (says_nothing(text))
     throw Error(ErrorKind::usage, fmt::format("{}: is empty; name at least a scene (scene = \"cube-room\")", path));
-  return parse_experiment(text, path);
+  return parse_experiment(text, path, sets);
 }
 
 }  // namespace noonmark

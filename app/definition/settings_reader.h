@@ -1,11 +1,11 @@
 // Reads the settings of an experiment file. Only experiment_file.cpp includes it, because toml++ is a large header.
 #pragma once
-#include <cctype>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "app/definition/toml_reader.h"
+#include "scenes/library.h"
 
 namespace noonmark {
 
@@ -48,14 +48,11 @@ class SettingsReader : protected TomlReader {
     return row.get(scratch);
   }
 
-  // A relative path of a scene file starts at the experiment's folder. Names of built-in scenes do not end in .gltf or
-  // .glb.
+  // A relative path of a scene file starts at the experiment's folder. Names of built-in scenes do not end as those
+  // of models.
   std::string scene_path(const std::string& name) const {
     const std::filesystem::path named(name);
-    std::string ending = named.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if ((ending != ".gltf" && ending != ".glb") || named.is_absolute()) return name;
+    if (!names_file(name) || named.is_absolute()) return name;
     return (std::filesystem::path(path()).parent_path() / named).lexically_normal().string();
   }
 

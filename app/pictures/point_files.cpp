@@ -65,7 +65,8 @@ Image<float> depth_read(const Measurement& m, const auto& depths_of) {
 }
 
 // The stored and the exact map, with the highest v on top. Of cascades the maps one above the other, the nearest at the
-// bottom; beside a map that is narrower than another one is the depth 1 of the border.
+// bottom. NaN where there is no depth: in the exact map at the texels that no receiver's tap reads, and beside a map that is narrower
+// than another one.
 LargeImage map_image(const Measurement& m) {
   glm::ivec2 size(0);
   std::vector<int> bottom;  // the first row of each map
@@ -74,7 +75,6 @@ LargeImage map_image(const Measurement& m) {
     size = {std::max(size.x, map.technique.frame.map_size().x), size.y + map.technique.frame.map_size().y};
   }
   const auto copy = [&m, bottom, size](int first, int count, float* pixels) {
-    std::vector<float> exact(static_cast<size_t>(size.x));
     for (int y = 0; y < count;) {
       // The rows from here down that are of one map.
       const int row = size.y - 1 - first - y;
@@ -83,12 +83,10 @@ LargeImage map_image(const Measurement& m) {
       const int top = row - bottom[k], rows = std::min(top + 1, count - y);
       const Image<float> stored = map.stored_rows(top + 1 - rows, rows);
       for (int down = 0; down < rows; ++down) {
-        map.exact.copy_row(top - down, exact.data());
-        for (int x = 0; x < size.x; ++x, pixels += 2) {
-          const bool inside = x < stored.width;
-          pixels[0] = inside ? stored.at(x, rows - 1 - down) : border_depth;
-          pixels[1] = inside ? exact[static_cast<size_t>(x)] : border_depth;
-        }
+        std::fill_n(pixels, 2 * size.x, MapDepths::unknown);
+        for (int x = 0; x < stored.width; ++x) pixels[2 * x] = stored.at(x, rows - 1 - down);
+        map.exact.texels->each_in_row(top - down, [&](int x, size_t at) { pixels[2 * x + 1] = map.exact[at]; });
+        pixels += 2 * size.x;
       }
       y += rows;
     }

@@ -5,7 +5,7 @@
 // ones that were written.
 //
 //   for (int64_t id : points_with_pictures(experiment.pictures, results))
-//     if (!why_not_as_written(*find_point(results.points, id), out).empty()) keep_pictures(measurement, id, out);
+//     if (!why_not_as_written(*find_point(results.points, id), out).empty()) keep_pictures(measurement, id, out, formats);
 #pragma once
 #include <cstdint>
 #include <string>

@@ -111,7 +111,7 @@ _noonmark() {
   fi
   if [[ ${kinds[0]-} == NAME=VALUE ]]; then
     if [[ $word == scene.name=* ]]; then
-      kinds=(SCENE FILE.gltf FILE.glb)
+      kinds=(SCENE FILE.gltf FILE.glb FILE.vrm)
       word=${word#*=}
     elif [[ $word == *=* ]]; then
       read -ra choices < <(_noonmark_settings "$program" | awk -v name="${word%%=*}=" 'index($0, name) == 1 { sub(/^[^=]*=/, ""); print }')

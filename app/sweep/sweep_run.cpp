@@ -63,9 +63,8 @@ std::vector<int64_t> wanted_points(size_t planned, const SweepOptions& options) 
 bool has_what_a_sweep_reads(const PointRecord& point) {
   const auto has = [&](std::string_view name) { return point.metrics.contains(std::string(name)); };
   return has("facing") && has("error") &&
-         std::all_of(std::begin(sound_limits), std::end(sound_limits), [&](const SoundLimit& limit) {
-           return has(limit.metric) || find_metric(limit.metric).optional();
-         });
+         std::all_of(std::begin(sound_limits), std::end(sound_limits),
+                     [&](const SoundLimit& limit) { return has(limit.metric) || !must_have(point, limit); });
 }
 
 void note_each(const std::vector<std::string>& notes) {

@@ -1,6 +1,7 @@
 #include "app/verbs/command_line_error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -58,16 +59,18 @@ std::string as_setting(const std::string& names, const std::vector<std::string>&
   return text;
 }
 
-// "; judge has it": the verbs, other than this one, that have the option. Empty if there are none, or more than three.
+// "; it is an option of judge": the verbs, other than this one, that have the option. Empty if there are none.
 std::string verbs_with(const CLI::App& app, const CLI::App& verb, const std::string& option) {
-  std::string names;
-  int count = 0;
+  std::vector<std::string> names;
   for (const CLI::App* other : app.get_subcommands([](const CLI::App*) { return true; })) {
     const std::vector<std::string> options = options_of(*other);
     if (other == &verb || std::find(options.begin(), options.end(), option) == options.end()) continue;
-    names += (count++ == 0 ? "" : ", ") + other->get_name();
+    names.push_back(other->get_name());
   }
-  return count == 0 || count > 3 ? "" : fmt::format("; {} {} it", names, count == 1 ? "has" : "have");
+  if (names.empty()) return "";
+  // What the verb has in place of it.
+  const char* const instead = option == "--max" ? ", and a bound of an experiment stands in its [[bound]]" : "";
+  return fmt::format("; it is an option of {}{}", fmt::join(names, ", "), instead);
 }
 
 }  // namespace
@@ -92,11 +95,13 @@ std::string command_line_error(const CLI::App& app, const CLI::ParseError& error
   if (std::find(known.begin(), known.end(), "--set") != known.end()) settings = settings_as_options();
   for (const auto& [as_option, setting] : settings)
     names.push_back(as_option);  // of equally near ones an option is meant
+  const std::string elsewhere = verbs_with(app, verb, name);
   const auto setting = settings.find(nearest_name(name, names));
-  const bool is_setting = setting != settings.end() && std::none_of(options.begin(), options.end(), [&](auto one) {
+  // An option that another verb has is meant as it stands, and not as a setting with a similar name.
+  const bool is_meant = setting != settings.end() && (elsewhere.empty() || setting->first == name);
+  const bool is_setting = is_meant && std::none_of(options.begin(), options.end(), [&](auto one) {
                             return one == setting->first || one.starts_with(name);
                           });
-  const std::string elsewhere = verbs_with(app, verb, name);
   return fmt::format("{} has no option '{}'{} {}", verb.get_name(), name,
                      is_setting          ? "; did you mean " + as_setting(setting->second, left, option) + "?"
                      : elsewhere.empty() ? did_you_mean(name, options)

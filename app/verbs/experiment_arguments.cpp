@@ -17,7 +17,7 @@ CLI::Option* add_experiment(CLI::App& verb, std::string& path, const char* what)
 }
 
 void add_model(CLI::App& verb, std::string& path) {
-  verb.add_option("model", path, "The path of a .gltf or .glb file")
+  verb.add_option("model", path, "The path of a .gltf, .glb or .vrm file")
       ->required()
       ->check(not_empty())
       ->type_name(value_kind::model);
@@ -106,8 +106,28 @@ std::string folders_of(std::initializer_list<const char*> subjects,
   return text;
 }
 
+namespace {
+
+// bias.unit = m reads as if it were of all parts; offsets have a unit of their own. Empty if nothing is to be said.
+std::string note_on_offsets(const Experiment& experiment) {
+  for (const Experiment& part : experiment.parts)
+    if (std::string note = note_on_offsets(part); !note.empty()) return note;
+  const auto gives = [&](const std::string& name) { return experiment.locations.contains(name); };
+  if (!gives("bias.unit") || experiment.base.bias.unit != BiasUnit::m || gives("bias.offset_unit")) return "";
+  for (const BiasPart& part : bias_parts())
+    if (const std::string name = "bias." + std::string(part.name); part.unit == "bias.offset_unit" && gives(name))
+      return fmt::format(
+          "bias.unit = m is not the unit of {0}, which moves a place: {0} is in texels; give "
+          "bias.offset_unit = m for metres, or texel",
+          name);
+  return "";
+}
+
+}  // namespace
+
 Experiment experiment_from(const std::string& path, const ExperimentArguments& arguments) {
-  Experiment experiment = path.empty() ? Experiment{} : load_experiment(path);
+  Experiment experiment = path.empty() ? Experiment{} : load_experiment(path, arguments.sets);
+  // Also what a file says of one light or part alone, and the defaults where there is no file.
   for (const std::string& assignment : arguments.sets) apply_override(experiment, assignment);
   if (experiment.lights || experiment.all_lights)
     for (const char* chooses : {"light.name", "light.index", "light.kind"})
@@ -123,6 +143,7 @@ Experiment experiment_from(const std::string& path, const ExperimentArguments& a
   if (fits_cascades(experiment))
     fmt::print(stderr, "note: no map.fit is given, so each cascade is fitted to its slice of the view: map.fit = {}\n",
                fit_of_cascades);
+  if (const std::string note = note_on_offsets(experiment); !note.empty()) fmt::print(stderr, "note: {}\n", note);
   return experiment;
 }
 

@@ -98,7 +98,7 @@ std::string surface_text(const SurfaceReport& s) {
 ModelReport inspect_model(const Settings& settings) {
   if (!names_file(settings.scene.name))
     throw Error(ErrorKind::usage,
-                fmt::format("{} is not a model: give the path of a .gltf or .glb file", settings.scene.name));
+                fmt::format("{} is not a model: give the path of a .gltf, .glb or .vrm file", settings.scene.name));
   ModelReport report;
   report.path = settings.scene.name;
   const Model model =

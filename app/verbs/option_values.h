@@ -19,10 +19,11 @@ namespace noonmark {
 // with this ending, and nothing for a number. A word in lower case is itself a value. A value of several kinds has their words, separated by "|".
 namespace value_kind {
 inline constexpr const char* experiment = "FILE.toml";
-inline constexpr const char* scene = "SCENE|FILE.gltf|FILE.glb";  // a built-in scene, or a model
-inline constexpr const char* model = "FILE.gltf|FILE.glb";
+inline constexpr const char* scene = "SCENE|FILE.gltf|FILE.glb|FILE.vrm";  // a built-in scene, or a model
+inline constexpr const char* model = "FILE.gltf|FILE.glb|FILE.vrm";
 inline constexpr const char* picture = "FILE.exr|FILE.png|FILE.npy";
-inline constexpr const char* frame = "FILE.json|SCENE|FILE.gltf|FILE.glb";  // what another renderer handed over
+inline constexpr const char* frame =
+    "FILE.json|SCENE|FILE.gltf|FILE.glb|FILE.vrm";  // what another renderer handed over
 inline constexpr const char* baseline = "FILE.json";
 inline constexpr const char* folder = "FOLDER";
 inline constexpr const char* setting = "NAME=VALUE";  // a setting and its value

@@ -34,7 +34,7 @@ std::string default_file(const std::string& model) { return fs::path(model).stem
 int write_first_experiment(const InitOptions& options) {
   const std::string& model = options.model;
   if (!names_file(model))
-    throw Error(ErrorKind::usage, fmt::format("{} is not a model: give the path of a .gltf or .glb file", model));
+    throw Error(ErrorKind::usage, fmt::format("{} is not a model: give the path of a .gltf, .glb or .vrm file", model));
   const std::string file = options.out.empty() ? default_file(model) : options.out;
   require_new_file(file, "", options.overwrite);
   const Model loaded = load_model(model);

@@ -72,7 +72,7 @@ RunVerb add_live(CLI::App& verb) {
   verb.add_option("what", options->what, "A built-in scene, a model, or an experiment's TOML file")
       ->required()
       ->check(not_empty())
-      ->type_name("SCENE|FILE.gltf|FILE.glb|FILE.toml");
+      ->type_name("SCENE|FILE.gltf|FILE.glb|FILE.vrm|FILE.toml");
   verb.add_option("--point", options->point, "Number of the point in the experiment's sweep, from 0")
       ->check(whole_number(0));
   add_sets(verb, options->arguments);

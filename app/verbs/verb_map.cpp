@@ -130,7 +130,7 @@ void add_phase_options(CLI::App& verb, PhaseOptions& phase) {
 RunVerb add_map(CLI::App& verb) {
   const auto options = std::make_shared<MapOptions>();
   ExperimentArguments& arguments = options->arguments;
-  verb.add_option("scene", options->scene, "A built-in scene, or the path of a .gltf or .glb file")
+  verb.add_option("scene", options->scene, "A built-in scene, or the path of a .gltf, .glb or .vrm file")
       ->required()
       ->check(not_empty())
       ->type_name(value_kind::scene);

@@ -484,9 +484,9 @@ void add_search_options(CLI::App& verb, RecommendOptions& options) {
 RunVerb add_recommend(CLI::App& verb) {
   const auto options = std::make_shared<RecommendOptions>();
   ExperimentArguments& arguments = options->arguments;
-  verb.add_option(
-          "what", options->what,
-          "A built-in scene, the path of a .gltf or .glb file, or an experiment whose [over] gives the conditions")
+  verb.add_option("what", options->what,
+                  "A built-in scene, the path of a .gltf, .glb or .vrm file, or an experiment whose [over] gives the "
+                  "conditions")
       ->required()
       ->check(not_empty())
       ->type_name(std::string(value_kind::scene) + "|" + value_kind::experiment);

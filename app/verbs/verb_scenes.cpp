@@ -11,7 +11,7 @@ int list_scenes() {
     const Scene scene = builtin.make({});
     fmt::print("{:<10} {:>6} triangles  {}\n", builtin.name, scene.triangles.size(), builtin.provokes);
   }
-  fmt::print("\nOr the path of a .gltf or .glb file: scene = \"models/tree.glb\"\n");
+  fmt::print("\nOr the path of a .gltf, .glb or .vrm file: scene = \"models/tree.glb\"\n");
   return 0;
 }
 

@@ -16,6 +16,7 @@
 #include "base/threads.h"
 #include "compare/report/section_picture.h"
 #include "compare/report/section_words.h"
+#include "compare/results/causes.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "measure/workbench.h"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 struct SectionOptions {
   std::string experiment;  // empty: the default settings
   long point = -1;
-  std::string pixel, worst;  // --pixel and --worst; both empty: the pixel with the largest error
+  std::string pixel, worst;  // --pixel and --worst; both empty: pixel_of_largest_cause()
   std::string theme = report::section_themes.front();
   std::string out = "section.svg";
   ExperimentArguments arguments;
@@ -52,10 +53,26 @@ struct ChosenPixel {
   std::string why;  // "the pixel with the largest acne, 100%"; empty: it was given
 };
 
-ChosenPixel chosen_pixel(const SectionOptions& options, const PointRecord& record) {
+// Without a wish: the pixel that stands for the largest cause.
+ChosenPixel pixel_of_largest_cause(const Measurement& m, const ProbeOf& probe_of) {
+  size_t largest = 0;
+  const auto size = [&](size_t cause) { return cause == 0 ? 0 : metric_of(m.record, m.ladder.causes[cause].name); };
+  for (const CauseRow& row : cause_rows)
+    if (row.cause && !is_of_moments(*row.cause) && row.place != CausePlace::light)
+      if (const auto cause = static_cast<size_t>(*row.cause); size(cause) > size(largest)) largest = cause;
+  const auto pixel = largest == 0 ? std::nullopt : typical_pixel(m.ladder, largest, true, probe_of);
+  if (!pixel) throw Error(ErrorKind::usage, "no pixel of this picture has any error; give a --pixel");
+  return {*pixel, fmt::format("in the middle of the largest patch of {}, the largest cause of error: {}",
+                              m.ladder.causes[largest].name, share_text(size(largest)))};
+}
+
+ChosenPixel chosen_pixel(const SectionOptions& options, const Measurement& m) {
   if (!options.pixel.empty()) return {pixel_from(options.pixel), ""};
-  const std::string metric = options.worst.empty() ? "error" : options.worst;
-  const auto worst = worst_pixel_of(record, metric);
+  const PointRecord& record = m.record;
+  const std::string& metric = options.worst;
+  const ProbeOf probe_of = [&](size_t i) -> const LookupProbe& { return m.map_of(i).probe; };
+  if (metric.empty()) return pixel_of_largest_cause(m, probe_of);
+  auto worst = worst_pixel_of(record, metric);
   if (!worst && metric_of(record, metric) == 0)
     throw Error(ErrorKind::usage,
                 fmt::format("no pixel of this picture has any {}; give another --worst, or a --pixel", metric));
@@ -65,6 +82,10 @@ ChosenPixel chosen_pixel(const SectionOptions& options, const PointRecord& recor
         fmt::format("{} is a number of the whole picture, of no pixel; give the metric of a cause or error with "
                     "--worst, or a --pixel",
                     metric));
+  // Of a cause many pixels have the most of it.
+  for (size_t cause = 1; cause < m.ladder.causes.size(); ++cause)
+    if (m.ladder.causes[cause].name == metric)
+      if (const auto pixel = typical_pixel(m.ladder, cause, false, probe_of)) worst->x = pixel->x, worst->y = pixel->y;
   return {{worst->x, worst->y},
           fmt::format("the pixel with the largest {}, {}", metric,
                       quantity_text(worst->size, find_quantity(metric, {&record, 1}).unit))};
@@ -85,7 +106,7 @@ int draw_section(const SectionOptions& options) {
       at_point(experiment, std::max(options.point, 0L), [&] { return bench.memory(settings, false, false); });
   require_memory(memory, bench.memory_of_program(false), "this point");
   const Measurement m = bench.measure(settings, std::nullopt, MetricSet::searched);
-  const ChosenPixel pixel = chosen_pixel(options, m.record);
+  const ChosenPixel pixel = chosen_pixel(options, m);
   ReceiverSection section = bench.sections(m, std::array{pixel.at}).front();
   for (int cause = 1; cause < compared_cause_count; ++cause)
     if (cause_name(static_cast<Cause>(cause)) == options.worst) explain(section, static_cast<Cause>(cause));
@@ -107,11 +128,14 @@ RunVerb add_section(CLI::App& verb) {
   add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
   add_point(verb, options->point);
   verb.add_option("--pixel", options->pixel,
-                  "The pixel: column and row from 0,0 at the top left. Without it and without --worst, the pixel with "
-                  "the largest error")
+                  "The pixel: column and row from 0,0 at the top left. Without it and without --worst, one in the "
+                  "middle of the largest patch of the largest cause")
       ->check(not_empty())
       ->type_name(value_kind::pixel);
-  verb.add_option("--worst", options->worst, "The pixel with the largest part of this metric, such as acne")
+  verb.add_option(
+          "--worst", options->worst,
+          "The pixel with the largest part of this metric, such as acne; of equal ones, that in the middle of their "
+          "largest patch")
       ->check(not_empty())
       ->type_name("METRIC");
   verb.add_option("--theme", options->theme,

@@ -11,6 +11,7 @@
 
 #include "compare/ladder/numbers.h"
 #include "compare/results/curve_fields.h"
+#include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -92,8 +93,6 @@ std::optional<Interval> window_of_reduction(const PointRecord& point) {
                               high = quantity(point, fmt::format("reduction_max{}", ending));
   return low && high ? std::optional(Interval{*low, *high}) : std::nullopt;
 }
-
-std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
 
 }  // namespace
 
@@ -230,13 +229,13 @@ std::string why_no_usable_reduction(const PointRecord& point) {
   const auto& [dark, light] = curve_bounds(point);
   if (rounds_too_much(point))
     return fmt::format("the rounding of the moments (moment_precision) is {}, more than {}",
-                       percent(metric_of(point, "moment_precision")), percent(dark));
+                       share_text(metric_of(point, "moment_precision")), share_text(dark));
   const std::vector<LookupCurvePoint>& curve = point.lookup_curve;
   if (const double bare = curve.front().over_darkening; bare > dark)
-    return fmt::format("over-darkening is {} without any reduction, more than {}", percent(bare), percent(dark));
+    return fmt::format("over-darkening is {} without any reduction, more than {}", share_text(bare), share_text(dark));
   if (curve.back().leak > light)
-    return fmt::format("the leak is {} even with the largest reduction, more than {}", percent(curve.back().leak),
-                       percent(light));
+    return fmt::format("the leak is {} even with the largest reduction, more than {}", share_text(curve.back().leak),
+                       share_text(light));
   const auto enough =
       std::find_if(curve.begin(), curve.end(), [&](const LookupCurvePoint& entry) { return entry.leak <= light; });
   // Of several placements the curve is of one, which can have a window where the others have none.
@@ -245,8 +244,8 @@ std::string why_no_usable_reduction(const PointRecord& point) {
   return fmt::format(
       "without a reduction the leak is {}; {:.2g} keeps it within {}, and there the reduction darkens {} and "
       "over-darkening is {}, of which at most {} each is allowed",
-      percent(curve.front().leak), enough->value, percent(light), percent(enough->reduction),
-      percent(enough->over_darkening), percent(dark));
+      share_text(curve.front().leak), enough->value, share_text(light), share_text(enough->reduction),
+      share_text(enough->over_darkening), share_text(dark));
 }
 
 bool has_curve_of(const PointRecord& point, const std::string& metric) {

@@ -71,11 +71,11 @@ std::string why_poor_view(const PointRecord& point) {
     if (number(point, "lit") == 0)
       return fmt::format(
           "all of the {:.0f} pixels that can be judged are in shadow: the light reaches nothing that "
-          "the camera sees; {}",
+          "the camera sees, so no bias can be too small; {}",
           counted,
           number_of(setting_of(point, "light.elevation_deg")).value_or(0) < 0
               ? "the sun is below the horizon: raise light.elevation_deg"
-              : "set light.position_m (in a closed room, with light.kind = point)");
+              : "for a test of leaks that is right, for all else move the light or the camera out of what encloses it");
     return number(point, "clipped") >= few ? cut_off(point) : "";
   }
   std::string text = counted == 0 ? fmt::format("no pixel of {:.0f} can be judged: ", pixels)

@@ -11,7 +11,10 @@
 #include "compare/ladder/numbers.h"
 #include "compare/ladder/probe_errors.h"
 #include "compare/ladder/receiver_taps.h"
+#include "compare/results/metrics.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -164,14 +167,28 @@ std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
   return check.metrics();
 }
 
+bool must_have(const PointRecord& point, const SoundLimit& limit) {
+  const Metric& metric = find_metric(limit.metric);
+  const auto several = [&](const char* setting) { return number_of(setting_of(point, setting)).value_or(1) > 1; };
+  if (metric.of_cascades) return several("cascades.count");
+  if (metric.of_placements) return several("map.placements");
+  // The frame of another renderer is looked up nowhere.
+  if (!metric.of_moments) return !metric.optional() && setting_of(point, "given.frame").empty();
+  const auto kind = std::find_if(lookups().begin(), lookups().end(), [&](const LookupKind& one) {
+    return one.name == setting_of(point, "lookup.kind");
+  });
+  if (kind == lookups().end() || !kind->reads_moments()) return false;
+  return std::string_view(limit.metric) != "below_comparison" || kind->bound;
+}
+
 std::vector<Unsound> find_unsound(std::span<const PointRecord> points) {
   std::vector<Unsound> found;
   for (const PointRecord& point : points) {
     if (!(metric_of(point, "facing") > 0)) continue;
     for (const SoundLimit& limit : sound_limits) {
       const auto value = point.metrics.find(limit.metric);
-      if (value != point.metrics.end() && !(value->second <= limit.most))
-        found.push_back({point.id, &limit, value->second});
+      if (value == point.metrics.end() ? must_have(point, limit) : !(value->second <= limit.most))
+        found.push_back({point.id, &limit, value == point.metrics.end() ? not_a_number : value->second});
     }
   }
   return found;

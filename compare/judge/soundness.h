@@ -111,7 +111,10 @@ inline constexpr SoundLimit sound_limits[] = {
     {"below_comparison", 1e-9},
 };
 
-// A number of a stored point that no sound program has. Points in which nothing faces the light have none.
+// Whether a measurement with all checks has this number of the point, by its settings.
+bool must_have(const PointRecord& point, const SoundLimit& limit);
+
+// A number of a stored point that no sound program has; NaN where it is absent, and must_have() it. Points in which nothing faces the light have none.
 struct Unsound {
   int64_t point;
   const SoundLimit* limit;

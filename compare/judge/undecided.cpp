@@ -34,11 +34,11 @@ std::string undecided_note(std::span<const PointRecord> points) {
   }
   if (!worst) return "";
   return fmt::format(
-      "undecided is {:.3g}% where the error is {:.3g}%: that much is wrong at taps whose truth changes within float "
+      "undecided is {} where the error is {}: that much is wrong at taps whose truth changes within float "
       "error, and the causes' shares may be off by it (the edges of neighbouring faces differ by rounding, or the "
       "scene is far from the "
       "origin)",
-      100 * metric_of(*worst, "undecided"), 100 * metric_of(*worst, "error"));
+      share_text(metric_of(*worst, "undecided")), share_text(metric_of(*worst, "error")));
 }
 
 std::string undecided_note(const BoundResult& bound, const PointRecord& point) {

@@ -14,7 +14,7 @@ namespace {
 using Cascades = std::span<const PointRecord::Cascade>;
 
 // The largest value over the cascades in which there is something to measure (metric `weight` above 0). NaN without one.
-double largest(Cascades cascades, const char* metric, const char* weight) {
+double largest(Cascades cascades, const std::string& metric, const char* weight) {
   double most = -infinity;
   bool any = false;
   for (const PointRecord::Cascade& cascade : cascades) {
@@ -73,13 +73,9 @@ std::map<std::string, double> join_laws(Cascades cascades) {
   return joined;
 }
 
-std::map<std::string, double> join_soundness(Cascades cascades) {
+std::map<std::string, double> join_soundness(Cascades cascades, const std::map<std::string, double>& of_one) {
   std::map<std::string, double> joined;
-  for (const char* metric :
-       {"rounding_excess", "address_error_texels", "reference_error_m", "map_error_quanta", "map_bits"})
-    joined[metric] = largest(cascades, metric, "facing");
-  for (const char* metric : {"contract_store", "contract_blur", "contract_fetch", "contract_lit", "below_comparison"})
-    if (cascades.front().metrics.contains(metric)) joined[metric] = largest(cascades, metric, "facing");
+  for (const auto& [metric, value] : of_one) joined[metric] = largest(cascades, metric, "facing");
   double facing = 0, broken = 0;
   for (const PointRecord::Cascade& cascade : cascades) {
     if (!(cascade.metrics.at("facing") > 0)) continue;

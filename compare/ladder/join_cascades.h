@@ -16,9 +16,10 @@ namespace noonmark {
 // areas, texel_m and what receivers require.
 std::map<std::string, double> join_laws(std::span<const PointRecord::Cascade> cascades);
 
-// The metrics of measure_soundness(): contract is the share of all facing receivers, the others are the largest of the
-// cascades that have some. NaN if none has.
-std::map<std::string, double> join_soundness(std::span<const PointRecord::Cascade> cascades);
+// What was checked of each map (of_one: what of one of them): contract is the share of all facing receivers, the others are the
+// largest of the cascades that have some. NaN if none has.
+std::map<std::string, double> join_soundness(std::span<const PointRecord::Cascade> cascades,
+                                             const std::map<std::string, double>& of_one);
 
 // The metrics of placement_metrics(), which the cascades have too: means over all counted receivers of what each cascade has
 // at its own worst, mean and best. The grids of cascades lie independently of each other, so each is a real placement of

@@ -5,7 +5,7 @@
 // rows of compare/results/causes.h.
 //
 //   Ladder ladder = climb({truth, probe, taps, exact_map, settings.map, bias, r4, r5});
-//   std::map<std::string, double> metrics = measure_ladder({ladder, ...});   // compare/ladder/measure.h
+//   float acne = ladder[Cause::acne].at(12, 34);   // measure_ladder() of compare/ladder/measure.h has the metrics
 //
 // Rungs: R0 is the light with its size; R1 one exact shadow ray; R2 the filter's taps at their exact places; R3 the
 // taps at the centres of the texels that they read; R4 the technique on an exact map; R5 the result of the GPU. R0, R1,

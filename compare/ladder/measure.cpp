@@ -107,8 +107,7 @@ std::vector<double> parts_of_error(const Ladder& ladder) {
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
   uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
-  double doubt = 0, error_soft = 0, pcf = 0, pcf_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
-         edge_sum = 0;
+  double doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
   std::vector<double> size(ladder.causes.size()), largest(size.size());
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     receivers += in.receivers.primitive[i] != no_primitive;
@@ -122,8 +121,6 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     doubt += ladder.doubt[i];
     const double hard = static_cast<double>(ladder.shown()[i]) - ladder.truth()[i];
     error_soft += std::abs(static_cast<double>(ladder.shown()[i]) - ladder.soft_truth()[i]);
-    pcf += std::abs(static_cast<double>(ladder[Rung::shown][i]) - ladder.truth()[i]);
-    pcf_soft += std::abs(static_cast<double>(ladder[Rung::shown][i]) - ladder.soft_truth()[i]);
     wrong += hard != 0;
   }
 
@@ -164,8 +161,6 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"error_soft", share(error_soft)},
       {"wrong", share(static_cast<double>(wrong))},
       {"wrong_patch", measured(largest_wrong_patch(ladder) / static_cast<double>(ladder.flags.size()))},
-      {"pcf_error", share(pcf)},
-      {"pcf_error_soft", share(pcf_soft)},
       {"aliasing_rms", std::sqrt(share(aliasing_squares))},
       {"peter_panning_lit", share(panning_lit)},
       {"undecided_taps", share(doubt)},
@@ -229,11 +224,6 @@ std::vector<PointRecord::WorstOf> worst_pixels(const MeasureInput& in) {
     add(ladder.causes[c].name,
         [&image = ladder.causes[c].step](size_t i) { return std::abs(static_cast<double>(image[i])); });
   add("error_soft", soft);
-  const auto pcf = [&](const Image<float>& truth) {
-    return [&](size_t i) { return std::abs(static_cast<double>(ladder[Rung::shown][i]) - truth[i]); };
-  };
-  add("pcf_error", pcf(ladder.truth()));
-  add("pcf_error_soft", pcf(ladder.soft_truth()));
   for (const CauseRow& row : cause_rows)
     if (!row.cause)
       add(std::string(row.name), [&](size_t i) { return sum_of(row, [&](Cause cause) { return step(cause, i); }); });

@@ -66,10 +66,11 @@ ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
     if (frame_.tile_at(light).depth == TileDepth::perspective) {
       amount = 3 * u + 5 * u * sum_of(glm::abs((at - frame_.origin_m) * frame_.forward)) / std::abs(light.z);
     }
+    if (e_.bias.offset_unit() == OffsetUnit::m) amount = 0;  // times 1
     const in_bounds::Surface surface = bounded_surface(at, normal);
-    const double texel_m = frame_.texel_m(light);
+    const double unit_m = e_.bias.offset_m(frame_.texel_m(light));
     for (const ActivePart& active : e_.bias.moving()) {
-      const double amount_m = active.amount * texel_m;
+      const double amount_m = active.amount * unit_m;
       const bounded::vec3 way = active.part->formula.bounded_way(surface);
       const glm::dvec3 offset = amount_m * glm::dvec3(way.x.value, way.y.value, way.z.value);
       place.world += offset;

@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "base/error.h"
 #include "compare/ladder/receiver_taps.h"
 #include "compare/ladder/thresholds.h"
+#include "compare/ladder/wrong_patch.h"
+#include "technique/casters.h"
 
 namespace noonmark {
 namespace {
@@ -207,22 +210,23 @@ std::vector<SectionTap> taps_of(const SectionInput& in, const MapTile& tile, con
   return taps;
 }
 
-// The heaviest tap that has the pixel's cause; of precision and of a right pixel, one whose verdict OpenGL's map turns. Otherwise the middle
-// tap. Of equally heavy ones the nearest to the place looked up.
-size_t key_tap_of(const ReceiverSection& section, int middle) {
-  size_t best = static_cast<size_t>(middle);
-  double weight = 0, distance = 0;
-  for (size_t t = 0; t < section.taps.size(); ++t) {
-    const SectionTap& tap = section.taps[t];
-    const bool turned = section.cause == Cause::precision || section.cause == Cause::none;
-    const bool explains = turned ? tap.lit != tap.shown_lit : tap.cause == section.cause;
-    const double away = glm::length(tap.centre);
-    if (!explains || tap.weight < weight || (tap.weight == weight && weight > 0 && away >= distance)) continue;
-    best = t;
-    weight = tap.weight;
-    distance = away;
-  }
+// The heaviest of these taps, of equally heavy ones the nearest to the place looked up; null without one.
+template <class Is>
+const SectionTap* heaviest_tap(const ReceiverSection& section, const Is& is) {
+  const SectionTap* best = nullptr;
+  for (const SectionTap& tap : section.taps)
+    if (is(tap) && (!best || tap.weight > best->weight ||
+                    (tap.weight == best->weight && glm::length(tap.centre) < glm::length(best->centre))))
+      best = &tap;
   return best;
+}
+
+// One that has the pixel's cause; of precision and of a right pixel, one whose verdict OpenGL's map turns. Otherwise the middle tap.
+size_t key_tap_of(const ReceiverSection& section, int middle) {
+  const bool turned = section.cause == Cause::precision || section.cause == Cause::none;
+  const SectionTap* best = heaviest_tap(
+      section, [&](const SectionTap& tap) { return turned ? tap.lit != tap.shown_lit : tap.cause == section.cause; });
+  return best ? static_cast<size_t>(best - section.taps.data()) : static_cast<size_t>(middle);
 }
 
 void require_finite(const ReceiverSection& section) {
@@ -255,6 +259,65 @@ std::optional<double> depth_at_place(const SectionLine& line) {
   return std::nullopt;
 }
 
+// A triangle on the light's ray through a place of the map's image.
+struct OnRay {
+  uint32_t triangle = 0;
+  double depth_m = 0;
+};
+
+// Those of the scene with these vertices, before depth before_m, the first one first.
+std::vector<OnRay> on_ray(const SectionInput& in, const MapTile& tile, std::span<const glm::vec3> positions,
+                          glm::dvec2 place, double before_m) {
+  ReceiverSection through;
+  through.place = place;
+  through.reach = 1;
+  const LightFrame& frame = in.technique.frame;
+  const Knife knife(frame, tile, through);
+  std::vector<OnRay> all;
+  for (size_t t = 0; t < in.scene.triangles.size(); ++t) {
+    const glm::uvec3& corners = in.scene.triangles[t];
+    const auto at = [&](uint32_t vertex) { return frame.to_light(glm::dvec3(positions[vertex])); };
+    const SectionLine line{static_cast<uint32_t>(t), knife.cut({at(corners.x), at(corners.y), at(corners.z)})};
+    if (const auto depth = depth_at_place(line); depth && *depth < before_m) all.push_back({line.triangle, *depth});
+  }
+  std::sort(all.begin(), all.end(), [](const OnRay& a, const OnRay& b) { return a.depth_m < b.depth_m; });
+  return all;
+}
+
+const Part& part_of(const Scene& scene, uint32_t triangle) {
+  return *std::find_if(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
+    return triangle >= part.first_triangle && triangle - part.first_triangle < part.triangle_count;
+  });
+}
+
+std::optional<MissingBlocker> missing_blocker(const SectionInput& in, const MapTile& tile,
+                                              const ReceiverSection& section, const SectionTap& tap) {
+  const Technique& technique = in.technique;
+  const Scene& scene = in.scene;
+  const std::vector<glm::vec3> moved =
+      technique.moves_casters() ? caster_positions(scene, technique.frame, technique.settings.map, technique.bias)
+                                : std::vector<glm::vec3>();
+  const std::span<const glm::vec3> drawn = moved.empty() ? std::span(scene.positions) : std::span(moved);
+  const glm::dvec2 centre = section.place + tap.centre;
+  const std::vector<OnRay> met = on_ray(in, tile, scene.positions, centre, tap.reference_m);
+  if (met.empty()) return std::nullopt;
+  const auto culled = [&](uint32_t t) {
+    const glm::uvec3& c = scene.triangles[t];
+    const glm::dvec3 a = drawn[c.x], b = drawn[c.y], d = drawn[c.z];
+    const bool front = glm::dot(glm::cross(b - a, d - a), technique.frame.direction_to_light((a + b + d) / 3.0)) > 0;
+    return technique.settings.map.cull == (front ? CulledFaces::front : CulledFaces::back);
+  };
+  const uint32_t blocker = met.front().triangle;
+  MissingBlocker missing{part_of(scene, blocker).name, culled(blocker), false, {}};
+  for (const OnRay& one : on_ray(in, tile, drawn, centre, tile.far_m)) {
+    if (one.triangle == blocker) missing.covers = true;
+    if (one.triangle != blocker && !culled(one.triangle) && !missing.other_m &&
+        &part_of(scene, one.triangle) == &part_of(scene, blocker))
+      missing.other_m = one.depth_m;
+  }
+  return missing;
+}
+
 size_t checked_pixel(const SectionInput& in, glm::ivec2 pixel) {
   const int width = in.receivers.width(), height = in.receivers.height();
   const auto wrong = [&](const std::string& why) {
@@ -272,6 +335,20 @@ size_t checked_pixel(const SectionInput& in, glm::ivec2 pixel) {
 }
 
 }  // namespace
+
+std::optional<glm::ivec2> typical_pixel(const Ladder& ladder, size_t cause, bool in_all, const ProbeOf& probe_of) {
+  const Image<float>& steps = ladder.causes.at(cause).step;
+  const auto has = [&](size_t i) { return is_counted(ladder, i) && steps[i] != 0 && probe_of(i).asks(i); };
+  float most = 0;
+  for (size_t i = 0; i < steps.size(); ++i)
+    if (has(i)) most = std::max(most, std::abs(steps[i]));
+  Image<uint8_t> mask(steps.width, steps.height);
+  for (size_t i = 0; i < steps.size(); ++i)
+    mask[i] = has(i) && (in_all ? ladder.cause[i] == cause : std::abs(steps[i]) == most);
+  const std::vector<glm::ivec2> patch = largest_patch(std::move(mask));
+  if (patch.empty()) return in_all && most > 0 ? typical_pixel(ladder, cause, false, probe_of) : std::nullopt;
+  return deepest_in(patch);
+}
 
 std::vector<glm::ivec2> section_pixels(const PointRecord& record, const Ladder& ladder, const ProbeOf& probe_of) {
   std::vector<glm::ivec2> pixels;
@@ -325,7 +402,6 @@ ReceiverSection section_of(const SectionInput& in, glm::ivec2 pixel) {
   section.beyond_far = reference > 1.0f;
   section.receiver_s = glm::dot(tile.texels(frame.place(receiver)) - section.place, section.direction);
   section.receiver_m = tile.depth_m(receiver);
-  section.front_culled = technique.settings.map.cull == CulledFaces::front;
   section.casters_moved = technique.moves_casters() || technique.bias.polygon_offset().has_value();
 
   section.soft_truth = in.ladder.soft_truth()[i];
@@ -360,6 +436,9 @@ ReceiverSection section_of(const SectionInput& in, glm::ivec2 pixel) {
   for (const SectionLine& line : section.surfaces)
     if (const std::optional<double> depth = depth_at_place(line); depth && *depth < section.reference_m - rounding_m)
       section.blocker_m = std::max(section.blocker_m.value_or(*depth), *depth);
+  const auto panning = [](const SectionTap& one) { return one.cause == Cause::peter_panning; };
+  if (const auto* tap = heaviest_tap(section, panning); tap && tap->same_tile && tap->exact_m >= tap->reference_m)
+    section.missing = missing_blocker(in, tile, section, *tap);
   require_finite(section);
   return section;
 }

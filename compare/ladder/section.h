@@ -66,6 +66,15 @@ struct SectionLine {
   std::vector<glm::dvec2> points;
 };
 
+// What the map has at the centre of a texel that is in shadow, where it stores no depth before the receiver: of the triangle that
+// the light meets first there.
+struct MissingBlocker {
+  std::string part;               // its name
+  bool culled = false;            // the map does not draw it
+  bool covers = false;            // as the map is drawn (moved, if casters are), it covers the texel's centre
+  std::optional<double> other_m;  // the first depth in the map of another triangle of the same part
+};
+
 struct ReceiverSection {
   glm::ivec2 pixel{0};
   glm::dvec3 position_m{0}, normal{0, 1, 0};  // of the receiver, in the world
@@ -87,14 +96,15 @@ struct ReceiverSection {
   bool moved = false;  // the lookup is moved (normal offset)
   double moved_m = 0;  // by this length
   bool beyond_far = false;
-  bool casters_moved = false;  // the map is drawn from moved or offset casters, or without some faces
-  bool front_culled = false;
+  bool casters_moved = false;                                    // the map is drawn from moved or offset casters
   float soft_truth = 0, truth = 0, on_exact_map = 0, shown = 0;  // R0, R1, R4, R5; the latter two of this map alone
   Cause cause = Cause::none;                                     // of the pixel, as the ladder names it
   std::vector<SectionColumn> columns;                            // by s
   std::vector<SectionTap> taps;                                  // in the order of the pattern
   Cause largest = Cause::none;                                   // the same, unless explain() made `cause` another one
   size_t key_tap = 0;                                            // the tap that explains the pixel
+  // Of the tap that explains its Peter Panning; empty without one, and where the map stores a depth before the receiver.
+  std::optional<MissingBlocker> missing;
   std::vector<SectionLine> surfaces;
   std::optional<double>
       blocker_m;  // a surface between the light and the receiver on its ray: the nearest to the receiver
@@ -116,6 +126,10 @@ struct SectionInput {
 // probe_of: the probe of the map that a pixel's receiver is looked up in.
 using ProbeOf = std::function<const LookupProbe&(size_t)>;
 std::vector<glm::ivec2> section_pixels(const PointRecord& record, const Ladder& ladder, const ProbeOf& probe_of);
+
+// The pixel that stands for a cause, one of Ladder::causes: deepest in the largest patch (compare/ladder/wrong_patch.h) of the counted
+// pixels that have most of it. in_all: of those whose largest part it is, however large. Empty if no pixel with a section has any.
+std::optional<glm::ivec2> typical_pixel(const Ladder& ladder, size_t cause, bool in_all, const ProbeOf& probe_of);
 
 // Throws Error(usage) if the pixel lies outside the picture, shows no surface, or shows one that faces away from the
 // light, and if the lookup reads no map there. Throws Error(defect) if a number of it is not finite.

@@ -80,6 +80,7 @@ const BiasPart* varied_part(const PointRecord& point) {
 std::string cascade_bias_unit(const PointRecord& point) {
   const BiasPart* part = varied_part(point);
   if (!part) return "";
+  if (part->unit == "bias.offset_unit") return setting_of(point, "bias.offset_unit") == "m" ? "m" : "texels";
   if (part->unit != "bias.unit") return std::string(part->unit);
   const std::string unit = setting_of(point, "bias.unit");
   return unit == "texel" ? "texels" : unit;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/text.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/number_text.h"
 #include "technique/light_kind.h"
@@ -54,12 +55,26 @@ std::string panning_text(const ReceiverSection& section, const SectionTap& tap) 
                       "of {} reaches past it. With less than {} of bias the tap would be dark.",
                       length_text(tap.reference_m - tap.exact_m), length_text(section.bias_m),
                       length_text(tap.threshold_m));
-  if (section.front_culled)
-    return text +
-           "Front faces are culled from the map, so the side of the caster that lies behind the receiver is stored.";
+  if (!section.missing) return text + "What casts the shadow is not in the map at a depth before the receiver.";
+  const MissingBlocker& missing = *section.missing;
+  if (missing.culled)
+    return text + fmt::format(
+                      "The face of '{}' that casts the shadow is culled from the map, {}", printable(missing.part),
+                      missing.other_m ? fmt::format("and the next face of it that is drawn there lies {} the receiver.",
+                                                    nearer_text(*missing.other_m, tap.reference_m))
+                                      : "and no other face of it stands there: the map has nothing of it.");
+  if (section.casters_moved && !missing.covers)
+    return text + fmt::format(
+                      "The casters are moved before the map is drawn, and the face of '{}' that casts the shadow "
+                      "does not cover the texel's centre then.",
+                      printable(missing.part));
   if (section.casters_moved)
-    return text + "The casters are moved before the map is drawn, and this one lies behind the receiver then.";
-  return text + "What casts the shadow is not in the map at a depth before the receiver.";
+    return text + fmt::format(
+                      "The casters are moved or offset before the map is drawn: the face of '{}' that casts the "
+                      "shadow is {} the receiver then.",
+                      printable(missing.part), nearer_text(tap.exact_m, tap.reference_m));
+  return text + fmt::format("The face of '{}' that casts the shadow is not in the map at a depth before the receiver.",
+                            printable(missing.part));
 }
 
 std::string aliasing_text(const ReceiverSection& section, const SectionTap& tap) {

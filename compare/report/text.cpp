@@ -34,6 +34,9 @@ double few_digits(double value) {
   return std::strtod(fmt::format("{:.{}e}", value, people_digits - 1).c_str(), nullptr);
 }
 
+// bias.unit and bias.offset_unit are settings that are the units of others.
+bool is_given_by_a_setting(const std::string& unit) { return unit.starts_with("bias."); }
+
 const Setting* row_of(const std::string& name) {
   for (const Setting& row : settings_table())
     if (row.name == name) return &row;
@@ -117,9 +120,6 @@ std::string_view head_unit(std::string_view unit) {
 
 std::string cell(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return "not finite";
-  // Shares and lit fractions are sums and differences of doubles around 1, which are 2^-52 apart. What is below four such
-  // steps is their rounding, and no measured amount.
-  constexpr double least_share = 0x1p-50;
   if ((unit == "fraction" || unit.empty()) && std::abs(value) < least_share) return "0";
   if (unit == "count") return grouped(std::round(few_digits(value)));
   return number(unit == "fraction" ? 100 * value : unit == "bytes" ? 1e-6 * value : value, digits);
@@ -155,10 +155,10 @@ std::string setting_unit(const std::string& name) {
 std::string swept_unit(const std::string& name, const Results& results) {
   const std::string unit = setting_unit(name);
   if (unit == "fraction") return "";  // its values stand as a user types them
-  if (unit != "bias.unit") return unit;
+  if (!is_given_by_a_setting(unit)) return unit;
   std::string same;
   for (const PointRecord& point : results.points) {
-    const std::string one = setting_of(point, "bias.unit");
+    const std::string one = setting_of(point, unit);
     if (!same.empty() && one != same) return "";
     same = one;
   }
@@ -170,7 +170,7 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
   for (const std::string& name : names) {
     // The unit of a bias is a setting itself.
     std::string unit = setting_unit(name);
-    if (unit == "bias.unit") unit = setting_of(point, "bias.unit");
+    if (is_given_by_a_setting(unit)) unit = setting_of(point, unit);
     out += fmt::format("{}{} {}", out.empty() ? "" : ", ", setting_label(name),
                        value_phrase(setting_of(point, name), unit));
   }
@@ -189,7 +189,7 @@ std::string rule_phrase(const Rule& rule) {
                      : condition.is == Condition::Is::at_least ? "at least "
                                                                : "";
     std::string unit = setting_unit(condition.setting);
-    if (unit == "bias.unit") unit.clear();
+    if (is_given_by_a_setting(unit)) unit.clear();
     if (condition.setting == texel_size) {
       out += fmt::format("{}texels of {}{}{}m", out.empty() ? "" : " and ", is, number(*number_of(condition.value)),
                          thin_space);

@@ -1,5 +1,7 @@
 #include "compare/results/metrics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <deque>
 #include <string>
@@ -23,16 +25,6 @@ constexpr Metric before_causes[] = {
     {"wrong_patch", "fraction",
      "The largest patch of wrong pixels, as a share of the whole picture: counted receivers that touch at a side or a "
      "corner, and whose R5 and R1 are not on the same side of one half.",
-     true},
-    {"pcf_error", "fraction",
-     "The PCF error, mean |R5 - R1|: the error of the filtered lookup against the hard truth, also of a ladder with a "
-     "rung "
-     "on top of R5. Its parts are filter, displacement, the causes of the taps and precision.",
-     true},
-    {"pcf_error_soft", "fraction",
-     "The PCF error against the truth for the light with its size, mean |R5 - R0|, also of a ladder with a rung on top "
-     "of "
-     "R5.",
      true},
 };
 
@@ -566,10 +558,20 @@ const Metric& find_metric(std::string_view name) {
     if (metric.name == name) return metric;
     names.push_back(metric.name);
   }
+  refuse_metric(name, names);
+}
+
+void refuse_metric(std::string_view name, std::span<const std::string_view> names) {
+  // Metrics that were there in versions before 1.0, and what is the same.
+  constexpr std::pair<std::string_view, std::string_view> gone[] = {{"pcf_error", "error"},
+                                                                    {"pcf_error_soft", "error_soft"}};
+  for (const auto& [old, same] : gone)
+    if (name == old)
+      throw Error(ErrorKind::usage,
+                  fmt::format("there is no metric '{}' any more: it was '{}' at every point; write that", old, same));
   const std::string near = nearest_name(name, names);
-  throw Error(ErrorKind::usage, "there is no metric '" + std::string(name) + "'" +
-                                    (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                                    " (noonmark settings lists the metrics)");
+  throw Error(ErrorKind::usage, fmt::format("there is no metric '{}'{} (noonmark settings lists the metrics)", name,
+                                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
 }  // namespace noonmark

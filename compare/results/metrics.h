@@ -26,5 +26,7 @@ std::span<const Metric> metrics_table();
 bool is_of_lights(std::string_view name);
 // Throws Error(usage) that suggests the nearest name.
 const Metric& find_metric(std::string_view name);
+// Throws that error. names: those among which the name is not.
+[[noreturn]] void refuse_metric(std::string_view name, std::span<const std::string_view> names);
 
 }  // namespace noonmark

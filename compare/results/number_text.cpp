@@ -30,9 +30,14 @@ std::string number_text(double value, int digits) {
   return shorter == std::round(shorter) ? whole_text(shorter) : fmt::format("{:.{}g}", value, digits);
 }
 
+std::string share_text(double share, int digits) {
+  if (std::isnan(share)) return std::string(not_measured);
+  return number_text(std::abs(share) < least_share ? 0 : 100 * share, digits) + "%";
+}
+
 std::string quantity_text(double value, std::string_view unit, int digits) {
   if (std::isnan(value)) return std::string(not_measured);
-  if (unit == "fraction") return number_text(100 * value, digits) + "%";
+  if (unit == "fraction") return share_text(value, digits);
   if (unit == "bytes") return number_text(1e-6 * value, digits) + " MB";
   if (unit == "count") return number_text(std::abs(value) < most_plain ? std::round(value) : value, digits);
   const std::string number = number_text(value, digits);

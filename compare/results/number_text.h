@@ -20,6 +20,12 @@ std::string number_text(double value, int digits = people_digits);
 // With its unit (Metric::unit): "0.8347%", "4.194 MB", "12.3 m", "16384".
 std::string quantity_text(double value, std::string_view unit, int digits = people_digits);
 
+// Shares and lit fractions are sums and differences of doubles around 1, which are 2^-52 apart. What is below four such steps is their
+// rounding, and no measured amount: it is written as 0.
+inline constexpr double least_share = 0x1p-50;
+// A share in percent: "0.835%". quantity_text() of "fraction" does the same.
+std::string share_text(double share, int digits = 3);
+
 // A length or a distance with the unit that suits its size: "0.42 µm", "3.1 mm", "2.13 m", "1.2 km". It keeps the sign.
 std::string length_text(double metres, int digits = 3);
 

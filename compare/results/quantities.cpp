@@ -166,9 +166,7 @@ QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> p
     if (row.name == name) return {row.name, row.unit, row.help, true};
     names.push_back(row.name);
   }
-  const std::string near = nearest_name(name, names);
-  throw Error(ErrorKind::usage, fmt::format("there is no metric '{}'{} (noonmark settings lists the metrics)", name,
-                                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  refuse_metric(name, names);
 }
 
 std::string why_no_curve(const PointRecord& point) {

@@ -5,7 +5,8 @@
 //
 //   ResultStore store("out/results.sqlite", fingerprint, Existing::resume);
 //   store.set_info(info, planned);
-//   for (each point whose id is not in store.finished()) store.add(measure(point));
+//   const std::vector<int64_t> done = store.finished();
+//   for (int64_t id : wanted) if (std::find(done.begin(), done.end(), id) == done.end()) store.add(measure(id));
 //   Results results = store.load();
 //
 // A person can ask `SELECT map_resolution, filter_kind, acne FROM points`. This view has every setting, metric and

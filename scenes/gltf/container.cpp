@@ -23,6 +23,8 @@ uint32_t u32(const std::vector<uint8_t>& bytes, size_t at) {
 
 Container split_glb(const std::string& file, const std::vector<uint8_t>& bytes) {
   constexpr std::string_view remedy = "the file is damaged or was cut short: export or copy it again";
+  constexpr std::string_view not_as_glb =
+      "its exporter does not write GLB as glTF 2.0 says: export it with another one";
   if (bytes.size() < header_bytes) refuse(file, "GLB header", fmt::format("has {} of 12 bytes", bytes.size()), remedy);
   if (u32(bytes, 4) != 2) {
     refuse(file, "GLB header",
@@ -41,18 +43,18 @@ Container split_glb(const std::string& file, const std::vector<uint8_t>& bytes) 
     const size_t size = u32(bytes, at);
     const uint32_t type = u32(bytes, at + 4);
     at += chunk_header_bytes;
-    if (size % 4 != 0) refuse(file, place, fmt::format("its length {} is not a multiple of 4", size), remedy);
+    if (size % 4 != 0) refuse(file, place, fmt::format("its length {} is not a multiple of 4", size), not_as_glb);
     if (size > length - at) {
       refuse(file, place, fmt::format("says {} bytes where {} are left", size, length - at), remedy);
     }
     if ((type == chunk_json) != (index == 0))
-      refuse(file, place, "the first chunk, and no other, must be JSON", remedy);
+      refuse(file, place, "the first chunk, and no other, must be JSON", not_as_glb);
     const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at);
     const auto end = begin + static_cast<std::ptrdiff_t>(size);
     if (type == chunk_json) out.json.assign(begin, end);
     if (type == chunk_bin) {
-      if (out.has_bin) refuse(file, place, "a second binary chunk", remedy);
-      if (index != 1) refuse(file, place, "the binary chunk is not the second one", remedy);
+      if (out.has_bin) refuse(file, place, "a second binary chunk", not_as_glb);
+      if (index != 1) refuse(file, place, "the binary chunk is not the second one", not_as_glb);
       out.bin.assign(begin, end);
       out.has_bin = true;
     }
@@ -94,7 +96,7 @@ Container read_container(const std::string& file) {
   Container out;
   if (bytes.size() >= 4 && u32(bytes, 0) == magic_gltf) {
     out = split_glb(file, bytes);
-  } else if (ends_with_any_case(file, ".glb")) {
+  } else if (ends_with_any_case(file, ".glb") || ends_with_any_case(file, ".vrm")) {
     refuse(file, "GLB header", bytes.size() < header_bytes ? "is cut short" : "does not begin with 'glTF'",
            "the file is damaged, or is JSON and should be named .gltf");
   } else {

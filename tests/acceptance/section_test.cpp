@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <regex>
+#include <set>
 
 #include "base/error.h"
 #include "compare/report/section_picture.h"
@@ -297,6 +298,71 @@ TEST(SectionWords, SayTheBiasThatIsMissing) {
   EXPECT_NE(report::section_words(section)[0].find("the bias of 10 mm reaches past it. With less than 4.1 mm"),
             std::string::npos)
       << report::section_words(section)[0];
+}
+
+// The sections of the pixels in which Peter Panning is the largest part, and whose texel has no depth before the receiver.
+std::vector<ReceiverSection> sections_without_blocker(Workbench& bench, const Settings& settings) {
+  const Measurement m = bench.measure(settings, std::nullopt);
+  std::vector<glm::ivec2> pixels;
+  for (int y = 0; y < m.receivers.height(); ++y)
+    for (int x = 0; x < m.receivers.width(); ++x)
+      if (m.ladder.cause.at(x, y) == static_cast<uint8_t>(Cause::peter_panning)) pixels.emplace_back(x, y);
+  std::vector<ReceiverSection> found = bench.sections(m, pixels);
+  std::erase_if(found, [](const ReceiverSection& one) { return !one.missing; });
+  return found;
+}
+
+std::set<std::string> ways_of(const std::vector<ReceiverSection>& sections) {
+  std::set<std::string> ways;
+  for (const ReceiverSection& section : sections) {
+    const SectionTap& tap = section.taps[section.key_tap];
+    EXPECT_GE(tap.exact_m, tap.reference_m);
+    EXPECT_FALSE(tap.texel_lit);
+    // The map's first depth is that of another face, or of none: it never has a face of the caster that it does not draw.
+    if (section.missing->other_m && section.missing->culled) {
+      EXPECT_LE(tap.exact_m, *section.missing->other_m + 1e-4);
+    }
+    const std::string words = report::section_words(section)[0];
+    for (const char* way : {"no other face of it stands there", "the next face of it that is drawn there lies",
+                            "does not cover the texel's centre then", "the receiver then"})
+      if (words.find(way) != std::string::npos) ways.insert(way);
+  }
+  return ways;
+}
+
+// Peter Panning without a depth before the receiver: the words say what the texel holds, and not what the setting suggests.
+TEST(SectionWords, SayWhatTheTexelHolds) {
+  Workbench bench(gl::DebugMode::fatal);
+  const auto ways = [&](const char* scene, const std::vector<Assignment>& more) {
+    const std::vector<ReceiverSection> sections =
+        sections_without_blocker(bench, with(more, with({{"map.resolution", "256"}}, small(scene, 200, 120))));
+    EXPECT_FALSE(sections.empty()) << scene;
+    return ways_of(sections);
+  };
+  using Ways = std::set<std::string>;
+  // Leaves are single faces: without them the map has nothing of a leaf.
+  EXPECT_TRUE(ways("foliage", {{"map.cull", "front"}}).contains("no other face of it stands there"));
+  // Cubes have a back. It stands on the floor, and with a bias it is the floor's depth.
+  EXPECT_EQ(ways("cube-room", {{"map.cull", "front"}, {"bias.constant", "0.001"}}),
+            Ways{"the next face of it that is drawn there lies"});
+  // A caster that shrinks leaves its border; one that moves away from the light covers the same texels, farther away.
+  EXPECT_EQ(ways("cube-room", {{"bias.caster_normal_offset", "4"}}), Ways{"does not cover the texel's centre then"});
+  EXPECT_EQ(ways("cube-room", {{"bias.caster_offset", "60"}}), Ways{"the receiver then"});
+}
+
+// Of a cause many pixels have as much: the one that is drawn lies in the middle of them, and without a wish it is one of the largest
+// cause.
+TEST(TypicalPixel, LiesInTheMiddleOfTheLargestPatch) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Measurement m = bench.measure(with({{"bias.constant", "0.15"}}, small("cube-room", 200, 120)), std::nullopt);
+  const ProbeOf probe_of = [&](size_t) -> const LookupProbe& { return m.map().probe; };
+  const auto cause = static_cast<uint8_t>(Cause::peter_panning);
+  const std::optional<glm::ivec2> found = typical_pixel(m.ladder, cause, true, probe_of);
+  ASSERT_TRUE(found);
+  for (int y = -2; y <= 2; ++y)
+    for (int x = -2; x <= 2; ++x) EXPECT_EQ(m.ladder.cause.at(found->x + x, found->y + y), cause) << x << " " << y;
+  EXPECT_EQ(typical_pixel(m.ladder, cause, false, probe_of), found) << "all of them have all of it";
+  EXPECT_FALSE(typical_pixel(m.ladder, static_cast<size_t>(Cause::filter), true, probe_of)) << "one tap has no blur";
 }
 
 // Of a cube the face is named, and the texel is counted in it: the faces stand one above the other in the map's image.

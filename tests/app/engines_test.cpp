@@ -419,6 +419,7 @@ void make_legal(Settings& s) {
 RC_GTEST_PROP(Engines, NothingIsDropped, ()) {
   Settings s = simple(*rc::gen::element(LightChoice::directional, LightChoice::spot, LightChoice::point));
   s.bias.unit = *rc::gen::element(BiasUnit::depth, BiasUnit::m, BiasUnit::texel);
+  s.bias.offset_unit = *rc::gen::element(OffsetUnit::texel, OffsetUnit::m);
   s.map.resolution = *rc::gen::element(1, 2, 256, 1024);
   s.bias.reference = *rc::gen::element<std::string>("own_depth", "receiver_plane", "texel_plane");
   const size_t filter = *rc::gen::inRange<size_t>(0, filters().size());

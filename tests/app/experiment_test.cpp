@@ -461,5 +461,43 @@ TEST(Experiment, HostileFilesAreErrors) {
   EXPECT_THROW(parse(std::string("title\0= 1", 9)), Error);
 }
 
+// What goes together is asked of the settings as `--set` leaves them.
+TEST(Experiment, IsCheckedAfterWhatTheCommandLineSets) {
+  const auto error = [](const std::string& toml, const std::vector<std::string>& sets) -> std::string {
+    try {
+      points(parse_experiment(toml, "x.toml", sets));
+      return "";
+    } catch (const Error& e) {
+      return e.what();
+    }
+  };
+  const std::string over = "[curve]\nover = \"lookup.v_min\"\n";
+  EXPECT_NE(error(over, {}).find("no point has a lookup.kind"), std::string::npos);
+  EXPECT_EQ(error(over, {"lookup.kind=vsm", "filter.kind=box"}), "");
+  EXPECT_NE(error("[lookup]\nkind = \"vsm\"\n" + over, {"lookup.kind=compare"}).find("no point has a lookup.kind"),
+            std::string::npos);
+  const std::string swept = "[lookup]\nkind = \"vsm\"\n[sweep]\nlookup.v_min = [0, 1e-6]\n" + over;
+  EXPECT_NE(error(swept, {}).find("is swept too"), std::string::npos);
+  EXPECT_EQ(error(swept, {"lookup.v_min=0"}), "") << "it is swept no longer";
+  EXPECT_EQ(error("[lookup]\nkind = \"vsm\"\n[[part]]\nname = \"a\"\n[part.sweep]\nlookup.v_min = [0, 1e-6]\n" + over,
+                  {"lookup.v_min=0"}),
+            "");
+  const std::string cascades = "[map]\nfit = \"scene\"\n[cascades]\ncount = 4\n";
+  EXPECT_NE(error(cascades, {}), "");
+  EXPECT_EQ(error(cascades, {"map.fit=sphere"}), "");
+  EXPECT_NE(error(cascades, {"map.fit=tight"}).find("map.fit = tight"), std::string::npos);
+}
+
+TEST(Experiment, AMetricThatIsGoneNamesTheSame) {
+  for (const std::string asks : {"[[bound]]\nmetric = \"pcf_error\"\nmax = 1", "[plot]\nmetrics = [\"pcf_error\"]"}) {
+    try {
+      parse(asks);
+      ADD_FAILURE() << asks;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("'error' at every point"), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace noonmark

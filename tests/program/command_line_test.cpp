@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <map>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -89,6 +92,50 @@ TEST_F(CommandLine, AnOptionThatIsASettingNamesSet) {
        "'--set light.kind=box' or '--set filter.kind=box' or '--set lookup.kind=box'");
   EXPECT_EQ(run({"report", "out", "--resolution", "512"}), 2);
   EXPECT_FALSE(says("--set")) << "report has no such option: " << output_;
+}
+
+// Every long option of every verb, given to every other verb that has none like it: its verbs are named, and no setting that
+// is spelt a little like it.
+TEST_F(CommandLine, AnOptionOfAnotherVerbIsNamedAsSuch) {
+  std::map<std::string, std::set<std::string>> options;  // of each verb
+  for (const std::string& verb : verbs()) {
+    EXPECT_EQ(run({verb, "--help"}), 0);
+    static const std::regex option(R"((?:^|\n) *(?:-\w,)?(--[a-z-]+))");
+    for (std::sregex_iterator it(output_.begin(), output_.end(), option), end; it != end; ++it)
+      if ((*it)[1] != "--help") options[verb].insert((*it)[1]);
+  }
+  ASSERT_TRUE(options["judge"].contains("--max") && options["render"].contains("--point")) << "the help is read";
+  const std::set<std::string> asked = {"check", "run", "render", "report", "map", "judge"};
+  int tried = 0;
+  for (const auto& [owner, all] : options)
+    for (const std::string& option : all)
+      for (const std::string& verb : asked) {
+        const std::set<std::string>& own = options[verb];
+        if (std::any_of(own.begin(), own.end(), [&](const std::string& one) { return one.starts_with(option); }) ||
+            ++tried % 7 != 0)  // a process each
+          continue;
+        EXPECT_EQ(run({verb, "x.toml", option + "=1"}), 2);
+        EXPECT_TRUE(says(verb + " has no option '" + option + "'; it is an option of ")) << output_;
+        EXPECT_TRUE(says(owner)) << output_;
+        EXPECT_FALSE(says("did you mean")) << output_;
+      }
+  EXPECT_GT(tried, 100);
+  EXPECT_EQ(run({"check", "x.toml", "--max", "acne=0.1"}), 2);
+  EXPECT_TRUE(says("it is an option of judge, and a bound of an experiment stands in its [[bound]]")) << output_;
+  EXPECT_EQ(run({"run", "x.toml", "--point", "3"}), 2);
+  EXPECT_TRUE(says("it is an option of render, section")) << output_;
+}
+
+// The unit of a depth is not that of an offset.
+TEST_F(CommandLine, MetresOfTheBiasAreNotThoseOfAnOffset) {
+  write("x.toml", "[bias]\nunit = \"m\"\nnormal_offset = 0.03\n");
+  ASSERT_EQ(run({"run", "x.toml", "--print-config"}), 0) << output_;
+  EXPECT_TRUE(says("note: bias.unit = m is not the unit of bias.normal_offset")) << output_;
+  EXPECT_TRUE(says("give bias.offset_unit = m for metres")) << output_;
+  for (const char* unit : {"m", "texel"}) {
+    ASSERT_EQ(run({"run", "x.toml", "--print-config", "--set", std::string("bias.offset_unit=") + unit}), 0);
+    EXPECT_FALSE(says("note:")) << output_;
+  }
 }
 
 TEST_F(CommandLine, ABeginningNamesAllThatBeginSo) {

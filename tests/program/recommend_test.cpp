@@ -107,6 +107,18 @@ TEST_F(Recommend, AFilteredMapHoldsByItsReduction) {
   EXPECT_TRUE(says("broken: reduction <= 0.1%")) << output_;
 }
 
+// A sun outside of a closed room: no bias is too small there, and an answer would fail on the first lit surface.
+TEST_F(Recommend, RefusesWhereNothingIsLitAndNamesWhatEnclosesTheLight) {
+  EXPECT_EQ(recommend("point-room", {"--set", "light.kind=directional", "--set", "light.position_m=9,20,3", "--set",
+                                     "light.target_m=0,0,0"}),
+            2)
+      << output_;
+  EXPECT_TRUE(says("in no view is anything lit")) << output_;
+  EXPECT_TRUE(says("the light meets the mesh 'room' first on its way to 100% of it")) << output_;
+  EXPECT_FALSE(says("What to type")) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out/recommended.toml"));
+}
+
 // What a search of lookups cannot be combined with is said.
 TEST_F(Recommend, LookupsAreChosenByTheSearch) {
   EXPECT_EQ(recommend("layers", {"--lookups", "four_vsm"}), 2);

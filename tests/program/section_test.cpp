@@ -19,7 +19,7 @@ class SectionVerb : public Program {
 
 TEST_F(SectionVerb, DrawsTheWorstPixelAndSaysWhyItIsWrong) {
   ASSERT_EQ(section({"--out", "made/acne.svg"}), 0) << output_;
-  EXPECT_TRUE(says("the pixel with the largest error, 100%)")) << output_;
+  EXPECT_TRUE(says("in the middle of the largest patch of acne, the largest cause of error: ")) << output_;
   EXPECT_TRUE(says("Acne (too dark)")) << output_;
   EXPECT_TRUE(says("more bias would light the tap")) << output_;
   const std::string svg = text("made/acne.svg");
@@ -32,6 +32,13 @@ TEST_F(SectionVerb, DrawsTheSameFileTwice) {
   const std::string once = text("section.svg");
   ASSERT_EQ(section({"--pixel", "40,30", "--overwrite", "--threads", "1"}), 0) << output_;
   EXPECT_EQ(text("section.svg"), once);
+}
+
+// Some pixels of this picture alias; nearly all of its error is Peter Panning.
+TEST_F(SectionVerb, ExplainsTheLargestCauseWithoutAWish) {
+  ASSERT_EQ(section({"--set", "bias.constant=0.15"}), 0) << output_;
+  EXPECT_TRUE(says("the largest patch of peter_panning")) << output_;
+  EXPECT_TRUE(says("Peter Panning (too light)")) << output_;
 }
 
 TEST_F(SectionVerb, DrawsThePixelThatIsWorstByAMetric) {

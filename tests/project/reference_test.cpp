@@ -86,7 +86,7 @@ TableLines bias_table_lines() {
     std::string names;
     for (const BiasParameter& parameter : bias_parameters())
       if (parameter.part == &part) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", parameter.setting);
-    const std::string unit = part.unit == "bias.unit" ? "`bias.unit`" : std::string(part.unit);
+    const std::string unit = part.unit.starts_with("bias.") ? fmt::format("`{}`", part.unit) : std::string(part.unit);
     lines.push_back(fmt::format("| {} | {} | {} | {} |", names, unit, cell(part.help), cell(part.law)));
   }
   for (const TapReference& reference : tap_references())

@@ -53,6 +53,40 @@ TEST(OccluderDistance, OnlyWhereAsked) {
   }
 }
 
+// A lamp in a box, in a room that has a wall before its floor: whatever lies behind the box, the light meets the box first. A sun
+// meets the wall or the floor itself.
+TEST(FirstOnTheWay, IsWhatTheLightMeetsBeforeAllElse) {
+  Scene scene;
+  add_quad(scene, "floor", {-5, 0, -5}, {0, 0, 10}, {10, 0, 0});
+  add_quad(scene, "wall", {0.5, 0, -5}, {0, 0, 10}, {0, 2, 0});
+  add_box(scene, "box", glm::dvec3(-0.25, 2.75, -0.25), glm::dvec3(0.25, 3.25, 0.25));
+  const auto part_of = [&](uint32_t t) { return t < 2 ? "floor" : t < 4 ? "wall" : "box"; };
+  scene.light = {.kind = LightKind::point, .position_m = {0, 3, 0}};
+  scene.map = MapVolume{.near_m = 0.01, .far_m = 20};
+  const Tracer tracer(scene);
+  const ReceiverImage receivers = random_receivers(scene, {0, 1, 0}, false, 2000, 1);
+  const Image<uint32_t> lamp = tracer.first_on_the_way(receivers, frame_of(scene), everywhere(receivers));
+  for (size_t i = 0; i < lamp.size(); ++i) EXPECT_EQ(part_of(lamp[i]), std::string("box")) << i;
+
+  Scene outside = scene;
+  outside.light = {.position_m = {-3, 3, 0}, .target_m = {0, 0, 0}};
+  outside.map = {};
+  const Image<uint32_t> sun = tracer.first_on_the_way(receivers, frame_of(outside), everywhere(receivers));
+  int behind = 0;
+  for (size_t i = 0; i < sun.size(); ++i) {
+    const glm::dvec3 p = receivers.position[i];
+    if (receivers.primitive[i] > 1 || std::abs(p.z) < 0.3) continue;  // the floor beside the box's shadow
+    if (p.x > 0.501 && p.x < 2.499) {
+      ++behind;
+      EXPECT_EQ(part_of(sun[i]), std::string("wall")) << p.x;
+    } else if (p.x < 0.499 || p.x > 2.501) {
+      EXPECT_EQ(part_of(sun[i]), std::string("floor")) << p.x;
+    }
+  }
+  EXPECT_GT(behind, 100);
+  EXPECT_EQ(tracer.first_on_the_way(receivers, frame_of(scene), Image<uint8_t>(2000, 1))[0], no_primitive);
+}
+
 // Hundreds of faces that touch one another, and receivers exactly on shared corners. A search that advances by less
 // than a float's last place never ends; then the test fails by its time limit.
 TEST(OccluderDistance, ContactsDoNotHoldItUp) {

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
+#include <set>
+#include <sstream>
 
 #include "base/error.h"
 #include "scenes/camera_fit.h"
@@ -615,6 +618,68 @@ TEST(Cascades, MayHaveAResolutionEach) {
     EXPECT_EQ(cascades[k].frame.resolution, s.cascades.resolutions[k]);
     EXPECT_EQ(cascades[k].settings.map.resolution, s.cascades.resolutions[k]);
   }
+}
+
+// A setting of cascades that is said to have no effect has none: with other values of it the maps, and the choice of a cascade with
+// its weight anywhere in the view, are the same.
+TEST(Cascades, SettingsThatAreIdleChangeNothing) {
+  const Scene scene = floor_scene();
+  const std::vector<std::pair<std::string, std::vector<std::string>>> values = {
+      {"cascades.select", {"depth", "map", "sphere"}},
+      {"map.fit", {"sphere", "corner_square", "view"}},
+      {"cascades.blend", {"0", "0.2"}},
+      {"cascades.cover_band", {"true", "false"}},
+      {"cascades.splits", {"practical", "exponent"}},
+  };
+  const std::vector<std::pair<std::string, std::vector<std::string>>> changed = {
+      {"cascades.blend_of", {"slice", "end", "square"}},
+      {"cascades.cover_band", {"true", "false"}},
+      {"cascades.blend_shape", {"linear", "smooth"}},
+      {"cascades.lambda", {"0.2", "0.8"}},
+      {"cascades.exponent", {"2", "3"}},
+  };
+  const auto seen = [&](const Settings& s) {
+    std::ostringstream text;
+    const std::vector<Technique> all = cascades_of(scene, s);
+    const Camera camera = effective_camera(scene, s.view);
+    for (const Technique& one : all)
+      text << one.frame.extent_m << ' ' << one.frame.centre_m.x << ' ' << one.frame.centre_m.y << ' ' << one.frame.far_m
+           << ';';
+    for (double depth = 0.3; depth < 60; depth *= 1.07)
+      for (const double aside : {-0.4, 0.0, 0.3}) {
+        const glm::dvec3 way = glm::normalize(camera.target_m - camera.eye_m) + aside * glm::dvec3(1, 0, 0);
+        const CascadeChoice chosen = choose_cascade(*all.front().cascade, camera.eye_m, camera.eye_m + depth * way);
+        text << chosen.cascade << ' ' << chosen.next << ';';
+      }
+    return text.str();
+  };
+  int idle = 0, read = 0;
+  const std::function<void(Settings, size_t)> each = [&](Settings s, size_t n) {
+    if (n < values.size()) {
+      for (const std::string& value : values[n].second) {
+        find_setting(values[n].first).set(s, value);
+        each(s, n + 1);
+      }
+      return;
+    }
+    if (s.cascades.select == "sphere" && s.map.fit != MapFit::sphere) return;
+    for (const auto& [name, all] : changed) {
+      const Setting& row = find_setting(name);
+      const bool is_idle = !row.why_idle(s, LightKind::directional).empty();
+      std::set<std::string> different;
+      for (const std::string& value : all) {
+        row.set(s, value);
+        different.insert(seen(s));
+      }
+      row.set(s, all.front());
+      if (is_idle)
+        EXPECT_EQ(different.size(), 1u) << name << " with " << s.cascades.select << ", blend " << s.cascades.blend;
+      ++(is_idle ? idle : read);
+    }
+  };
+  each(cascaded(3), 0);
+  EXPECT_GT(idle, 50);
+  EXPECT_GT(read, 50);
 }
 
 }  // namespace

@@ -105,6 +105,21 @@ TEST(Bias, OfANormalOffsetIsALengthAndNoDepth) {
   EXPECT_DOUBLE_EQ(Bias(settings).moved_m(frame, {1, 2, -3}, {0, 0, 1}).z, 1.5 * 2 * 3 / 1000);
 }
 
+TEST(Bias, OffsetsCanBeMetres) {
+  LightFrame frame;
+  frame.extent_m = 20;
+  frame.resolution = frame.rows = 1000;
+  BiasSettings settings = bias_settings_of({{"normal_offset", 0.25}, {"caster_offset", 0.5}});
+  settings.offset_unit = OffsetUnit::m;
+  for (const LightKind kind : {LightKind::directional, LightKind::point}) {
+    frame.kind = kind;
+    EXPECT_EQ(Bias(settings).moved_m(frame, {1, 2, 3}, {0, -1, 0}), glm::dvec3(0, -0.25, 0));
+  }
+  EXPECT_EQ(unit_of_amount("bias.offset_unit", settings), "m");
+  EXPECT_EQ(unit_of_amount("bias.offset_unit", BiasSettings()), "texels");
+  EXPECT_EQ(unit_of_amount("bias.unit", BiasSettings()), "depth");
+}
+
 TEST(Bias, OfASlopeIsTheShadersFloatArithmetic) {
   const Bias bias = bias_of({{"slope", 0.05}, {"slope_floor", 0.005}});
   const auto at = [&](float n_dot_l) { return bias.at(probe_of(n_dot_l, 1), 0); };

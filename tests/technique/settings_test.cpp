@@ -55,8 +55,8 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
       "bias.polygon_factor", "bias.polygon_units",   "view.up",        "motion.frame",     "motion.zoom",
       "light.index",         "map.aspect",           "cascades.count", "cascades.lambda",  "cascades.exponent",
       "cascades.blend",      "cascades.bias_scales", "lookup.level",   "lookup.exponent",  "lookup.negative_exponent"};
-  const std::set<std::string_view> units = {"s",      "px",        "m",     "deg",     "texels",  "taps",
-                                            "frames", "bias.unit", "depth", "depth^2", "fraction"};
+  const std::set<std::string_view> units = {"s",    "bias.offset_unit", "px",        "m",     "deg",     "texels",
+                                            "taps", "frames",           "bias.unit", "depth", "depth^2", "fraction"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name << " twice";

@@ -72,7 +72,7 @@ class Amounts {
   std::vector<double> in_unit(const BiasPart& part, std::span<const double> metres) const {
     std::vector<double> amounts(metres.begin(), metres.end());
     for (size_t k = 0; k < amounts.size(); ++k) {
-      if (part.unit == "texels") amounts[k] /= places_[k].map.texel_m;
+      if (part.unit == "bias.offset_unit") amounts[k] /= places_[k].map.texel_m;
       if (part.unit == "bias.unit" && unit_ == BiasUnit::depth) amounts[k] /= places_[k].range_m();
     }
     return amounts;

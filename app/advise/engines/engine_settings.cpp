@@ -92,7 +92,7 @@ std::vector<AdvisedPart> advised_parts(const AdvicePlace& place) {
     if (bias[name] == 0 && !(bounded && bias[name + "_floor"] != 0)) continue;
     double metres = 1;
     if (part.unit == "bias.unit") metres = unit_m;
-    if (part.unit == "texels") metres = place.texel_m;
+    if (part.unit == "bias.offset_unit") metres = Bias(bias).offset_m(place.texel_m);
     if (part.acts_on == BiasTarget::compared_depth) metres *= place.frame.bias_scale;
     AdvisedPart advised{&part, form, bias[name] * metres, bias[name], 0, std::numeric_limits<double>::infinity()};
     if (bounded) advised.floor = bias[name + "_floor"] * metres;
@@ -118,7 +118,9 @@ const EngineKnob* knob_for(const std::vector<EngineKnob>& knobs, const AdvisedPa
 double factor_of(const AdvisedPart& part, const AdvicePlace& place) {
   const double reach = std::max(1.0, place.filter.reach_texels / place.reach_texels);
   const double texel = place.map.texel_m / place.texel_m;
-  return reach * (part.part->unit == "texels" ? texel : std::max(1.0, texel));
+  return reach * (part.part->unit == "bias.offset_unit" && place.settings.bias.offset_unit == OffsetUnit::texel
+                      ? texel
+                      : std::max(1.0, texel));
 }
 
 // The depth that the engine's other fields must give: of the parts without a field, and of a reference that it does not

@@ -8,6 +8,8 @@
 #include <limits>
 #include <set>
 
+#include "compare/results/point_settings.h"
+#include "technique/settings.h"
 #include "tests/compare/ladder/evidence.h"
 
 namespace noonmark {
@@ -159,6 +161,36 @@ TEST(Soundness, IsNotMeasuredWithoutAFacingReceiver) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"contract", "rounding_excess", "address_error_texels", "reference_error_m",
                                           "map_error_quanta", "map_bits"}));
+}
+
+// What a sound program measures and a point does not have is no sign of soundness.
+TEST(FindUnsound, AMetricThatIsAbsentFails) {
+  Settings settings;
+  settings.lookup.kind = "vsm";
+  settings.filter.kind = "box";
+  settings.cascades.count = 2;
+  settings.map.placements = 2;
+  PointRecord point;
+  point.settings = settings_map(settings);
+  point.metrics["facing"] = 10;
+  for (const SoundLimit& limit : sound_limits) point.metrics[limit.metric] = limit.most;
+  EXPECT_TRUE(find_unsound({&point, 1}).empty());
+  for (const SoundLimit& limit : sound_limits) {
+    PointRecord without = point;
+    without.metrics.erase(limit.metric);
+    const std::vector<Unsound> found = find_unsound({&without, 1});
+    ASSERT_EQ(found.size(), 1u) << limit.metric;
+    EXPECT_STREQ(found.front().limit->metric, limit.metric);
+    EXPECT_TRUE(std::isnan(found.front().value));
+    without.metrics["facing"] = 0;
+    EXPECT_TRUE(find_unsound({&without, 1}).empty()) << "nothing was asked";
+  }
+  // A point with one map, at one place, that compares depths, has no metric of the others.
+  point.settings = settings_map(Settings());
+  for (const char* other : {"cascade_choice_excess", "placement_disagreements", "contract_store", "contract_blur",
+                            "contract_fetch", "contract_lit", "below_comparison"})
+    point.metrics.erase(other);
+  EXPECT_TRUE(find_unsound({&point, 1}).empty());
 }
 
 }  // namespace

@@ -104,14 +104,14 @@ TEST(JoinCascades, SoundnessIsThatOfTheWorst) {
       {"map_error_quanta", 1},
       {"map_bits", 24},
       {"contract", (0.1 * 130 + 0.5 * 10) / 450}};
-  EXPECT_EQ(join_soundness(all), expected);
+  EXPECT_EQ(join_soundness(all, expected), expected);
   all[2].metrics["facing"] = 0;  // then its numbers say nothing
   all[2].metrics["rounding_excess"] = all[2].metrics["contract"] = not_a_number;
-  EXPECT_EQ(join_soundness(all).at("rounding_excess"), 0.5);
-  EXPECT_DOUBLE_EQ(join_soundness(all).at("contract"), 0.1 * 130 / 440);
+  EXPECT_EQ(join_soundness(all, expected).at("rounding_excess"), 0.5);
+  EXPECT_DOUBLE_EQ(join_soundness(all, expected).at("contract"), 0.1 * 130 / 440);
   for (PointRecord::Cascade& cascade : all) cascade.metrics["facing"] = 0;
-  EXPECT_TRUE(std::isnan(join_soundness(all).at("contract")));
-  EXPECT_TRUE(std::isnan(join_soundness(all).at("map_bits")));
+  EXPECT_TRUE(std::isnan(join_soundness(all, expected).at("contract")));
+  EXPECT_TRUE(std::isnan(join_soundness(all, expected).at("map_bits")));
 }
 
 // Shares are weighted by the receivers; a root mean square by its squares. In a blend band a receiver counts with a share in each

@@ -119,8 +119,6 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"wrong_patch",
        3.0 / static_cast<double>(
                  p.ladder.flags.size())},  // (1, 1), (2, 1), (3, 1); at (0, 1) the picture shows one half, which is lit
-      {"pcf_error", (0.5 + 1 + 1 + 1) / base},
-      {"pcf_error_soft", (0 + 1 + 1 + 1) / base},
       {"light_size", 0.5 / base},
       {"filter", 0.25 / base},
       {"displacement", 0.125 / base},
@@ -372,8 +370,6 @@ TEST(Measure, OfAPictureFromElsewhereOnTopOfTheLadder) {
   EXPECT_EQ(p.ladder.cause_of(2), "acne");
   const std::map<std::string, double> m = p.metrics();
   EXPECT_DOUBLE_EQ(m.at("error"), (0.25 + 0 + 0.75) / 3);
-  EXPECT_DOUBLE_EQ(m.at("pcf_error"), 2.0 / 3) << "of R5";
-  EXPECT_DOUBLE_EQ(m.at("pcf_error_soft"), 2.0 / 3);
   EXPECT_DOUBLE_EQ(m.at("elsewhere"), (0.25 + 1 + 0.25) / 3);
   EXPECT_DOUBLE_EQ(m.at("acne"), 2.0 / 3) << "the acne of the rung below it must stay";
   const auto refused = [&](const char* rung, const Image<float>& of_rung, const char* cause) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "tests/compare/ladder/measured_picture.h"
 
@@ -59,6 +61,35 @@ TEST(WrongPatch, HasCountedPixelsOnly) {
   p.ladder[Rung::shown].at(2, 0) = nan_float;
   EXPECT_TRUE(std::isnan(largest_wrong_patch(p.ladder)));
   EXPECT_EQ(largest_wrong_patch(Picture(0, 0).ladder), 0);
+}
+
+Image<uint8_t> mask_of(const std::vector<std::string>& rows) {
+  Image<uint8_t> mask(static_cast<int>(rows.front().size()), static_cast<int>(rows.size()));
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x) mask.at(x, y) = rows[static_cast<size_t>(y)][static_cast<size_t>(x)] == '#';
+  return mask;
+}
+
+TEST(Patch, DeepestIsThePixelFarthestFromItsOutside) {
+  const auto deepest = [](const std::vector<std::string>& rows) { return deepest_in(largest_patch(mask_of(rows))); };
+  EXPECT_EQ(deepest({"###....",  //
+                     "###....",  //
+                     "###...#"}),
+            glm::ivec2(1, 1));
+  EXPECT_EQ(deepest({"#........",  // a tail and a body
+                     "#..#####.",  //
+                     "########.",  //
+                     "...#####.",  //
+                     "...#####.",  //
+                     "...#####."}),
+            glm::ivec2(5, 3));
+  EXPECT_EQ(deepest({"..........",  // a stripe of acne: halfway, and not at its end
+                     "#########.",  //
+                     ".........."}),
+            glm::ivec2(4, 1));
+  EXPECT_EQ(deepest({"#####", "#####", "#####"}), glm::ivec2(2, 1)) << "the picture's border is outside";
+  EXPECT_EQ(deepest({"##...", "....#", "....#", "....#"}), glm::ivec2(4, 2)) << "of the larger one";
+  EXPECT_TRUE(largest_patch(mask_of({"...", "..."})).empty());
 }
 
 }  // namespace

@@ -66,7 +66,14 @@ TEST(FlickerSection, ShowsWhatIsNotFinite) {
 TEST(FlickerSection, LeadsAReportWithoutALivePictureAndADiagram) {
   Results results = walk();
   results.planned_points = 6;
-  for (PointRecord& point : results.points) point.metrics.insert({{"error", 0.1}, {"facing", 100}, {"counted", 100}});
+  for (PointRecord& point : results.points)
+    point.metrics.insert({{"error", 0.1},
+                          {"facing", 100},
+                          {"counted", 100},
+                          {"residual", 0},
+                          {"tap_residual", 0},
+                          {"contract", 0},
+                          {"rounding_excess", 0}});
   const std::string html = render_report(results, sample_picture);
   const size_t strips = html.find("chart strip"), section = html.find("id=\"motion\"");
   ASSERT_NE(strips, std::string::npos);

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "compare/judge/soundness.h"
 #include "compare/report/cause_colors.h"
 #include "technique/settings.h"
 
@@ -93,6 +94,8 @@ PointRecord sample_point(int64_t id, int resolution, double extent_m, bool box) 
        {"outside", extent_m < 10 ? 0.06 : 0},
        {"residual", 2.4e-7},
        {"tap_residual", 1.1e-7},
+       {"contract", 0},
+       {"rounding_excess", 0.4},
        {"map_ms", 1.1 + 2.4e-6 * resolution * resolution},
        {"lookup_ms", box ? 21.4 : 6.1}};
   m["shadow_ms"] = m["map_ms"] + m["lookup_ms"];
@@ -199,6 +202,8 @@ Results filtered_sample_results() {
     point.metrics["texel_work"] = std::pow(4.0, static_cast<double>(k));
     point.metrics["acne"] = point.metrics["peter_panning"] = 0;
     point.metrics.insert({{"leak", 0.002}, {"over_darkening", 0.0001}, {"reduction", 0}});
+    for (const SoundLimit& limit : sound_limits)
+      if (must_have(point, limit)) point.metrics.try_emplace(limit.metric, 0);
     const double leaks = k == 0 ? 0.01 : 0.002;
     for (int i = 0; i < 100; ++i) {
       const double r = i / 100.0, leak = std::max(0.0, leaks * (1 - r / 0.3)),

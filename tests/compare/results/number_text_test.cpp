@@ -35,6 +35,16 @@ TEST(NumberText, SharesAreInPercentAndCountsAreWholeNumbers) {
   EXPECT_EQ(quantity_text(std::nan(""), "fraction"), "not measured");
 }
 
+TEST(NumberText, AShareThatIsTheRoundingOfASumIsZero) {
+  EXPECT_EQ(share_text(0.0083472391), "0.835%");
+  EXPECT_EQ(share_text(2.23e-17), "0%") << "doubles around 1 are 2.2e-16 apart";
+  EXPECT_EQ(share_text(-2.23e-17), "0%");
+  EXPECT_EQ(quantity_text(2.23e-17, "fraction"), "0%");
+  EXPECT_EQ(share_text(1.0 / 961 / 67108864), "1.55e-09%") << "one tap of one pixel is something";
+  EXPECT_EQ(share_text(std::nan("")), "not measured");
+  EXPECT_EQ(quantity_text(2.23e-17, "m"), "2.23e-17 m");
+}
+
 TEST(NumberText, AValueDoesNotReadAsTheLimitThatItBreaks) {
   EXPECT_EQ(digits_to_tell(0.006, 0.005), 4);
   const int digits = digits_to_tell(0.00500004, 0.005);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "scenes/library.h"
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"
 
@@ -369,6 +370,37 @@ TEST(GltfFiles, TruncatedAndTornBinaries) {
   expect_refusal(folder.write("scene.glb", glb(d.dump(), square_bytes() + "junk").replace(4, 1, "\3")), "version 3");
   expect_refusal(folder.write("scene.glb", glb(d.dump(), "")), "buffers[0]: has no uri");
   expect_refusal(folder.write("scene.glb", glb(d.dump(), "short")), "buffers[0].byteLength");
+}
+
+// A binary chunk whose length is no multiple of 4, as some exporters write it: the file is whole. The glTF validator says
+// GLB_CHUNK_LENGTH_UNALIGNED.
+TEST(GltfFiles, AnUnpaddedChunkIsNotCutShort) {
+  TemporaryFolder folder;
+  json d = square();
+  d["buffers"][0] = {{"byteLength", 61}};
+  std::string whole = glb(d.dump(), square_bytes() + "!");  // padded to 64 bytes
+  whole.resize(whole.size() - 3);
+  const size_t bin = whole.size() - 61 - 8;
+  const uint32_t length = 61, all = static_cast<uint32_t>(whole.size());
+  std::memcpy(whole.data() + bin, &length, 4);
+  std::memcpy(whole.data() + 8, &all, 4);
+  const std::string said = refusal(folder.write("scene.glb", whole));
+  EXPECT_NE(said.find("GLB chunk 1: its length 61 is not a multiple of 4"), std::string::npos) << said;
+  EXPECT_NE(said.find("its exporter"), std::string::npos) << said;
+  EXPECT_EQ(said.find("cut short"), std::string::npos) << said;
+}
+
+// A VRM is a GLB with extensions for avatars.
+TEST(GltfFiles, AVrmIsAGlb) {
+  TemporaryFolder folder;
+  json d = square();
+  d["buffers"][0] = {{"byteLength", 60}};
+  d["extensionsUsed"] = {"VRMC_vrm"};
+  SceneSettings settings;
+  settings.name = folder.write("avatar.VRM", glb(d.dump(), square_bytes()));
+  EXPECT_TRUE(names_file(settings.name));
+  EXPECT_EQ(make_scene(settings).triangles.size(), 2u);
+  EXPECT_NE(refusal(folder.write("text.vrm", square().dump())).find("GLB header"), std::string::npos);
 }
 
 TEST(GltfFiles, MillionsOfInstancesAreRefusedAtOnce) {
