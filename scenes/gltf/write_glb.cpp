@@ -115,6 +115,10 @@ void add_light(const Light& light, const std::string& name, tinygltf::Model& mod
   }
   const auto number = static_cast<int>(model.lights.size());
   node.extensions["KHR_lights_punctual"] = tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(number)}});
+  // tinygltf 2.9 has a member for it, and leaves the extension out where that is not set.
+  [number](auto& any) {
+    if constexpr (requires { any.light; }) any.light = number;
+  }(node);
   model.lights.push_back(std::move(made));
   model.nodes.push_back(std::move(node));
 }
