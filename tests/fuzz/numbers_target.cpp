@@ -38,7 +38,7 @@ const std::vector<Lines>& bases() {
        {"filter.kind", "box"}},
       {{"scene.name", "cube-room"},
        {"map.fit", "sphere"},
-       {"cascades.count", "3"},
+       {"cascades.count", "2"},
        {"cascades.blend", "0.2"},
        {"cascades.splits", "practical"},
        {"map.snap", "true"}},
