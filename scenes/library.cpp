@@ -93,16 +93,19 @@ void require_room(const SceneSettings& settings, const Scene& scene) {
                                               what, bytes_text(needed), available.text(), remedy));
 }
 
-// A move to where floats are further apart than the scene's corners leaves less of it, or nothing.
+// A move to where floats are further apart than the scene's corners leaves less of it, or nothing. Where they are as far apart
+// as the scene's camera is from what it shows, the picture is of the rounding alone.
 void require_shape(Scene& scene, const Placement& placement) {
   const PlacedShape shape = placed_shape(scene, placement);
   const glm::dvec3 by = placement.move_m;
-  const std::string there = fmt::format(
-      "scene.move_m = {},{},{} moves {}, which measures {:.3g} m, to where float coordinates are {:g} m apart", by.x,
-      by.y, by.z, scene.name, shape.size_m, shape.step_m);
-  if (shape.triangles > 0 && (shape.lost == shape.triangles || shape.step_m >= shape.size_m))
-    throw Error(ErrorKind::usage, fmt::format("{}: {} of its {} triangles have no area there; move it less far", there,
-                                              shape.lost, shape.triangles));
+  const double shown_from_m = glm::distance(scene.camera.eye_m, scene.camera.target_m);
+  const std::string there = fmt::format("scene.move_m = {},{},{} moves {} to where float coordinates are {:g} m apart",
+                                        by.x, by.y, by.z, scene.name, shape.step_m);
+  if (shape.triangles > 0 && (shape.lost == shape.triangles || shape.step_m >= shown_from_m))
+    throw Error(ErrorKind::usage,
+                fmt::format("{}, and its camera is {:.3g} m from what it shows: {} of its {} triangles have no area "
+                            "there; move it less far",
+                            there, shown_from_m, shape.lost, shape.triangles));
   if (!shape.in_world)
     throw Error(ErrorKind::usage, fmt::format("{}, and a coordinate is at most {:g} m; move it less far", there,
                                               ranges::coordinate_m.most));

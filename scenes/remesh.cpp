@@ -235,14 +235,11 @@ PlacedShape placed_shape(const Scene& scene, const Placement& placement) {
   const auto placed = [&](const glm::vec3& p) { return glm::dvec3(motion * glm::dvec4(p, 1)); };
   PlacedShape shape;
   double largest = 0;
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::vec3& p : scene.positions) {
     const glm::dvec3 at = placed(p);
     shape.in_world = shape.in_world && is_in_world(at);
-    low = glm::min(low, at), high = glm::max(high, at);
     largest = std::max({largest, std::abs(at.x), std::abs(at.y), std::abs(at.z)});
   }
-  if (!scene.positions.empty()) shape.size_m = glm::length(high - low);
   if (largest > 0) shape.step_m = std::ldexp(1, std::ilogb(largest) - std::numeric_limits<float>::digits + 1);
   for (const glm::uvec3& t : scene.triangles) {
     const glm::vec3 &a = scene.positions[t.x], &b = scene.positions[t.y], &c = scene.positions[t.z];

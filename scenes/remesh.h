@@ -21,7 +21,6 @@ struct Placement {
 
 // What float coordinates make of a scene that is placed there.
 struct PlacedShape {
-  double size_m = 0;       // the diagonal of its box
   double step_m = 0;       // how far apart floats are at the scene's largest coordinate
   uint64_t triangles = 0;  // with an area before
   uint64_t lost = 0;       // of them, with none there

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -37,7 +38,7 @@ const std::vector<Lines>& bases() {
        {"filter.kind", "box"}},
       {{"scene.name", "cube-room"},
        {"map.fit", "sphere"},
-       {"cascades.count", "3"},
+       {"cascades.count", "2"},
        {"cascades.blend", "0.2"},
        {"cascades.splits", "practical"},
        {"map.snap", "true"}},
@@ -88,13 +89,9 @@ bool takes_too_long(const Setting& row, std::string_view value) {
 }
 
 std::optional<double> number_of(const std::string& text) {
-  try {
-    size_t end = 0;
-    const double value = std::stod(text, &end);
-    return end == text.size() ? std::optional(value) : std::nullopt;
-  } catch (const std::exception&) {
-    return std::nullopt;  // "1e400" and what is no number
-  }
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == 0 ? std::optional(value) : std::nullopt;
 }
 
 std::vector<std::string> parts_of(const std::string& list) {

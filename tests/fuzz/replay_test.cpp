@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -23,9 +24,19 @@ struct Replay {
 };
 std::ostream& operator<<(std::ostream& out, const Replay& replay) { return out << replay.target->name; }
 
+// An assertion of a library ends the program: then the input is printed at which it did.
+std::string input_at_hand;
+void print_input(int signal) {
+  const auto written = ::write(STDERR_FILENO, input_at_hand.data(), input_at_hand.size());
+  std::signal(signal, SIG_DFL);
+  std::raise(written < 0 ? SIGABRT : signal);
+}
+
 class Fuzz : public ::testing::TestWithParam<Replay> {
  protected:
   void run(const std::string& bytes, const std::string& what) {
+    input_at_hand = "\n" + what + ":\n" + bytes + "\n";
+    for (const int signal : {SIGABRT, SIGSEGV}) std::signal(signal, print_input);
     try {
       GetParam().target->run(bytes);
     } catch (const std::exception& error) {
