@@ -51,15 +51,13 @@ constexpr double one_value = 0.01, distances_apart = 1.25;
 struct Evenness {
   size_t told = 0, even = 0;
 };
-struct Span {
-  size_t count = 0;
-  double least = 1, most = 0, nearest = INFINITY, farthest = 0;
-  void add(double value, double distance) {
-    ++count;
-    least = std::min(least, value), most = std::max(most, value);
-    nearest = std::min(nearest, distance), farthest = std::max(farthest, distance);
-  }
+struct Shadowed {
+  std::vector<double> values, distances;
 };
+// Between the 5th and the 95th percentile: at a few pixels an edge's filter reaches further.
+double low_of(const std::vector<double>& values) { return quantile(values, 0.05); }
+double high_of(const std::vector<double>& values) { return quantile(values, 0.95); }
+
 // Of the pixels deep in true shadow, those of triangles on which occluders of several distances cast it, and those of them
 // where the triangle has one value all the same.
 Evenness evenness_in_shadow(const CheckEvidence& e, const FrameStatistics& s, bool whole) {
@@ -67,15 +65,19 @@ Evenness evenness_in_shadow(const CheckEvidence& e, const FrameStatistics& s, bo
   Image<uint8_t> mask(s.deep.width, s.deep.height, 0);
   for (size_t i = 0; i < mask.size(); ++i) mask[i] = s.deep[i] == 1;
   const Image<float> distance = e.tracer.occluder_distance(e.receivers, e.light, mask);
-  std::unordered_map<uint32_t, Span> spans;
-  for (size_t i = 0; i < mask.size(); ++i)
-    if (mask[i] && std::isfinite(distance[i]))
-      spans[whole ? 0 : e.receivers.primitive[i]].add(e.frame.visibility[i], distance[i]);
+  std::unordered_map<uint32_t, Shadowed> surfaces;
+  for (size_t i = 0; i < mask.size(); ++i) {
+    if (!mask[i] || !std::isfinite(distance[i])) continue;
+    Shadowed& surface = surfaces[whole ? 0 : e.receivers.primitive[i]];
+    surface.values.push_back(e.frame.visibility[i]);
+    surface.distances.push_back(distance[i]);
+  }
   Evenness found;
-  for (const auto& [primitive, span] : spans) {
-    if (span.count < least || span.farthest < distances_apart * span.nearest) continue;
-    found.told += span.count;
-    if (span.most - span.least <= one_value) found.even += span.count;
+  for (const auto& [primitive, surface] : surfaces) {
+    const size_t count = surface.values.size();
+    if (count < least || high_of(surface.distances) < distances_apart * low_of(surface.distances)) continue;
+    found.told += count;
+    if (high_of(surface.values) - low_of(surface.values) <= one_value) found.even += count;
   }
   return found;
 }

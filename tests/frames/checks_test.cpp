@@ -149,19 +149,27 @@ TEST(Checks, HalfAPixelBesidePositionsIsNamed) {
   expect_named(frame, "alignment", "one of these two");
 }
 
-// Four samples of each pixel: one that sees no surface makes it none, or is left out.
+// Four samples of each pixel: one that sees no surface makes it none, or is left out. No shift is like what that does around a
+// whole sphere.
 TEST(Checks, MultisamplingBesidePositionsIsNamed) {
+  const Delivered sphere = good_frame("sphere", width, height);
   for (const bool any : {true, false}) {
-    GivenFrame frame = with_positions([](glm::dvec3 p) { return p; });
+    GivenFrame frame = sphere.frame;
+    frame.receivers = GivenReceivers::positions;
+    frame.positions = positions_of(sphere);
     Image<float> sum(width, height, 0), count(width, height, 0);
     for (const auto& [x, y] : {std::pair(-0.125, -0.375), {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}}) {
-      const GivenFrame sample = with_picture_through(shifted_by(x, y));
+      const GivenFrame sample = with_picture_through(shifted_by(x, y), sphere);
       for (size_t i = 0; i < sum.size(); ++i)
         if (!std::isnan(sample.visibility[i])) sum[i] += sample.visibility[i], ++count[i];
     }
     for (size_t i = 0; i < sum.size(); ++i)
       frame.visibility[i] = count[i] >= (any ? 1 : 4) ? sum[i] / count[i] : no_surface;
-    expect_named(frame, "alignment", "multisampling was resolved");
+    const CheckResult found = check_named(judge_frame(*sphere.scene, *sphere.tracer, frame, {}), "alignment");
+    EXPECT_EQ(found.state, CheckState::failed) << found.says;
+    EXPECT_NE(found.says.find(any ? "too large there: multisampling" : "too small there: multisampling"),
+              std::string::npos)
+        << found.says;
   }
 }
 

@@ -51,8 +51,7 @@ inline GivenFrame with(const Image<float>& visibility) {
 }
 
 // A frame of the same scene through another camera, delivered as one of the first.
-inline GivenFrame with_picture_through(const glm::dmat4& moved) {
-  const Delivered& base = good();
+inline GivenFrame with_picture_through(const glm::dmat4& moved, const Delivered& base = good()) {
   GivenFrame seen = base.frame;
   seen.view = ViewMatrix(moved * base.frame.view.clip_from_world());
   seen.visibility = Image<float>(width, height, 0);
