@@ -88,7 +88,7 @@ TEST_F(UsersFiles, ThatANewFileWouldReplaceStay) {
   for (const Words& words :
        {Words{"live", "plate", "--out", "mine.html"}, Words{"export", "plate", "--out", "mine.glb"},
         Words{"init", "plate.glb", "--out", "mine.toml"},
-        Words{"section", "x.toml", "--pixel", "24,13", "--out", "mine.svg"}}) {
+        Words{"section", "x.toml", "--pixel", "24,25", "--out", "mine.svg"}}) {
     SCOPED_TRACE(words[0]);
     const std::string file = words.back();
     write(file, "mine");
