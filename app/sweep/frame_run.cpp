@@ -27,6 +27,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "compare/judge/conditions.h"
+#include "compare/report/junit.h"
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
 #include "compare/store/store.h"
@@ -225,8 +226,7 @@ class FrameRun {
     const auto begin = std::chrono::steady_clock::now();
     if (files_[i].file) record.delivery.refused = fault_of([&] { judged.emplace(judged_frame(i)); });
     if (judged) fill(record, *judged);
-    record.times["judge_ms"] =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    record.times[point_time] = milliseconds_since(begin);
     if (!record.delivery.refused.empty())
       for (const Metric& row : metrics_table())
         if (row.of_frames) record.metrics[std::string(row.name)] = std::numeric_limits<double>::quiet_NaN();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -21,6 +22,7 @@
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
+#include "compare/report/junit.h"
 #include "compare/results/metrics.h"
 #include "measure/pass_times.h"
 #include "scenes/library.h"
@@ -164,8 +166,10 @@ void SweepRun::prepare() {
 Measurement SweepRun::measured(int64_t id, const std::optional<CurveOptions>& curve) {
   room_.require_room_for(static_cast<size_t>(id));
   survey_.scenes.require_unchanged(bench_, point_at(id));
+  const auto begin = std::chrono::steady_clock::now();
   Measurement m = bench_.measure(point_at(id), curve);
   m.record.id = id;
+  m.record.times[point_time] = milliseconds_since(begin);
   return m;
 }
 

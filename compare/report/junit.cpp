@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <span>
 #include <string_view>
@@ -30,12 +29,11 @@ std::string timestamp(const std::string& started) {
   return started.size() >= length ? started.substr(0, length) : "1970-01-01T00:00:00";
 }
 
-// What the stages of these points took.
+// What these points took.
 double seconds_of(std::span<const PointRecord> points) {
   double ms = 0;
   for (const PointRecord& point : points)
-    for (const auto& [name, value] : point.times)
-      if (name.ends_with("_ms") && std::isfinite(value)) ms += value;
+    if (const auto time = point.times.find(point_time); time != point.times.end()) ms += time->second;
   return ms / 1000;
 }
 

@@ -6,6 +6,9 @@
 
 namespace noonmark {
 
+// Of PointRecord::times: what the whole measurement of the point took, or the judging of the frame.
+inline constexpr const char* point_time = "point_ms";
+
 // One testcase per bound (results.bounds must be evaluated), with a failure if the bound is broken. If the bound only
 // warns, its testcase is marked as skipped, and the message is the warning. The reason: CI servers show skipped
 // testcases in a separate list, but most of them hide the output of a testcase that passed. If the sweep did not finish,

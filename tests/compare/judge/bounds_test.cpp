@@ -1,10 +1,12 @@
 // When a bound holds and when it is broken, and how JUnit and the summary report this.
 #include "compare/judge/bounds.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "base/error.h"
+#include "compare/judge/verdict.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
 #include "compare/results/quantities.h"
@@ -394,6 +396,34 @@ TEST(Summary, GivesTheVerdictFirst) {
   results.planned_points = 2;
   EXPECT_EQ(verdict(results),
             "**Incomplete: 1 of 2 points are finished; broken so far: 1 of 1 bound.** Run it again to continue.");
+}
+
+// The first that holds, and the files say the same.
+TEST(Verdict, HasOneOrder) {
+  Results results = judged({0.1}, {});
+  EXPECT_EQ(verdict_of(results), Verdict::measured);
+  results = judged({0.1}, {at_most(1)});
+  const auto now = [&](Verdict wanted, int code) {
+    EXPECT_EQ(verdict_of(results), wanted) << word_of(verdict_of(results));
+    EXPECT_EQ(exit_code_of(verdict_of(results)), code);
+    EXPECT_NE(to_junit(results).find(fmt::format("name=\"verdict\" value=\"{}\"", word_of(wanted))), std::string::npos);
+    const std::string sentence = verdict_sentence(results), summary = to_summary(results);
+    EXPECT_NE(summary.find("**" + sentence.substr(0, sentence.find(' '))), std::string::npos) << summary;
+  };
+  now(Verdict::held, 0);
+  results.bounds = judged({0.1}, {at_most(0)}).bounds;
+  now(Verdict::broken, 1);
+  results.baseline.emplace();
+  now(Verdict::broken, 1);
+  results.baseline->worse = {"worse: acne"};
+  now(Verdict::worse, 1);
+  results.points[0].delivery.refused = "inverted: 0 is lit";
+  now(Verdict::refused, 3);
+  results.stopped = true;
+  now(Verdict::incomplete, 6);
+  EXPECT_EQ(verdict_without_promises(results), Verdict::incomplete);
+  results.points[0].metrics["contract"] = 1;
+  now(Verdict::unsound, 5);
 }
 
 TEST(Summary, OrdersByErrorAndKeepsTheTableWhole) {
