@@ -173,10 +173,11 @@ bool must_have(const PointRecord& point, const SoundLimit& limit) {
   if (metric.of_cascades) return several("cascades.count");
   if (metric.of_placements) return several("map.placements");
   // The frame of another renderer is looked up nowhere.
-  if (!metric.of_moments) return !metric.optional() && setting_of(point, "given.frame").empty();
-  const auto kind = std::find_if(lookups().begin(), lookups().end(), [&](const LookupKind& one) {
-    return one.name == setting_of(point, "lookup.kind");
-  });
+  const std::string frame = setting_of(point, "given.frame");
+  const bool given = !frame.empty() && frame != find_setting("given.frame").get(Settings());
+  if (!metric.of_moments) return !metric.optional() && !given;
+  const auto kind = std::find_if(lookups().begin(), lookups().end(),
+                                 [&](const LookupKind& one) { return one.name == setting_of(point, "lookup.kind"); });
   if (kind == lookups().end() || !kind->reads_moments()) return false;
   return std::string_view(limit.metric) != "below_comparison" || kind->bound;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -307,14 +308,11 @@ std::optional<MissingBlocker> missing_blocker(const SectionInput& in, const MapT
     const bool front = glm::dot(glm::cross(b - a, d - a), technique.frame.direction_to_light((a + b + d) / 3.0)) > 0;
     return technique.settings.map.cull == (front ? CulledFaces::front : CulledFaces::back);
   };
-  const uint32_t blocker = met.front().triangle;
-  MissingBlocker missing{part_of(scene, blocker).name, culled(blocker), false, {}};
-  for (const OnRay& one : on_ray(in, tile, drawn, centre, tile.far_m)) {
-    if (one.triangle == blocker) missing.covers = true;
-    if (one.triangle != blocker && !culled(one.triangle) && !missing.other_m &&
-        &part_of(scene, one.triangle) == &part_of(scene, blocker))
-      missing.other_m = one.depth_m;
-  }
+  const Part& part = part_of(scene, met.front().triangle);
+  MissingBlocker missing{part.name, culled(met.front().triangle), {}};
+  for (const OnRay& one : on_ray(in, tile, drawn, centre, std::numeric_limits<double>::infinity()))
+    if (!missing.drawn_m && !culled(one.triangle) && &part_of(scene, one.triangle) == &part)
+      missing.drawn_m = one.depth_m;
   return missing;
 }
 

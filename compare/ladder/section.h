@@ -66,13 +66,12 @@ struct SectionLine {
   std::vector<glm::dvec2> points;
 };
 
-// What the map has at the centre of a texel that is in shadow, where it stores no depth before the receiver: of the triangle that
-// the light meets first there.
+// Of the triangle that the light meets first at the centre of a texel that is in shadow, where the map has no depth before the
+// receiver.
 struct MissingBlocker {
   std::string part;               // its name
-  bool culled = false;            // the map does not draw it
-  bool covers = false;            // as the map is drawn (moved, if casters are), it covers the texel's centre
-  std::optional<double> other_m;  // the first depth in the map of another triangle of the same part
+  bool culled = false;            // the map does not draw the triangle
+  std::optional<double> drawn_m;  // the first depth there of a face of the part as the map is drawn; empty: of none
 };
 
 struct ReceiverSection {

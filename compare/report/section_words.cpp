@@ -60,10 +60,10 @@ std::string panning_text(const ReceiverSection& section, const SectionTap& tap) 
   if (missing.culled)
     return text + fmt::format(
                       "The face of '{}' that casts the shadow is culled from the map, {}", printable(missing.part),
-                      missing.other_m ? fmt::format("and the next face of it that is drawn there lies {} the receiver.",
-                                                    nearer_text(*missing.other_m, tap.reference_m))
+                      missing.drawn_m ? fmt::format("and the next face of it that is drawn there lies {} the receiver.",
+                                                    nearer_text(*missing.drawn_m, tap.reference_m))
                                       : "and no other face of it stands there: the map has nothing of it.");
-  if (section.casters_moved && !missing.covers)
+  if (section.casters_moved && !missing.drawn_m)
     return text + fmt::format(
                       "The casters are moved before the map is drawn, and the face of '{}' that casts the shadow "
                       "does not cover the texel's centre then.",
@@ -72,7 +72,7 @@ std::string panning_text(const ReceiverSection& section, const SectionTap& tap) 
     return text + fmt::format(
                       "The casters are moved or offset before the map is drawn: the face of '{}' that casts the "
                       "shadow is {} the receiver then.",
-                      printable(missing.part), nearer_text(tap.exact_m, tap.reference_m));
+                      printable(missing.part), nearer_text(std::max(*missing.drawn_m, tap.exact_m), tap.reference_m));
   return text + fmt::format("The face of '{}' that casts the shadow is not in the map at a depth before the receiver.",
                             printable(missing.part));
 }

@@ -319,8 +319,8 @@ std::set<std::string> ways_of(const std::vector<ReceiverSection>& sections) {
     EXPECT_GE(tap.exact_m, tap.reference_m);
     EXPECT_FALSE(tap.texel_lit);
     // The map's first depth is that of another face, or of none: it never has a face of the caster that it does not draw.
-    if (section.missing->other_m && section.missing->culled) {
-      EXPECT_LE(tap.exact_m, *section.missing->other_m + 1e-4);
+    if (section.missing->drawn_m && section.missing->culled) {
+      EXPECT_LE(tap.exact_m, *section.missing->drawn_m + 1e-4);
     }
     const std::string words = report::section_words(section)[0];
     for (const char* way : {"no other face of it stands there", "the next face of it that is drawn there lies",
@@ -342,9 +342,8 @@ TEST(SectionWords, SayWhatTheTexelHolds) {
   using Ways = std::set<std::string>;
   // Leaves are single faces: without them the map has nothing of a leaf.
   EXPECT_TRUE(ways("foliage", {{"map.cull", "front"}}).contains("no other face of it stands there"));
-  // Cubes have a back. It stands on the floor, and with a bias it is the floor's depth.
-  EXPECT_EQ(ways("cube-room", {{"map.cull", "front"}, {"bias.constant", "0.001"}}),
-            Ways{"the next face of it that is drawn there lies"});
+  // A closed room has walls with two sides.
+  EXPECT_TRUE(ways("lab", {{"map.cull", "front"}}).contains("the next face of it that is drawn there lies"));
   // A caster that shrinks leaves its border; one that moves away from the light covers the same texels, farther away.
   EXPECT_EQ(ways("cube-room", {{"bias.caster_normal_offset", "4"}}), Ways{"does not cover the texel's centre then"});
   EXPECT_EQ(ways("cube-room", {{"bias.caster_offset", "60"}}), Ways{"the receiver then"});

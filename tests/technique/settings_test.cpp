@@ -98,8 +98,8 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [i1, i2, i3, i4, i5, i6, i7, i8, i9, i10, i11, i12, i13, i14, i15] = s.cascades;
   [[maybe_unused]] const auto& [g1, g2] = s.truth;
   [[maybe_unused]] const auto& [h1] = s.given;
-  // Unit, reference and plane_cap, and every parameter of a part.
-  const int bias = 3 + static_cast<int>(bias_parameters().size());
+  // The units of depths and of offsets, reference and plane_cap, and every parameter of a part.
+  const int bias = 4 + static_cast<int>(bias_parameters().size());
   // The kind, and every parameter that a filter reads.
   const int filter = 1 + static_cast<int>(FilterTable::parameters().size());
   const int lookup = 1 + static_cast<int>(LookupTable::parameters().size());
