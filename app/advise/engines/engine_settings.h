@@ -11,6 +11,7 @@
 #pragma once
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +43,8 @@ struct TrialView {
 struct EngineTrial {
   std::string folder;  // of the frames, from the recommendation's folder
   std::vector<TrialView> views = {};
-  std::string no_frame = {};  // why the adapter gave none
+  std::string no_frame = {};         // why the adapter gave none
+  std::set<std::string> notes = {};  // what the adapter said to the user: sentences
 };
 
 struct EngineAdvice {
