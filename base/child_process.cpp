@@ -1,6 +1,7 @@
 #include "base/child_process.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,6 +23,10 @@ bool can_be_executed(const std::string& path) {
   return std::filesystem::is_regular_file(path, none) && access(path.c_str(), X_OK) == 0;
 }
 
+// A shell that becomes the program. What it leaves beside the program waits for the end of this process.
+constexpr const char* keep_group =
+    "(trap '' TERM; read -r _; kill -TERM 0; sleep 1; kill -KILL 0) <&3 3<&- & exec \"$@\" 3<&-";
+
 }  // namespace
 
 std::optional<std::string> find_program(const std::string& name) {
@@ -39,24 +44,46 @@ std::string own_program() {
 }
 
 int run_program(const std::vector<std::string>& arguments, const std::string& log) {
-  const auto fail = [&](const std::string& what, int code) {
+  const auto fail = [](const std::string& what, int code) {
     throw Error(kind_of_failure(code), what + ": " + std::strerror(code));
   };
+  if (!can_be_executed(arguments[0]))
+    fail(arguments[0] + " cannot be started", access(arguments[0].c_str(), X_OK) != 0 ? errno : EACCES);
   const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (output < 0) fail(log + " cannot be written", errno);
+  int lifeline[2];  // its second end is this process's alone, so the first one ends when this process does
+  if (pipe2(lifeline, O_CLOEXEC) != 0) {
+    const int code = errno;
+    close(output);
+    fail("no pipe for " + arguments[0], code);
+  }
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, output, 1);
   posix_spawn_file_actions_adddup2(&actions, output, 2);
+  posix_spawn_file_actions_adddup2(&actions, lifeline[0], 3);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP);  // the shell, which becomes the program, leads the group
   std::vector<char*> words;
+  for (const char* word : {"/bin/sh", "-c", keep_group, "sh"}) words.push_back(const_cast<char*>(word));
   for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   pid_t child = 0;
-  const int failed = posix_spawn(&child, words[0], &actions, nullptr, words.data(), environ);
+  const int failed = posix_spawn(&child, words[0], &actions, &attributes, words.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   close(output);
-  if (failed) fail(arguments[0] + " cannot be started", failed);
+  close(lifeline[0]);
+  if (failed) close(lifeline[1]), fail(arguments[0] + " cannot be started", failed);
+  // The group is killed before its leader is waited for: until then no other group can have its number.
+  siginfo_t ended{};
+  while (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  kill(-child, SIGKILL);
+  close(lifeline[1]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) fail(arguments[0] + " cannot be waited for", errno);

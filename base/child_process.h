@@ -17,6 +17,8 @@ std::string own_program();
 
 // Starts arguments[0], which is a path, with these arguments. What it prints on both streams goes to the file `log`. Returns its
 // exit code, or minus the signal that ended it. Throws Error if it cannot be started or its log cannot be written.
+// The program and all that it starts are a process group of their own. What is left of the group when the program has ended is
+// killed. When this process ends first, in whatever way, the group gets SIGTERM, and a second later SIGKILL.
 int run_program(const std::vector<std::string>& arguments, const std::string& log);
 
 }  // namespace noonmark

@@ -155,18 +155,6 @@ void Renderer::Impl::draw_screen(const Program& program, GLenum depth_test, bool
   glUseProgram(0);
 }
 
-const char* text_of(HalfRounding rounding) {
-  switch (rounding) {
-    case HalfRounding::to_nearest:
-      return "to nearest";
-    case HalfRounding::toward_zero:
-      return "toward zero";
-    case HalfRounding::other:
-      break;
-  }
-  return "neither to nearest nor toward zero";
-}
-
 const char* text_of(TimeSource source) {
   switch (source) {
     case TimeSource::timer_query:

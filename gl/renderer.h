@@ -64,14 +64,6 @@ struct DeviceInfo {
   int subpixel_bits = 0;  // a vertex moves to whole 1 / 2^bits of a texel before its triangle is drawn
 };
 
-// How a device makes half floats of the 32-bit floats that a shader writes (map.moments = 16f). OpenGL allows both neighbours.
-enum class HalfRounding {
-  to_nearest,
-  toward_zero,  // each pass makes a number smaller, by up to 2^-10 of itself
-  other,        // neither for all numbers
-};
-const char* text_of(HalfRounding rounding);  // "to nearest"
-
 // The taps whose texels a probe holds. The texel of the middle tap is always known.
 enum class ProbeTaps { all, none };
 
@@ -176,9 +168,6 @@ class Renderer {
   // techniques: as of lookup_maps(); which: the map of a cascade.
   MomentEvidence read_moments(const ShadowMap& map, std::span<const Technique> techniques, const TexelSet& texels,
                               size_t which = 0);
-  // Measured by a draw of 4096 floats at the first call. Throws Error(device) if a number is stored as neither of its
-  // neighbours.
-  HalfRounding half_rounding();
   // The time of the passes that store and blur the moments of a map; as time_ms in render_map.
   // Of cascades those of all maps; technique: any of them.
   double time_moments(const ShadowMap& map, const Technique& technique);

@@ -98,7 +98,6 @@ struct Renderer::Impl {
   Texture cube_index;  // each texel holds its own place in the map's image; for cubes of ...
   int cube_index_resolution = 0;
   std::map<DepthFormat, double> polygon_offset_units;
-  std::optional<HalfRounding> half_rounding;
 
   Impl(DebugMode debug, ShaderReplacements shaders);
   ~Impl();

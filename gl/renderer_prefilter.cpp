@@ -2,10 +2,6 @@
 // texel of the shadow map stores.
 #include <fmt/format.h>
 
-#include <array>
-#include <bit>
-#include <cmath>
-
 #include "base/error.h"
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
@@ -91,6 +87,10 @@ const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& m
     for (size_t k = 0; k < kernel.size(); ++k)
       blur.set(fmt::format("kernel[{}]", k).c_str(), static_cast<float>(kernel[k]));
   }
+  const bool half_floats = lookup.format() == MomentFormat::f16;
+  store.set("half_floats", half_floats && !spread);
+  halve.set("half_floats", half_floats);
+  blur.set("half_floats", half_floats);
   blur.set("wrap", static_cast<int>(m.wrap));
   blur.set("border", border);
   run(time_ms, [&] {
@@ -134,47 +134,6 @@ double Renderer::time_moments(const ShadowMap& map, const Technique& technique) 
   double time_ms = 0;
   impl_->moments_of(map, technique, &time_ms);
   return time_ms;
-}
-
-HalfRounding Renderer::half_rounding() {
-  Impl& r = *impl_;
-  if (r.half_rounding) return *r.half_rounding;
-  r.context->make_current();
-  // Of both signs and from 2^-14 on, where half floats have all their 11 bits, to above 1. The last rows lie halfway.
-  constexpr int width = 1024, rows = 4;
-  constexpr uint32_t lost_bits = 0x1fff;  // of a float of 32 bits
-  std::vector<float> floats;
-  for (uint32_t row = 0; row < rows; ++row)
-    for (uint32_t n = 0; n < width; ++n) {
-      const uint32_t bits = 0x38800000 + n * 0x1f083;
-      const uint32_t low = row < 2 ? bits : (bits & ~lost_bits) | (lost_bits + 1) / 2;
-      floats.push_back(std::bit_cast<float>(low | (row % 2) << 31));
-    }
-  const Texture given = make_texture(GL_R32F, width, rows);
-  glTextureSubImage2D(given.id(), 0, 0, 0, width, rows, GL_RED, GL_FLOAT, floats.data());
-  const Target made{make_texture(GL_R16F, width, rows), GL_R16F, width, rows};
-  r.draw_into({made.texture.id()}, 0, width, rows);
-  glBindTextureUnit(2, given.id());
-  r.draw_screen(r.programs.get({"shaders/screen.vert", "shaders/prefilter/copy.frag"}));
-  r.detach(1);
-  glBindTextureUnit(2, 0);
-  const Image<float> stored = read_back<float>(made, GL_RED, GL_FLOAT);
-  r.context->check("half_rounding");
-  bool nearest = true, down = true;
-  for (size_t i = 0; i < floats.size(); ++i) {
-    const uint32_t bits = std::bit_cast<uint32_t>(floats[i]);
-    const float inner = std::bit_cast<float>(bits & ~lost_bits), outer = std::bit_cast<float>((bits | lost_bits) + 1);
-    if (stored[i] != inner && stored[i] != outer)
-      throw Error(ErrorKind::device, fmt::format("the OpenGL driver stores {} as {} in a texture of half floats; "
-                                                 "map.moments = 16f cannot be used",
-                                                 floats[i], stored[i]));
-    const float other = stored[i] == inner ? outer : inner;
-    nearest &= std::abs(stored[i] - floats[i]) <= std::abs(other - floats[i]);
-    down &= stored[i] == inner;
-  }
-  return *(r.half_rounding = nearest ? HalfRounding::to_nearest
-                             : down  ? HalfRounding::toward_zero
-                                     : HalfRounding::other);
 }
 
 MomentEvidence Renderer::read_moments(const ShadowMap& map, std::span<const Technique> techniques,

@@ -62,8 +62,6 @@ Workbench::~Workbench() = default;
 
 const gl::DeviceInfo& Workbench::device() const { return impl_->renderer.info(); }
 
-gl::HalfRounding Workbench::half_rounding() { return impl_->renderer.half_rounding(); }
-
 const Scene& Workbench::scene(const SceneSettings& settings) { return *impl_->load(of_scene(settings)).scene; }
 
 const std::string& Workbench::scene_identity(const SceneSettings& settings) {

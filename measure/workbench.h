@@ -127,7 +127,6 @@ class Workbench {
   AvailableMemory memory_of_program(bool pictures) const;
 
   const gl::DeviceInfo& device() const;
-  gl::HalfRounding half_rounding();  // as gl::Renderer's
   // The scene that the settings name. It is loaded if it is not the present one.
   const Scene& scene(const SceneSettings& settings);
   // scene_digest of that scene as it was loaded.

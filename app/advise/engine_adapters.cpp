@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "base/child_process.h"
 #include "base/error.h"
@@ -40,12 +41,9 @@ bool has_file(const fs::path& path) {
   return fs::is_regular_file(path, none);
 }
 
-std::string adapters_beside_program() {
-  for (fs::path above = fs::path(own_program()).parent_path();; above = above.parent_path()) {
-    for (const char* folder : {"share/noonmark/engines", "examples/engines"})
-      if (has_file(above / folder / "shoot.mjs")) return (above / folder).string();
-    if (above == above.parent_path()) return {};
-  }
+// In the build and where it is installed (app/CMakeLists.txt).
+std::string adapters_of_program() {
+  return (fs::path(own_program()).parent_path() / NOONMARK_ADAPTERS).lexically_normal().string();
 }
 
 // The last line that says something.
@@ -54,6 +52,15 @@ std::string last_line(const std::string& text) {
   if (end == text.npos) return "it printed nothing";
   const size_t start = text.rfind('\n', end);
   return text.substr(start == text.npos ? 0 : start + 1, end - (start == text.npos ? 0 : start + 1) + 1);
+}
+
+std::vector<std::string> notes_in(const std::string& text) {
+  constexpr std::string_view mark = "note: ";
+  std::vector<std::string> notes;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(mark)) notes.push_back(line.substr(mark.size()));
+  return notes;
 }
 
 }  // namespace
@@ -82,10 +89,9 @@ const EngineAdapter& engine_adapter(const std::string& name) {
 AdapterTools find_adapters(const std::vector<std::string>& names, const std::string& folder) {
   std::vector<std::string> missing;
   AdapterTools tools;
-  tools.folder = folder.empty() ? adapters_beside_program() : folder;
-  if (tools.folder.empty() || !has_file(fs::path(tools.folder) / "shoot.mjs"))
-    missing.push_back(folder.empty() ? "the adapters' folder examples/engines (give it with --adapters)"
-                                     : fmt::format("shoot.mjs in {}", folder));
+  tools.folder = folder.empty() ? adapters_of_program() : folder;
+  if (!has_file(fs::path(tools.folder) / "shoot.mjs"))
+    missing.push_back(fmt::format("shoot.mjs in {} (--adapters names another folder)", tools.folder));
   tools.node = find_program("node").value_or("");
   if (tools.node.empty()) missing.push_back("node (Debian's package nodejs)");
   const std::string chromium = environment("CHROMIUM").empty() ? "chromium" : environment("CHROMIUM");
@@ -108,16 +114,17 @@ AdapterTools find_adapters(const std::vector<std::string>& names, const std::str
   return tools;
 }
 
-void shoot(const AdapterTools& tools, const EngineAdapter& adapter, const std::string& model, const std::string& out,
-           const std::vector<std::string>& settings) {
+std::vector<std::string> shoot(const AdapterTools& tools, const EngineAdapter& adapter, const std::string& model,
+                               const std::string& out, const std::vector<std::string>& settings) {
   make_folder(out);
   const std::string log = out + "/shoot.log";
   std::vector<std::string> command = {tools.node, tools.folder + "/shoot.mjs", std::string(adapter.page), model, out};
   command.insert(command.end(), settings.begin(), settings.end());
   const int code = run_program(command, log);
-  if (code == 0 && has_file(out + "/frame.json")) return;
+  const std::string said = read_file(log, most_log_bytes);
+  if (code == 0 && has_file(out + "/frame.json")) return notes_in(said);
   throw Error(ErrorKind::device, fmt::format("{} gave no frame (code {}): {}; the whole text is in {}", adapter.engine,
-                                             code, last_line(read_file(log, most_log_bytes)), log));
+                                             code, last_line(said), log));
 }
 
 }  // namespace noonmark

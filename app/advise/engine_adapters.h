@@ -31,14 +31,14 @@ struct AdapterTools {
   std::string node;     // the program
 };
 
-// folder: the adapters' own; empty: share/noonmark/engines or examples/engines in one of the folders above the program, which are
-// where they are installed and where the source has them. Throws Error(usage) that names everything that is missing and how to get
-// it, before anything is measured.
+// folder: the adapters' own; empty: those that were installed or built with this program. Throws Error(usage) that names everything
+// that is missing and how to get it, before anything is measured.
 AdapterTools find_adapters(const std::vector<std::string>& names, const std::string& folder);
 
-// Makes OUT/frame.json and its pictures. settings: "name=value" of the page. Throws Error(device) with what the adapter
-// said, which is in OUT/shoot.log.
-void shoot(const AdapterTools& tools, const EngineAdapter& adapter, const std::string& model, const std::string& out,
-           const std::vector<std::string>& settings);
+// Makes OUT/frame.json and its pictures. settings: "name=value" of the page. Returns the adapter's notes, sentences for people.
+// Throws Error(device) with what the adapter said, which is in OUT/shoot.log. No process of the adapter outlives the call, or the
+// end of this program (base/child_process.h).
+std::vector<std::string> shoot(const AdapterTools& tools, const EngineAdapter& adapter, const std::string& model,
+                               const std::string& out, const std::vector<std::string>& settings);
 
 }  // namespace noonmark

@@ -27,6 +27,7 @@ void take_three(Settings& settings, const SpreadChoice& blur) {
   settings.lookup = LookupSettings("three_vsm", {{"v_min", 1e-7}, {"reduction", 0.3}, {"reduction_span", 0.65}});
   settings.lookup["radius"] = blur.radius;
   settings.lookup["samples"] = blur.samples;
+  settings.map.moments = MomentFormat::f16;
 }
 
 std::string spread_text(double radius, int samples) {
@@ -119,7 +120,8 @@ std::string engine_form_text(std::string_view lookup) {
            "with 5, 3 with 7, 4 with "
            "9; and one sample), and normalBias (0, or the blur's deviation). Its reduction of 0.3 over a span of 0.65 "
            "and its "
-           "least variance of 1e-7 are fixed. It is measured with floats of 32 bits (map.moments = 32f).";
+           "least variance of 1e-7 are fixed. It is measured with half floats (map.moments = 16f), which three.js "
+           "stores.";
   return fmt::format(
       "{} is Babylon.js's use{}ExponentialShadowMap. Searched are the size of the map, depthScale (50 and 87), the "
       "blur (none, boxes "

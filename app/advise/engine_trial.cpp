@@ -107,7 +107,7 @@ class Trial {
     for (size_t i = 0; i < plan_.views.size(); ++i) {
       say(fmt::format("{} draws view {} of {}", advice.engine, i + 1, plan_.views.size()));
       try {
-        trial.views.push_back(view(adapter, advice, i, fmt::format("{}/view{}", folder, i + 1), folder + "/lines.txt"));
+        trial.views.push_back(view(adapter, advice, i, fmt::format("{}/view{}", folder, i + 1), trial.notes));
       } catch (const Error& error) {
         if (error.kind() != ErrorKind::device) throw;
         trial.no_frame = error.what();
@@ -119,16 +119,18 @@ class Trial {
 
  private:
   TrialView view(const EngineAdapter& adapter, const EngineAdvice& advice, size_t number, const std::string& folder,
-                 const std::string& lines) {
+                 std::set<std::string>& notes) {
     const Settings condition = small_picture(plan_.views[number], trial_width_px);
     const Scene& scene = bench_.scene(condition.scene);
     const Camera camera = effective_camera(scene, condition.view);
     TrialView view;
     view.name = view_name(effective_camera(scene, plan_.views.front().view), camera, number);
-    shoot(plan_.tools, adapter, model_, folder,
-          {fmt::format("width={}", condition.view.width_px), fmt::format("height={}", condition.view.height_px),
-           "eye=" + exact(camera.eye_m), "target=" + exact(camera.target_m), "up=" + exact(camera.up),
-           fmt::format("fov_y_deg={}", camera.fov_y_deg), "lines=" + lines});
+    const std::vector<std::string> said = shoot(
+        plan_.tools, adapter, model_, folder,
+        {fmt::format("width={}", condition.view.width_px), fmt::format("height={}", condition.view.height_px),
+         "eye=" + exact(camera.eye_m), "target=" + exact(camera.target_m), "up=" + exact(camera.up),
+         fmt::format("fov_y_deg={}", camera.fov_y_deg), fmt::format("lines={}/{}/lines.txt", folder_, adapter.name)});
+    notes.insert(said.begin(), said.end());
     judge_view(view, folder + "/frame.json", condition, advice);
     const auto require = [&](const char* what, double found, double most) {
       if (!(found <= most))

@@ -43,6 +43,7 @@ std::vector<std::string> trial_text(const EngineAdvice& engine) {
   std::vector<std::string> lines;
   if (!trial.views.empty()) lines = trial_table(engine);
   if (!trial.no_frame.empty()) lines.push_back(fmt::format("{}: {}.", engine.engine, trial.no_frame));
+  for (const std::string& note : trial.notes) lines.push_back("note: " + note);
   for (const TrialView& view : trial.views) {
     if (!view.refused.empty())
       lines.push_back(

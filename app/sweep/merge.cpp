@@ -181,9 +181,8 @@ RunInfo joined_info(const std::vector<Source>& sources, const std::string& out) 
   for (const Source& source : sources) {
     const RunInfo& other = source.info;
     info.started = std::min(info.started, other.started);
-    for (const auto member :
-         {&RunInfo::host_cpu, &RunInfo::gl_vendor, &RunInfo::gl_renderer, &RunInfo::gl_version, &RunInfo::gl_timer,
-          &RunInfo::gl_half_floats, &RunInfo::embree_version, &RunInfo::embree_isa})
+    for (const auto member : {&RunInfo::host_cpu, &RunInfo::gl_vendor, &RunInfo::gl_renderer, &RunInfo::gl_version,
+                              &RunInfo::gl_timer, &RunInfo::embree_version, &RunInfo::embree_isa})
       if (info.*member != other.*member) info.*member = "several";
     for (const auto& [name, version] : other.libraries)
       if (std::string& here = info.libraries[name]; here != version) here = here.empty() ? version : "several";

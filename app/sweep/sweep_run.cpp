@@ -140,12 +140,6 @@ RunInfo SweepRun::info() {
   info.triangles = scene.triangles.size();
   info.scene_notes = survey_.scenes.notes();
   info.sweep_notes = survey_.idle.dead_sweeps();
-  const auto stores_half_floats = [&](int64_t id) {
-    const Settings& settings = point_at(id);
-    return settings.map.moments == MomentFormat::f16 && reads_moments(settings);
-  };
-  if (std::any_of(wanted_.begin(), wanted_.end(), stores_half_floats))
-    info.gl_half_floats = gl::text_of(bench_.half_rounding());
   info.engines = experiment_engines(bench_, experiment_, planned_);
   return info;
 }

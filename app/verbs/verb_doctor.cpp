@@ -53,12 +53,7 @@ int examine_machine() {
     fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
     fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform,
                device.software ? "software" : "hardware", device.max_map_resolution);
-    const gl::HalfRounding half = renderer.half_rounding();
-    fmt::print("          times by {}; half floats are rounded {}\n", gl::text_of(device.times), gl::text_of(half));
-    if (half != gl::HalfRounding::to_nearest)
-      fmt::print(
-          "          (map.moments = 16f: each stored number errs by up to a step of 16f, twice what a device errs that "
-          "rounds to nearest)\n");
+    fmt::print("          times by {}\n", gl::text_of(device.times));
   } catch (const Error& error) {
     fmt::print("OpenGL    NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;

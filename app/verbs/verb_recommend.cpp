@@ -403,17 +403,14 @@ int recommend(const RecommendOptions& options) {
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
   std::vector<EngineAdvice> engines;
   if (advice.answer() && no_lines.empty()) engines = measured_engines(bench, advice.answer()->tried, request, say);
-  if (advice.answer() && plan) {
-    for (Settings& view : plan->views) request.places[advice.answer()->tried.place].apply(view);
-    try_engines(bench, *plan, engines, {request.curve, request.error, request.accuracy}, out, say);
-  }
   progress.end_line();
-  write_file_atomically(out + "/recommended.json", advice_json(advice, engines));
-  if (arguments.json)
-    fmt::print("{}", advice_json(advice, engines));
-  else
+  const auto write_with_engines = [&] {
+    write_file_atomically(out + "/recommended.json", advice_json(advice, engines));
+    if (advice.answer() && no_lines.empty()) write_file_atomically(out + "/engines.txt", advice_engines(engines));
+  };
+  write_with_engines();
+  if (!arguments.json)
     for (const std::string& line : advice_text(advice)) fmt::print("{}\n", printable(line));
-  if (!advice.answer()) return 1;
   for (const Answer& answer : advice.answers) {
     const std::string stem =
         &answer == advice.answer() ? "recommended" : "recommended-" + answer_name(answer.kinds.front());
@@ -421,11 +418,20 @@ int recommend(const RecommendOptions& options) {
     // Pictures show no metric, so none that costs a pass is computed.
     write_pictures(bench.measure(answer.tried.settings, std::nullopt, MetricSet::searched), out, ".", stem);
   }
-  if (no_lines.empty()) write_file_atomically(out + "/engines.txt", advice_engines(engines));
-  write_file_atomically(out + "/recommended.txt", whole_text(advice));
+  if (advice.answer()) write_file_atomically(out + "/recommended.txt", whole_text(advice));
   if (advice.around)
     write_file_atomically(out + "/recommended.html",
                           to_tornado_page(*advice.around, std::string(build_facts().version)));
+  // The whole answer is written, so that it stays whatever happens in an engine.
+  if (advice.answer() && plan) {
+    std::fflush(stdout);
+    for (Settings& view : plan->views) request.places[advice.answer()->tried.place].apply(view);
+    try_engines(bench, *plan, engines, {request.curve, request.error, request.accuracy}, out, say);
+    progress.end_line();
+    write_with_engines();
+  }
+  if (arguments.json) fmt::print("{}", advice_json(advice, engines));
+  if (!advice.answer()) return 1;
   if (!arguments.json) print_advice(advice, engines, shown_engines(options, plan, engines), no_lines, bench, out);
   require_frames(engines);
   return broken_in_engine(engines) ? 1 : 0;

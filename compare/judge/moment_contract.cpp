@@ -13,7 +13,8 @@ namespace {
 
 constexpr float largest_half = 65504;
 
-// How far a number that a texture of this format holds may be from the number that was written.
+// How far a number that a texture of this format holds may be from the number that was computed. Half floats are the nearest
+// ones (gl/shaders/prefilter/format.glsl).
 double step_of(MomentFormat format, double value) {
   switch (format) {
     case MomentFormat::f32:
@@ -21,7 +22,7 @@ double step_of(MomentFormat format, double value) {
     case MomentFormat::f16: {
       int exponent = 0;
       std::frexp(value, &exponent);  // |value| in [2^(exponent - 1), 2^exponent)
-      return std::ldexp(1.0, std::max(exponent - 1, -14) - 10);
+      return std::ldexp(0.5, std::max(exponent - 1, -14) - 10);
     }
     case MomentFormat::u16:
       return 1.0 / 65535;

@@ -348,7 +348,6 @@ Markup made_terms(const Results& results, bool timed) {
            {"Scene", listed({info.scene_name, info.triangles > 0 ? triangles : ""})},
            {"Processor", info.host_cpu},
            {"OpenGL", listed({info.gl_renderer, info.gl_vendor, info.gl_version})},
-           {"Half floats", info.gl_half_floats.empty() ? "" : "rounded " + info.gl_half_floats + " by the device"},
            {"Times from", timed ? info.gl_timer : "not measured; set times = true in the experiment"},
            {"Embree", listed({info.embree_version, info.embree_isa})},
            {"Libraries", libraries}})

@@ -241,7 +241,6 @@ struct RunInfo {
   std::string started;          // ISO 8601, UTC
   std::string host_cpu;
   std::string gl_vendor, gl_renderer, gl_version, gl_timer;  // gl_timer: "CPU time of the process"
-  std::string gl_half_floats;  // how the device rounds half floats: "to nearest"; empty: no point stores any
   std::string embree_version, embree_isa;
   std::map<std::string, std::string> libraries;  // name -> version
   std::vector<std::string> swept;                // names of the swept settings, outermost first

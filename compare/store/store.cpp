@@ -43,7 +43,6 @@ constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
     {"gl_renderer", &RunInfo::gl_renderer},
     {"gl_version", &RunInfo::gl_version},
     {"gl_timer", &RunInfo::gl_timer},
-    {"gl_half_floats", &RunInfo::gl_half_floats},
     {"embree_version", &RunInfo::embree_version},
     {"embree_isa", &RunInfo::embree_isa},
     {"scene_name", &RunInfo::scene_name},

@@ -11,7 +11,7 @@ export function refuse(message) {
 // The direction of a light to be made, or null: then the file's first directional light, `found`, is the light.
 export function direction_beside(found) {
   if (settings.light === "file" && settings.direction) refuse("light=file and direction are given, and a frame has one light. Leave one of them out.");
-  if (settings.light === "file" && !found) refuse(`light=file: ${model.slice("/model/".length)} has no directional light (KHR_lights_punctual). Give direction=x,y,z in place of it.`);
+  if (settings.light === "file" && !found) refuse(`light=file: ${decodeURIComponent(model.slice("/model/".length))} has no directional light (KHR_lights_punctual). Give direction=x,y,z in place of it.`);
   return settings.direction ?? (found ? null : [-0.4, -0.8, -0.3]);
 }
 

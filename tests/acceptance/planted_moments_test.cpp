@@ -30,6 +30,12 @@ std::vector<Planted> defects() {
                  {.shaders = patched(vsm_file, "square = depth * depth", "square = depth * (depth * real(0.99))")},
                  {{"contract_store", 0, 0.9}},
                  all_but("contract_store")});
+  all.push_back({"MomentsOfHalfFloatsRoundedTowardsZero",
+                 with_moments({{"map.moments", "16f"}}),
+                 {.shaders = patched("shaders/prefilter/format.glsl",
+                                     "(bits + 0xfffu + ((bits >> 13) & 1u)) & ~0x1fffu", "bits & ~0x1fffu")},
+                 {{"contract_store", 0, 0.3}, {"contract_blur", 0, 0.3}},
+                 {"contract_fetch", "contract_lit"}});
   all.push_back({"MomentsInAnotherOrder",
                  with_moments({{"lookup.kind", "msm"}}),
                  {.shaders = patched("technique/lookups/shared/power_moments.glsl", "vec4(z, square, cube, fourth)",

@@ -1,8 +1,16 @@
 #include "base/child_process.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <thread>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -19,6 +27,56 @@ TEST(ChildProcess, GivesItsCodeAndBothStreams) {
   EXPECT_EQ(read_file(log), "out\nerr\n");
   EXPECT_EQ(run_program({"/bin/sh", "-c", "kill -TERM $$"}, log), -15);
   EXPECT_EQ(read_file(log), "") << "the log is begun anew";
+}
+
+// Whether a process runs: neither gone nor a zombie that nobody waits for.
+bool runs(const std::string& pid) {
+  std::ifstream stat("/proc/" + pid + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(stat), {}};
+  const size_t name_end = text.rfind(')');
+  return name_end != text.npos && text[name_end + 2] != 'Z' && text[name_end + 2] != 'X';
+}
+
+// A signal is delivered a little later than it is sent. What never comes fails here.
+void wait_until(const std::function<bool()>& true_now) {
+  for (int i = 0; i < 3000 && !true_now(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ASSERT_TRUE(true_now());
+}
+
+// A program that starts another one, writes both numbers into a file, and does what `then` says. Neither ends by SIGTERM.
+std::vector<std::string> with_a_child(const std::string& file, const std::string& then) {
+  return {"/bin/sh", "-c",
+          "trap '' TERM; sleep 1000 & echo $! $$ > " + file + ".new && mv " + file + ".new " + file + "; " + then};
+}
+
+void wait_until_both_ended(const std::string& file) {
+  wait_until([&] { return std::filesystem::exists(file); });
+  std::istringstream numbers(read_file(file));
+  for (std::string pid; numbers >> pid;) wait_until([&] { return !runs(pid); });
+}
+
+TEST(ChildProcess, WhatTheProgramStartedEndsWithIt) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_program(with_a_child(folder.file("both"), "exit 3"), folder.file("log")), 3);
+  wait_until_both_ended(folder.file("both"));
+}
+
+TEST(ChildProcess, TheWholeGroupEndsWhenThisProcessDoes) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGKILL}) {
+    const TemporaryFolder folder;
+    const pid_t caller = fork();
+    if (caller == 0) {
+      std::signal(signal, SIG_DFL);
+      run_program(with_a_child(folder.file("both"), "wait"), folder.file("log"));
+      _exit(0);
+    }
+    wait_until([&] { return std::filesystem::exists(folder.file("both")); });
+    kill(caller, signal);
+    int status = 0;
+    waitpid(caller, &status, 0);
+    EXPECT_EQ(WTERMSIG(status), signal) << "the caller ends at once";
+    wait_until_both_ended(folder.file("both"));
+  }
 }
 
 TEST(ChildProcess, WhatCannotBeStartedIsAnError) {

@@ -24,35 +24,6 @@ TEST_F(GlTest, InfoNamesAUsableDevice) {
       << "the timer queries of a software renderer are wrong";
 }
 
-// Shaders stand for drivers: each rounds a number in its own way before it stores it.
-TEST(GlHalfFloats, RoundingIsToldFromWhatIsStored) {
-  const auto rounding = [](const std::string& bits) {
-    const std::string text = R"(#version 450 core
-layout(binding = 2) uniform sampler2D floats;
-layout(location = 0) out float written;
-void main() {
-  uint b = floatBitsToUint(texelFetch(floats, ivec2(gl_FragCoord.xy), 0).r);
-  written = uintBitsToFloat()" + bits + ");\n}\n";
-    Renderer renderer(DebugMode::fatal, {{"shaders/prefilter/copy.frag", text}});
-    const HalfRounding found = renderer.half_rounding();
-    EXPECT_EQ(renderer.half_rounding(), found);
-    return found;
-  };
-  const std::string down = "b & ~0x1fffu", even = "(b + 0xfffu + ((b >> 13) & 1u)) & ~0x1fffu",
-                    away = "(b + 0x1000u) & ~0x1fffu", up = "(b + 0x1fffu) & ~0x1fffu";
-  EXPECT_EQ(rounding(down), HalfRounding::toward_zero);
-  EXPECT_EQ(rounding(even), HalfRounding::to_nearest);
-  EXPECT_EQ(rounding(away), HalfRounding::to_nearest);
-  EXPECT_EQ(rounding(up), HalfRounding::other);
-  EXPECT_THROW(rounding("(b + 0x4000u) & ~0x1fffu"), Error);
-}
-
-// Measured with Mesa 22.3.6.
-TEST_F(GlTest, LlvmpipeTruncatesHalfFloats) {
-  if (renderer.info().renderer.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "another device";
-  EXPECT_EQ(renderer.half_rounding(), HalfRounding::toward_zero);
-}
-
 // Two renderers at once, and one after the other. EGL gives every context of a device the same display.
 TEST(GlLife, RenderersComeAndGo) {
   Scene scene;

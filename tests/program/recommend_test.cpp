@@ -308,7 +308,7 @@ TEST_F(Recommend, ThreesOwnMapIsSearchedOverItsFields) {
       << output_;
   EXPECT_TRUE(says("VSMShadowMap of three.js with ")) << output_;
   EXPECT_TRUE(says("renderer.shadowMap.type = THREE.VSMShadowMap;")) << output_;
-  EXPECT_TRUE(says("measured with map.moments = 32f")) << output_;
+  EXPECT_TRUE(says("measured with map.moments = 16f")) << output_;
   const json advice = found(), answer = advice["answer"];
   EXPECT_EQ(answer["settings"]["lookup.reduction"], "0.3");
   EXPECT_FALSE(answer.contains("reduction"));
@@ -342,7 +342,7 @@ TEST_F(Recommend, ASweepHasTheLinesOfItsAnswer) {
   EXPECT_NE(page.find("light.shadow.radius = 1;"), std::string::npos);
   EXPECT_NE(
       page.find(
-          "measured with map.moments = 32f, in plate, 160 x 90 pixels; the point itself, with map.moments = 16f, has "),
+          "measured with map.moments = 16f, in plate, 160 x 90 pixels; the point itself, with map.moments = 16f, has "),
       std::string::npos);
 }
 

@@ -23,10 +23,9 @@ SHOT = VIEW + [f"resolution={RESOLUTION}", f"extent={EXTENT}", f"depth={NEAR},{F
 
 
 def three(bias, *, radius, samples, lookup=()):
-    """In 32-bit floats: Chromium rounds the halves of three.js's map to the nearest, Mesa's llvmpipe towards 0, which is acne."""
     return (["three/page.html", "type=VSMShadowMap", "shadow_side=both", f"radius={radius}", f"blurSamples={samples}", f"bias={-bias}"],
             [[f"map.extent_m={EXTENT}", "lookup.kind=three_vsm", "filter.kind=none", f"lookup.radius={radius}",
-              f"lookup.samples={samples}", "lookup.reduction=0.3", "lookup.reduction_span=0.65", f"bias.constant={bias}", *lookup]])
+              f"lookup.samples={samples}", "lookup.reduction=0.3", "lookup.reduction_span=0.65", "map.moments=16f", f"bias.constant={bias}", *lookup]])
 
 
 def babylon(engine_filter, kind, bias, shot, *blurs):
@@ -77,14 +76,22 @@ def light_through_the_middle(path):
 cases = able(CASES)
 model = folder / "cube-room.glb"
 found(run(program, "export", "cube-room", "--out", model), "export")
-PREDICTED = ["scene.name=cube-room", f"view.eye_m={words(EYE)}", f"view.target_m={words(TARGET)}", "view.fov_deg=45", f"map.resolution={RESOLUTION}",
-             f"map.near_m={NEAR}", f"map.far_m={FAR}", *light_through_the_middle(model)]
+AT = ["scene.name=cube-room", f"view.eye_m={words(EYE)}", f"view.target_m={words(TARGET)}", "view.fov_deg=45", f"map.resolution={RESOLUTION}",
+      *light_through_the_middle(model)]
+PREDICTED = AT + [f"map.near_m={NEAR}", f"map.far_m={FAR}"]
 for i, (name, (page, *shot), predictions) in enumerate(cases):
     compare(name, folder / str(i), page, model, SHOT + shot, [PREDICTED + settings for settings in predictions], POINTS)
+# A map of 33 m whose surfaces lie in its farther half, where a step of half floats is 8 mm: all but a fifth of the error is theirs.
+if not missing("three/page.html"):
+    page, *shot = three(0, radius=2, samples=5)[0]
+    compare("three.js `VSMShadowMap`, `radius=2 blurSamples=5`, `depth=-20,13`", folder / "deep", page, model,
+            VIEW + [f"resolution={RESOLUTION}", f"extent={EXTENT}", "depth=-20,13", *shot],
+            [AT + ["map.near_m=-20", "map.far_m=13", *settings] for settings in three(0, radius=2, samples=5)[1]], POINTS)
 
 # What a report prints for one point, typed in: blur, exponent and bias are none of the defaults of the engines.
 TYPED = [("three.js, the lines of a report, `radius=2.5 blurSamples=6`", "three/page.html",
-          ["lookup.kind=three_vsm", "lookup.radius=2.5", "lookup.samples=6", "lookup.reduction=0.3", "lookup.reduction_span=0.65", "bias.constant=0.001"]),
+          ["lookup.kind=three_vsm", "lookup.radius=2.5", "lookup.samples=6", "lookup.reduction=0.3", "lookup.reduction_span=0.65", "map.moments=16f",
+           "bias.constant=0.001"]),
          ("Babylon.js, the lines of a report, close, `depthScale=80`, box of 5", "babylon/page.html",
           ["lookup.kind=babylon_close_esm", "lookup.exponent=80", "bias.constant=0.0007", *box(5)]),
          ("Babylon.js, the lines of a report, close, `depthScale=80`, Gaussian of 5", "babylon/page.html",

@@ -168,7 +168,6 @@ inline RunInfo sample_info() {
   info.gl_renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
   info.gl_version = "4.5";
   info.gl_timer = "CPU time of the process";
-  info.gl_half_floats = "to nearest";
   info.embree_version = "3.13.5";
   info.embree_isa = "AVX2";
   info.libraries = {{"glm", "0.9.9.8"}, {"sqlite", "3.40.1"}};

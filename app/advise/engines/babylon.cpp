@@ -241,38 +241,51 @@ std::vector<std::string> limits(const AdvicePlace& place) {
   return said;
 }
 
+// Read in the npm package @babylonjs/core 9.35.0, which has the text, but other lines than the repository.
+std::vector<EngineSource> sources() {
+  const std::string repository = "BabylonJS/Babylon.js", commit = "9.35.0";
+  return {
+      {repository, commit, "packages/dev/core/src/Shaders/ShadersInclude/shadowMapVertexMetric.fx", 0,
+       "gl_Position.z+=biasAndScaleSM.x*gl_Position.w*BIASFACTOR;"},
+      {repository, commit, "packages/dev/core/src/Shaders/ShadersInclude/shadowMapVertexNormalBias.fx", 0,
+       "worldPos.xyz-=vNormalW*normalBiasSM;"},
+      {repository, commit, "packages/dev/core/src/Shaders/ShadersInclude/shadowMapFragment.fx", 0,
+       "depthSM=clamp(exp(-min(87.,biasAndScaleSM.z*depthSM)),0.,1.);"},
+      {repository, commit, "packages/dev/core/src/Lights/Shadows/cascadedShadowGenerator.pure.ts", 0,
+       "sphereRadius = Math.ceil(sphereRadius * 16) / 16;"},
+  };
+}
+
 }  // namespace
 }  // namespace babylon_engine
 
 Engine babylon_js() {
   using namespace babylon_engine;
-  return {
-      "Babylon.js",
-      "9.35",
-      "@babylonjs/core Shaders/ShadersInclude/shadowMapVertexMetric, shadowMapVertexNormalBias and shadowMapFragment",
-      "//",
-      knobs,
-      filter,
-      map_lines,
-      limits,
-      {"map.cull", "map.fov_deg"},
-      nullptr,
-      {},
-      [](Settings& settings, const AdvicePlace& place) { settings.map.cull = drawn_cull(place); },
-      {},
-      EngineCascades{
-          .counts = {2, 3, 4},
-          .fit = "the sphere about the mean of its slice's corners, with a radius of whole sixteenths of a metre",
-          .lay = lay_cascades,
-          .lines = cascade_lines,
-          .limits = cascade_limits,
-          .source = "@babylonjs/core Lights/Shadows/cascadedShadowGenerator and Shaders/ShadersInclude/lightFragment",
-          .blend_of = CascadeBlendOf::slice,
-          .bias_of_depth = true},
-      {},
-      nullptr,
-      moments,
-      "Its exponential shadow maps are lookup.kind = babylon_esm and babylon_close_esm."};
+  return {"Babylon.js",
+          "9.35",
+          sources(),
+          "//",
+          knobs,
+          filter,
+          map_lines,
+          limits,
+          {"map.cull", "map.fov_deg"},
+          nullptr,
+          {},
+          [](Settings& settings, const AdvicePlace& place) { settings.map.cull = drawn_cull(place); },
+          {},
+          EngineCascades{
+              .counts = {2, 3, 4},
+              .fit = "the sphere about the mean of its slice's corners, with a radius of whole sixteenths of a metre",
+              .lay = lay_cascades,
+              .lines = cascade_lines,
+              .limits = cascade_limits,
+              .blend_of = CascadeBlendOf::slice,
+              .bias_of_depth = true},
+          {},
+          nullptr,
+          moments,
+          "Its exponential shadow maps are lookup.kind = babylon_esm and babylon_close_esm."};
 }
 
 }  // namespace noonmark

@@ -115,6 +115,22 @@ std::vector<std::string> cascade_limits(const AdvisedCascades&) {
           "Receivers beyond maximum_distance are lit; Noonmark looks them up in the last map."};
 }
 
+std::vector<EngineSource> sources() {
+  const std::string repository = "bevyengine/bevy", commit = "4805ca792c3e94eef07afd6fa9a2712f388c9a67";
+  return {
+      {repository, commit, "crates/bevy_pbr/src/render/shadows.wesl", 189,
+       "(*light).shadow_normal_bias * (*cascade).texel_size * surface_normal.xyz;"},
+      {repository, commit, "crates/bevy_pbr/src/render/shadows.wesl", 190,
+       "(*light).shadow_depth_bias * (*light).direction_to_light.xyz;"},
+      {repository, commit, "crates/bevy_pbr/src/render/shadows.wesl", 34,
+       "(*light).shadow_normal_bias * distance_to_light * surface_normal.xyz;"},
+      {repository, commit, "crates/bevy_pbr/src/render/light.rs", 880,
+       "directional_light.shadow_normal_bias * core::f32::consts::SQRT_2,"},
+      {repository, commit, "crates/bevy_light/src/cascade.rs", 286,
+       "body_diagonal.max(far_plane_diagonal).sqrt().ceil();"},
+  };
+}
+
 }  // namespace
 }  // namespace bevy_engine
 
@@ -122,7 +138,7 @@ Engine bevy() {
   using namespace bevy_engine;
   return {"Bevy",
           "0.20-dev (4805ca7)",
-          "bevy crates/bevy_pbr/src/render/shadows.wesl, shadow_sampling.wesl and light.rs",
+          sources(),
           "//",
           knobs,
           filter,
@@ -145,7 +161,6 @@ Engine bevy() {
                              },
                          .lines = cascade_lines,
                          .limits = cascade_limits,
-                         .source = "crates/bevy_light/src/cascade.rs (f43b4a84)",
                          .blend_of = CascadeBlendOf::end},
           {},
           rust};

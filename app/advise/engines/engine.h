@@ -125,7 +125,6 @@ struct EngineCascades {
   void (*lay)(Settings&);
   std::vector<std::string> (*lines)(const AdvisedCascades&);   // in place of map_lines()
   std::vector<std::string> (*limits)(const AdvisedCascades&);  // in place of limits()
-  std::string source;                                          // of all this
   std::optional<CascadeBlendOf> blend_of = {};                 // how it blends, if evenly and by the depth
   std::optional<double> only_blend = {};                       // cascades.blend, if it is fixed in the engine
   std::string other_blending = {};                             // how it blends otherwise, for a sentence
@@ -142,7 +141,8 @@ struct EngineCascades {
 };
 
 struct Engine {
-  std::string name, version, source;
+  std::string name, version;
+  std::vector<EngineSource> sources;
   std::string comment;                          // what begins a comment in the engine's language
   std::vector<EngineKnob> (*knobs)(LightKind);  // none: there are no lines for this kind of light
   EngineFilter (*filter)(const AdvicePlace&);

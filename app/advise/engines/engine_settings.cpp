@@ -26,6 +26,18 @@ std::vector<Engine> engines() {
   return {three_js(), babylon_js(), playcanvas(), godot(), bevy(), filament(), unity_urp()};
 }
 
+// "github.com/OWNER/NAME at COMMIT: FILE:LINE, FILE:LINE; ..."
+std::string text_of(const std::vector<EngineSource>& sources) {
+  std::string text, at;
+  for (const EngineSource& one : sources) {
+    const std::string here = fmt::format("github.com/{} at {}: ", one.repository, one.commit);
+    text += here == at ? ", " : (text.empty() ? "" : "; ") + here;
+    text += one.path + (one.line > 0 ? fmt::format(":{}", one.line) : "");
+    at = here;
+  }
+  return text;
+}
+
 // A place of the map at which depths and texels become metres.
 glm::dvec3 advised_point(const Settings& settings, const LightFrame& frame, const Scene& scene) {
   const glm::dvec3 seen = frame.to_light(settings.view.target_m.value_or(scene.camera.target_m));
@@ -217,8 +229,7 @@ double greatest_of(const std::vector<double>& values) {
 EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& places,
                        const std::vector<std::vector<AdvisedPart>>& parts, const AdvisedCascades* cascades) {
   const AdvicePlace& place = places.front();
-  EngineAdvice advice{engine.name, engine.version, {}, {}, engine.source, engine.comment};
-  if (cascades) advice.source += "; " + engine.cascades->source;
+  EngineAdvice advice{engine.name, engine.version, {}, {}, text_of(engine.sources), engine.comment};
   const std::vector<EngineKnob> knobs = engine.knobs(place.kind());
   std::vector<Typed> typed;
   for (size_t k = 0; k < places.size(); ++k) typed.push_back(typed_amounts(engine, places[k], knobs, parts[k]));
@@ -289,7 +300,7 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
 }
 
 EngineAdvice without_lines(const Engine& engine, std::string why) {
-  EngineAdvice advice{engine.name, engine.version, {}, {std::move(why)}, engine.source, engine.comment};
+  EngineAdvice advice{engine.name, engine.version, {}, {std::move(why)}, text_of(engine.sources), engine.comment};
   advice.why_not_emulated = "there are no lines";
   return advice;
 }
@@ -514,9 +525,15 @@ std::vector<EngineField> engine_fields() {
     for (LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})
       for (const EngineKnob& knob : engine.knobs(kind))
         add({engine.name, engine.version, std::string(kind_of_light(kind).name()), knob.field, knob.unit,
-             place_name(knob.target), engine.source});
+             place_name(knob.target)});
   for (const EngineField& row : opengl_fields()) add(row);
   return rows;
+}
+
+std::vector<std::pair<std::string, std::vector<EngineSource>>> engine_sources() {
+  std::vector<std::pair<std::string, std::vector<EngineSource>>> all;
+  for (Engine& engine : engines()) all.emplace_back(engine.name, std::move(engine.sources));
+  return all;
 }
 
 }  // namespace noonmark

@@ -11,6 +11,7 @@
 #pragma once
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,7 +43,8 @@ struct TrialView {
 struct EngineTrial {
   std::string folder;  // of the frames, from the recommendation's folder
   std::vector<TrialView> views = {};
-  std::string no_frame = {};  // why the adapter gave none
+  std::string no_frame = {};         // why the adapter gave none
+  std::set<std::string> notes = {};  // what the adapter said to the user: sentences
 };
 
 struct EngineAdvice {
@@ -51,7 +53,7 @@ struct EngineAdvice {
   // suffices: then the first sentence of `cannot` says why.
   std::vector<std::string> lines;
   std::vector<std::string> cannot;  // sentences: what the engine cannot express, or expresses otherwise, and what to do
-  std::string source;               // the document or the source file of the engine that defines the units
+  std::string source;               // the document or the source files of the engine that define the units
   std::string comment;              // what begins a comment in the engine's language
   // The settings that do what the engine does with these lines; empty if no settings can. Then why_not_emulated says why.
   std::optional<Settings> emulated = {};
@@ -93,8 +95,20 @@ Settings as_engine(const EngineAdvice& advice, Settings condition);
 // A bias field of an engine, for the table in docs/reference/engines.md.
 struct EngineField {
   std::string engine, version, light;  // light: its kinds, such as "spot, point"
-  std::string field, unit, place, source;
+  std::string field, unit, place;
 };
 std::vector<EngineField> engine_fields();
+
+// A line of an engine's source that its row states. scripts/engine-sources reads them again, from the table in
+// docs/reference/engines.md.
+struct EngineSource {
+  std::string repository;  // of github.com: "mrdoob/three.js"
+  std::string commit;      // or the tag of a release, or a branch
+  std::string path;
+  int line;          // 0: not known
+  std::string text;  // of the line, what tells it from others; white space does not count
+};
+// Each engine of the table with its sources.
+std::vector<std::pair<std::string, std::vector<EngineSource>>> engine_sources();
 
 }  // namespace noonmark

@@ -88,6 +88,14 @@ std::vector<std::string> limits(const AdvicePlace& place) {
   return said;
 }
 
+// Read in a copy of which neither the commit nor the lines are known; older ones have sinTheta * b.
+std::vector<EngineSource> sources() {
+  const std::string repository = "google/filament", commit = "main";
+  return {
+      {repository, commit, "shaders/src/surface_shadowing.glsl", 0, "p += n * dot(abs(n_L), b);"},
+  };
+}
+
 }  // namespace
 }  // namespace filament_engine
 
@@ -96,8 +104,7 @@ Engine filament() {
   return {
       "Filament",
       "since February 2026 (pull request 9734)",
-      "filament include/filament/LightManager.h, src/ShadowMapManager.cpp, src/ShadowMap.cpp and "
-      "shaders/src/surface_shadowing.glsl",
+      sources(),
       "//",
       knobs,
       filter,

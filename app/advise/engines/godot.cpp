@@ -37,8 +37,8 @@ double bias_m(const AdvicePlace& place) {
   switch (place.kind()) {
     case LightKind::directional:
       return 0.01 * place.filter.scale * range_m(place);
-    case LightKind::spot:  // a clip depth times range / distance; on the axis the metres are the same everywhere
-      return 0.01 * place.filter.scale * (far - spot_near_m) / spot_near_m;
+    case LightKind::spot:  // added to the clip depth, so to the window depth divided by the distance along the axis
+      return 0.01 * place.filter.scale / (place.distance_m * place.perspective_slope(spot_near_m, far));
     case LightKind::point:  // subtracted from the distance
       return 1;
   }
@@ -48,7 +48,7 @@ double bias_m(const AdvicePlace& place) {
 std::vector<EngineKnob> knobs(LightKind kind) {
   const std::string bias_unit =
       kind == LightKind::directional ? "1/100 of the cascade's depth range, times blur and quality radius"
-      : kind == LightKind::spot      ? "1/100 of clip depth times range / distance, times blur and "
+      : kind == LightKind::spot      ? "1/100 of clip depth: metres in proportion to the distance, times blur and "
                                        "quality radius"
                                      : "m towards the light";
   std::vector<EngineKnob> all = {{"shadow_bias", "light.shadow_bias = {}", BiasForm::constant,
@@ -134,11 +134,11 @@ std::vector<std::string> limits(const AdvicePlace& place) {
         "The lines are a script. The inspector rounds shadow_bias and shadow_normal_bias to 0.001.",
         "Faces that a material culls are missing in the map too; with Cast Shadow: Double-Sided none are."};
   if (place.kind() == LightKind::spot)
-    return {
-        fmt::format("The near plane of a spot light's map is fixed at {} m, so shadow_bias is {} m of distance for "
-                    "each 1, the same "
-                    "at every distance on the axis; the map's angle is the light's.",
-                    number(spot_near_m), number(bias_m(place)))};
+    return {fmt::format(
+        "The near plane of a spot light's map is fixed at {} m, so shadow_bias = 1 is {} m at {} m from the "
+        "light, and elsewhere in proportion to the distance, as a texel grows: where bias.constant suffices "
+        "over the whole map, these lines do. The map's angle is the light's.",
+        number(spot_near_m), number(bias_m(place)), number(place.distance_m))};
   return {
       "A point light's map is a dual paraboloid or made from a cube map, so its texels are not those of a cube, and "
       "the "
@@ -188,6 +188,21 @@ std::vector<std::string> cascade_limits(const AdvisedCascades& cascades) {
   return said;
 }
 
+// The first two are as pull request 101952 left them (7 February 2025), read in copies of which neither the commit nor the lines are
+// known. The file of the third could be read in parts only.
+std::vector<EngineSource> sources() {
+  const std::string repository = "godotengine/godot";
+  return {
+      {repository, "4.4-stable", "servers/rendering/renderer_rd/shaders/scene_forward_lights_inc.glsl", 0,
+       "splane.z += spot_lights.data[idx].shadow_bias;"},
+      {repository, "4.4-stable", "servers/rendering/renderer_scene_cull.cpp", 0,
+       "real_t z_near = MIN(0.025f, radius);"},
+      {repository, "006f03907bb020eb1a992a2c7a1e01aa93e27db6",
+       "servers/rendering/renderer_rd/storage_rd/light_storage.cpp", 0,
+       "light_data.shadow_bias *= light_data.soft_shadow_scale;"},
+  };
+}
+
 }  // namespace
 }  // namespace godot_engine
 
@@ -195,8 +210,7 @@ Engine godot() {
   using namespace godot_engine;
   return {"Godot",
           "4.4, Forward+",
-          "godot servers/rendering/renderer_rd/storage_rd/light_storage.cpp, servers/rendering/renderer_scene_cull.cpp "
-          "and shaders/scene_forward_lights_inc.glsl",
+          sources(),
           "#",
           knobs,
           filter,
@@ -219,8 +233,6 @@ Engine godot() {
                   },
               .lines = cascade_lines,
               .limits = cascade_limits,
-              .source = "RendererSceneCull::_light_instance_setup_directional_shadow and "
-                        "LightStorage::get_directional_light_shadow_size",
               .other_blending = "but blend_splits, whose width is its own",
               .unlike = [](const AdvisedCascades& cascades) -> std::string {
                 return cascades.count() == 2 ? "the texels of its two maps are oblong, and Noonmark's are square" : "";

@@ -213,7 +213,7 @@ std::vector<EngineField> opengl_fields() {
                                                                           "of the triangle"},
                                       {"glPolygonOffset units", "least depth difference of the format"}})
       rows.push_back({"OpenGL", "3.3 and later", std::string(kind_of_light(kind).name()), field, unit,
-                      place_name(BiasTarget::caster), "OpenGL 4.6, section 14.6.5"});
+                      place_name(BiasTarget::caster)});
   return rows;
 }
 

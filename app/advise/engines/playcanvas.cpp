@@ -69,6 +69,22 @@ std::vector<std::string> limits(const AdvicePlace& place) {
                                                         : "both faces, because no material here has one side")};
 }
 
+// Of 2.22.0-beta.20. The npm package playcanvas 2.23.3 has the same text.
+std::vector<EngineSource> sources() {
+  const std::string repository = "playcanvas/engine", commit = "0aaef5e432c4797ed23c1f966e2cc43232ec0613";
+  return {
+      {repository, commit, "src/framework/components/light/component.js", 512,
+       "this._light.shadowBias = -0.01 * math.clamp(value, 0, 1);"},
+      {repository, commit, "src/scene/light.js", 1064, "const bias = this.shadowBias * -1000.0;"},
+      {repository, commit, "src/scene/light.js", 1066, "this.shadowDepthState.depthBiasSlope = bias;"},
+      {repository, commit, "src/scene/shader-lib/glsl/chunks/lit/frag/lighting/lightFunctionShadow.js", 12,
+       "shadowParams.y * clamp(1.0 - dot(normal, -lightDirNorm), 0.0, 1.0)"},
+      {repository, commit, "src/scene/shader-lib/glsl/chunks/lit/frag/lighting/lightFunctionShadow.js", 42,
+       "positionInShadowSpace.z = saturate(positionInShadowSpace.z) - 0.0001;"},
+      {repository, commit, "src/scene/renderer/shadow-renderer-directional.js", 148, "center.mulScalar(1 / 8);"},
+  };
+}
+
 }  // namespace
 }  // namespace playcanvas_engine
 
@@ -77,8 +93,7 @@ Engine playcanvas() {
   return {
       "PlayCanvas",
       "2.23",
-      "playcanvas src/scene/light.js, src/scene/renderer/shadow-renderer-directional.js and "
-      "src/scene/shader-lib/glsl/chunks/lit/frag/lighting/lightFunctionShadow.js",
+      sources(),
       "//",
       knobs,
       filter,

@@ -63,10 +63,7 @@ std::optional<EngineMoments> moments(const AdvicePlace& place) {
                         1,
                         FilterSettings()},
                        as,
-                       MomentFormat::f32,
-                       {"map.moments: VSMShadowMap stores half floats. The error is measured with floats of 32 bits, "
-                        "which are nearer to what "
-                        "a device shows that rounds to the nearest than half floats of one that rounds towards 0."}};
+                       MomentFormat::f16};
 }
 
 std::string_view side_of(CulledFaces cull) {
@@ -195,6 +192,25 @@ std::vector<std::string> cascade_limits(const AdvisedCascades&) {
       "them: it cannot be set to these."};
 }
 
+// Read in the npm package three 0.187.0, which has these files.
+std::vector<EngineSource> sources() {
+  const std::string repository = "mrdoob/three.js", commit = "r187";
+  return {
+      {repository, commit, "src/renderers/shaders/ShaderChunk/shadowmap_pars_fragment.glsl.js", 162,
+       "shadowCoord.z += shadowBias;"},
+      {repository, commit, "src/renderers/shaders/ShaderChunk/shadowmap_pars_fragment.glsl.js", 248,
+       "p_max = clamp( ( p_max - 0.3 ) / 0.65, 0.0, 1.0 );"},
+      {repository, commit, "src/renderers/shaders/ShaderChunk/shadowmap_vertex.glsl.js", 35,
+       "shadowWorldNormal * directionalLightShadows[ i ].shadowNormalBias"},
+      {repository, commit, "src/renderers/shaders/ShaderLib/vsm.glsl.js", 46,
+       "float std_dev = sqrt( max( 0.0, squared_mean - mean * mean ) );"},
+      {repository, commit, "src/renderers/webgl/WebGLShadowMap.js", 229, "type: HalfFloatType"},
+      {repository, commit, "src/renderers/webgl/WebGLShadowMap.js", 490,
+       "result.side = ( material.shadowSide !== null )"},
+      {repository, commit, "examples/jsm/csm/CSM.js", 264, "let squaredBBWidth = point1.distanceTo( point2 );"},
+  };
+}
+
 }  // namespace
 }  // namespace three_engine
 
@@ -203,7 +219,7 @@ Engine three_js() {
   return {
       "three.js",
       "0.187",
-      "three.js src/renderers/shaders/ShaderChunk/shadowmap_pars_fragment.glsl.js and shadowmap_vertex.glsl.js",
+      sources(),
       "//",
       knobs,
       filter,
@@ -219,7 +235,6 @@ Engine three_js() {
                      .lay = lay_cascades,
                      .lines = cascade_lines,
                      .limits = cascade_limits,
-                     .source = "three/addons/csm CSM.js, CSMFrustum.js and CSMShader.js",
                      .blend_of = CascadeBlendOf::square,
                      .only_blend = 0.25,
                      .other_blending = "but csm.fade, which is cascades.blend_of = square with cascades.blend = 0.25",

@@ -151,6 +151,25 @@ std::vector<std::string> cascade_limits(const AdvisedCascades&) {
       "plane gets other depths by that, also behind the plane."};
 }
 
+// Each file at the commit at which it was read, in parts: the lines are not known.
+std::vector<EngineSource> sources() {
+  const std::string repository = "Unity-Technologies/Graphics";
+  return {
+      {repository, "b850b71a2d0323a9702b331f5e573cfe8a5e68c5",
+       "Packages/com.unity.render-pipelines.universal/Runtime/ShadowUtils.cs", 0,
+       "frustumSize = 2.0f / lightProjectionMatrix.m00;"},
+      {repository, "b850b71a2d0323a9702b331f5e573cfe8a5e68c5",
+       "Packages/com.unity.render-pipelines.universal/Runtime/ShadowUtils.cs", 0,
+       "cmd.SetGlobalDepthBias(1.0f, 2.5f);"},
+      {repository, "7023b7421472871574aca464b30ee8b6dbacf18c",
+       "Packages/com.unity.render-pipelines.universal/ShaderLibrary/Shadows.hlsl", 0,
+       "float invNdotL = 1.0 - saturate(dot(lightDirection, normalWS));"},
+      {repository, "7023b7421472871574aca464b30ee8b6dbacf18c",
+       "Packages/com.unity.render-pipelines.universal/ShaderLibrary/Shadows.hlsl", 0,
+       "weights.yzw = saturate(weights.yzw - weights.xyz);"},
+  };
+}
+
 }  // namespace
 }  // namespace urp_engine
 
@@ -158,8 +177,7 @@ Engine unity_urp() {
   using namespace urp_engine;
   return {"Unity URP",
           "17",
-          "Unity Graphics com.unity.render-pipelines.universal Runtime/ShadowUtils.cs (GetShadowBias, "
-          "RenderShadowSlice), ShaderLibrary/Shadows.hlsl (ApplyShadowBias) and Shaders/ShadowCasterPass.hlsl",
+          sources(),
           "//",
           knobs,
           filter,
@@ -173,21 +191,18 @@ Engine unity_urp() {
             settings.map.pancake = true;
           },
           {},
-          EngineCascades{
-              .counts = {2, 3, 4},
-              .fit = "the least sphere around its slice",
-              .lay =
-                  [](Settings& s) {
-                    s.map.fit = MapFit::sphere;
-                    s.map.pancake = true;
-                    s.map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
-                  },
-              .lines = cascade_lines,
-              .limits = cascade_limits,
-              .source =
-                  "Runtime/ShadowUtils.cs (b850b71a; GetMaxTileResolutionInAtlas), Runtime/UniversalRenderPipeline.cs "
-                  "(mainLightShadowCascadesSplit) and ShaderLibrary/Shadows.hlsl (ComputeCascadeIndex)",
-              .select = "sphere"}};
+          EngineCascades{.counts = {2, 3, 4},
+                         .fit = "the least sphere around its slice",
+                         .lay =
+                             [](Settings& s) {
+                               s.map.fit = MapFit::sphere;
+                               s.map.pancake = true;
+                               s.map.resolution =
+                                   static_cast<int>(std::bit_ceil(static_cast<unsigned>(s.map.resolution)));
+                             },
+                         .lines = cascade_lines,
+                         .limits = cascade_limits,
+                         .select = "sphere"}};
 }
 
 }  // namespace noonmark

@@ -1,6 +1,7 @@
 #version 450 core
 // One pass of a blur of two passes, along one axis of the map. It reads texels and no blend of them, in a fixed order, so
 // that the host can repeat each sum.
+#include "shaders/prefilter/format.glsl"
 #include "shaders/prefilter/texel.glsl"
 layout(location = 0) out vec4 blurred;
 
@@ -16,5 +17,5 @@ void main() {
     precise vec4 next = sum + part;
     sum = next;
   }
-  blurred = sum;
+  blurred = in_format(sum);
 }

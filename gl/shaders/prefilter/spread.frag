@@ -3,6 +3,7 @@
 // blends texels itself, so that the host can repeat each pass.
 #include "shaders/words.glsl"
 #include <lookup>
+#include "shaders/prefilter/format.glsl"
 #include "shaders/prefilter/texel.glsl"
 layout(location = 0) out vec4 blurred;
 
@@ -20,5 +21,5 @@ void main() {
     precise vec4 blended = (1.0 - tap_next[k]) * one + tap_next[k] * other;
     sums = added(sums, blended);
   }
-  blurred = spread(sums, float(taps));
+  blurred = in_format(spread(sums, float(taps)));
 }

@@ -116,10 +116,9 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   Results results = sample_results();
   const std::string plain = render_report(results, sample_picture);
   RunInfo& info = results.info;
-  for (std::string* text :
-       {&info.title, &info.experiment, &info.command, &info.commit, &info.version, &info.started, &info.host_cpu,
-        &info.gl_vendor, &info.gl_renderer, &info.gl_version, &info.gl_timer, &info.gl_half_floats,
-        &info.embree_version, &info.embree_isa, &info.scene_name, &info.engines})
+  for (std::string* text : {&info.title, &info.experiment, &info.command, &info.commit, &info.version, &info.started,
+                            &info.host_cpu, &info.gl_vendor, &info.gl_renderer, &info.gl_version, &info.gl_timer,
+                            &info.embree_version, &info.embree_isa, &info.scene_name, &info.engines})
     *text = evil;
   info.libraries[evil] = evil;
   info.swept.push_back(evil);

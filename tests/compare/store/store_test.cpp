@@ -102,10 +102,10 @@ TEST_F(Store, ReturnsWhatItWasGiven) {
   EXPECT_EQ(bound.reproduce, "noonmark render x.toml --set 'a=b'");
   const RunInfo a = results.info, b = sample_info();
   EXPECT_EQ(std::tie(a.experiment, a.title, a.command, a.commit, a.version, a.started, a.host_cpu, a.gl_vendor,
-                     a.gl_renderer, a.gl_version, a.gl_timer, a.gl_half_floats, a.embree_version, a.embree_isa, a.libraries, a.swept,
+                     a.gl_renderer, a.gl_version, a.gl_timer, a.embree_version, a.embree_isa, a.libraries, a.swept,
                      a.plot, a.scene_name, a.triangles, a.scene_notes, a.sweep_notes),
             std::tie(b.experiment, b.title, b.command, b.commit, b.version, b.started, b.host_cpu, b.gl_vendor,
-                     b.gl_renderer, b.gl_version, b.gl_timer, b.gl_half_floats, b.embree_version, b.embree_isa, b.libraries, b.swept,
+                     b.gl_renderer, b.gl_version, b.gl_timer, b.embree_version, b.embree_isa, b.libraries, b.swept,
                      b.plot, b.scene_name, b.triangles, b.scene_notes, b.sweep_notes));
 }
 
