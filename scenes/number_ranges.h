@@ -30,8 +30,6 @@ inline constexpr NumberRange view_angle_rad{1e-4, 3.1415};
 inline constexpr NumberRange cone_deg{1e-3, 180};
 // The whole angle of a spot light whose cone a shadow map covers.
 inline constexpr NumberRange mapped_cone_deg{1, 170};
-// Of a light of a file, in lux or candela: what it gives at a micrometre's distance is a float still.
-inline constexpr NumberRange intensity{0, 1e20};
 
 }  // namespace ranges
 

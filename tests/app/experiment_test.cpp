@@ -264,6 +264,8 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
       if (row.name == "cascades.count") text = "1";
       // The direction of a sun cannot be combined with a position of the light.
       if (row.name == "light.azimuth_deg" || row.name == "light.elevation_deg") text = "auto";
+      // The steps of a motion add up over its frames.
+      if (row.name == "motion.frame") text = std::to_string(i);
       // The floor must not exceed the cap.
       if (row.name == "bias.tan_floor") text = std::to_string(0.001 * (i + 1));
       if (row.name == "bias.tan_cap" && text != "auto") text = std::to_string(0.1 * (i + 1));
