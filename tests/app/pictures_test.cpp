@@ -222,19 +222,23 @@ TEST(PicturesOfWideCascades, FitMapsOfAnyWidth) {
     const int side = one.technique.frame.resolution;
     const Image<float> stored = one.stored_rows(0, side);
     for (int y = 0; y < side; ++y)
-      for (int x = 0; x < 32; ++x) const auto at = static_cast<size_t>((map.spec.height - 1 - bottom - y) * 32 + x);
-    SCOPED_TRACE(testing::Message() << side << " " << x << " " << y);
-    if (x < side)
-      ASSERT_EQ(read[at], stored.at(x, y));
-    else
-      ASSERT_TRUE(std::isnan(read[at])) << "no texel is there";
-    // Of the exact map only the depths are known that a receiver's tap reads.
-    const bool is_known = x < side && one.exact.texels->has({x, y});
-    (is_known ? known : unknown)++;
-    if (is_known)
-      ASSERT_EQ(exact[at], one.exact.at({x, y}));
-    else
-      ASSERT_TRUE(std::isnan(exact[at]));
+      for (int x = 0; x < 32; ++x) {
+        const auto at = static_cast<size_t>((map.spec.height - 1 - bottom - y) * 32 + x);
+        SCOPED_TRACE(testing::Message() << side << " " << x << " " << y);
+        if (x < side) {
+          ASSERT_EQ(read[at], stored.at(x, y));
+        } else {
+          ASSERT_TRUE(std::isnan(read[at])) << "no texel is there";
+        }
+        // Of the exact map only the depths are known that a receiver's tap reads.
+        const bool is_known = x < side && one.exact.texels->has({x, y});
+        (is_known ? known : unknown)++;
+        if (is_known) {
+          ASSERT_EQ(exact[at], one.exact.at({x, y}));
+        } else {
+          ASSERT_TRUE(std::isnan(exact[at]));
+        }
+      }
     bottom += side;
   }
   EXPECT_GT(known, 0);
