@@ -105,9 +105,16 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   if (made.offset.in_map()) {
     made.offset_unit = unit_of(made.offset.format);
     made.declared_unit = unit_of(declared);
-    const gl::ShadowMap moved =
-        renderer.upload_map(moved_by(made.offset, point.depth, lookup.exact_depth), technique.settings.map);
-    const Image<float> r4 = mixed_results(impl_->stages.look_up(renderer, moved, {&technique, 1}), nullptr);
+    // What the declaration would be, looked up in the exact map that it gives.
+    Settings with = technique.settings;
+    with.map.format = made.offset.format;
+    with.bias["polygon_factor"] += made.offset.factor;
+    with.bias["polygon_units"] =
+        (with.bias["polygon_units"] * made.declared_unit + made.offset.constant) / made.offset_unit;
+    const Technique declaring(with, technique.frame);
+    const LookupStage again = impl_->stages.prepare_lookup(renderer, impl_->tracer, view, truth, declaring);
+    const gl::ShadowMap moved = renderer.upload_map(again.exact_depth, with.map);
+    const Image<float> r4 = mixed_results(impl_->stages.look_up(renderer, moved, {&declaring, 1}), nullptr);
     double differ = 0, counted = 0;
     for (size_t i = 0; i < r4.size(); ++i)
       if (is_counted(made.ladder, i)) {

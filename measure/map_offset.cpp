@@ -36,15 +36,6 @@ std::optional<double> slope_at(const Image<float>& map, glm::ivec2 t, double rou
   return std::max(*x, *y);
 }
 
-template <class Each>
-void each_slope(const Image<float>& given, const MapDepths& exact, DepthFormat format, const Each& each) {
-  for (int y = 0; y < given.height; ++y)
-    exact.texels->each_in_row(y, [&](int x, size_t index) {
-      if (const auto slope = slope_at(given, {x, y}, step_of(format)); slope && exact[index] < 1)
-        each(x, y, index, *slope);
-    });
-}
-
 }  // namespace
 
 bool MapOffset::in_map() const {
@@ -59,9 +50,13 @@ MapOffset map_offset(const Image<float>& given, const MapDepths& exact, DepthFor
   };
   std::vector<Texel> texels;
   const double step = step_of(found.format);
-  each_slope(given, exact, found.format, [&](int x, int y, size_t index, double slope) {
-    texels.push_back({slope, static_cast<double>(given.at(x, y)) - exact[index], step + most_moved_by_grid * slope});
-  });
+  for (int y = 0; y < given.height; ++y)
+    exact.texels->each_in_row(y, [&](int x, size_t index) {
+      const auto slope = slope_at(given, {x, y}, step);
+      if (slope && exact[index] < 1)
+        texels.push_back(
+            {*slope, static_cast<double>(given.at(x, y)) - exact[index], step + most_moved_by_grid * *slope});
+    });
   found.texels = texels.size();
   if (found.texels < enough) return found;
   // Iteratively reweighted least squares. A difference below what moves a texel anyway has no more weight than one of that size.
@@ -83,15 +78,6 @@ MapOffset map_offset(const Image<float>& given, const MapDepths& exact, DepthFor
     if (settled) break;
   }
   return found;
-}
-
-MapDepths moved_by(const MapOffset& offset, const Image<float>& given, const MapDepths& exact) {
-  MapDepths moved = exact;
-  each_slope(given, exact, offset.format, [&](int, int, size_t index, double slope) {
-    const double depth = exact[index] + offset.factor * slope + offset.constant;
-    moved.depth[index] = static_cast<float>(std::clamp(depth, 0.0, 1.0));
-  });
-  return moved;
 }
 
 }  // namespace noonmark

@@ -1,7 +1,7 @@
 // The offset that lies in the depths of a handed map: how its texels differ from an exact map's, as a polygon offset does.
 //
 //   const MapOffset found = map_offset(given, exact, format);
-//   if (found.in_map()) exact = moved_by(found, given, exact);
+//   if (found.in_map()) fmt::print("factor {}", found.factor);
 //
 // A polygon offset moves a triangle's window depth by factor * m + units * r. m is the steepest slope of its plane in depth
 // per texel, and r a step of the map's format. So the differences of a map from an exact one are a line over m: the factor is
@@ -28,8 +28,5 @@ struct MapOffset {
 // each as a share of what rounding and a rasteriser's grid can move that texel, so that silhouettes and other surfaces do not
 // bend it. Without enough of such texels: no offset.
 MapOffset map_offset(const Image<float>& given, const MapDepths& exact, DepthFormat format);
-
-// The exact map with that offset, at the texels where the slope is known.
-MapDepths moved_by(const MapOffset& offset, const Image<float>& given, const MapDepths& exact);
 
 }  // namespace noonmark
