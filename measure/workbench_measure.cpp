@@ -255,7 +255,8 @@ ShownMaps Workbench::Impl::show_maps(const Asked& asked, const ViewStage& seen, 
   MapStage& map = drawn(kept, *loaded.scene, techniques, asked.keys.map);
   // A search does not read it, and it costs a pass over the map.
   if (metrics == MetricSet::all && !map.used) map.used = renderer.used_texels(*map.map);
-  std::optional<gl::ShadowMap>& exact = kept.exact.get(asked.keys.lookup, [] { return std::optional<gl::ShadowMap>(); });
+  std::optional<gl::ShadowMap>& exact =
+      kept.exact.get(asked.keys.lookup, [] { return std::optional<gl::ShadowMap>(); });
   return stages->show_maps(renderer, map, exact, of_each, techniques, of_receivers, keep_fetched, checks);
 }
 
