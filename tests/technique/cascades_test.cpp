@@ -672,8 +672,9 @@ TEST(Cascades, SettingsThatAreIdleChangeNothing) {
         different.insert(seen(s));
       }
       row.set(s, all.front());
-      if (is_idle)
+      if (is_idle) {
         EXPECT_EQ(different.size(), 1u) << name << " with " << s.cascades.select << ", blend " << s.cascades.blend;
+      }
       ++(is_idle ? idle : read);
     }
   };
