@@ -283,8 +283,9 @@ TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamed) {
     ASSERT_NE(end, std::string::npos) << says;
     const nlohmann::json add = nlohmann::json::parse(says.substr(begin, end + 1 - begin));
     EXPECT_NEAR(add["bias.polygon_factor"], std::atof(one.factor), 0.125) << says;  // what the grid alone can do
-    if (std::abs(std::atof(one.units)) > 1000)
+    if (std::abs(std::atof(one.units)) > 1000) {
       EXPECT_NEAR(add["bias.polygon_units"].get<double>() / std::atof(one.units), 1, 0.02) << says;
+    }
     technique.update(add);
     const nlohmann::json with = judged(frame);
     for (const char* cause : {"acne", "peter_panning", "precision"})
