@@ -121,7 +121,7 @@ std::string any_value(const Setting& row, Choices& choices) {
       return std::string(row.choices[static_cast<size_t>(choices.below(static_cast<int>(row.choices.size())))]);
     case ValueType::point: {
       const double reach = row.unit == "deg" ? 200 : 8;
-      const glm::dvec3 p = any_point(choices, choices.below(8) == 0 ? 1000 : reach);
+      const glm::dvec3 p = any_point(choices, std::min(choices.below(8) == 0 ? 1000.0 : reach, row.max));
       return fmt::format("{},{},{}", p.x, p.y, p.z);
     }
     case ValueType::list: {
