@@ -7,6 +7,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "frames/value_curve.h"
+
 namespace noonmark {
 namespace {
 
@@ -55,38 +57,94 @@ Region region_of(std::vector<double> values) {
   return region;
 }
 
-// Least squares of values by four numbers each.
-struct Fit {
-  size_t count = 0;
-  double value = 0, square = 0;
-  glm::dvec4 by_value{0};
-  glm::dmat4 products{0};
-  void add(glm::dvec4 by, double v) {
-    ++count;
-    value += v;
-    square += v * v;
-    by_value += v * by;
-    products += glm::outerProduct(by, by);
-  }
-  double variance_sum() const { return std::max(0.0, square - value * value / static_cast<double>(count)); }
-  double residual_sum() const {
-    // Elimination, without the numbers that depend on those before them: all pixels of a plane have one N.L.
-    constexpr double dependent = 1e-9;
-    glm::dmat4 m = products;
-    glm::dvec4 b = by_value;
-    double left = square;
-    for (int k = 0; k < 4; ++k) {
-      if (!(m[k][k] > dependent * products[k][k])) continue;
-      left -= b[k] * b[k] / m[k][k];
-      for (int j = k + 1; j < 4; ++j) {
-        const double share = m[j][k] / m[k][k];
-        b[j] -= share * b[k];
-        for (int l = 0; l < 4; ++l) m[j][l] -= share * m[k][l];
-      }
-    }
-    return std::max(0.0, left);
-  }
+// A pixel deep in true light. by: what shading can depend on, which is 1, N.L, its square, and under a lamp N.L over the squared
+// distance.
+struct LitPixel {
+  glm::dvec4 by{0};
+  double value = 0;
 };
+
+// A shadow only darkens: what shading makes of a lit pixel is the most that it can be. So the fit is one of the upper quarter
+// of the values, and acne or a filter on three quarters of the pixels does not move it. used: 1 for what it depends on.
+glm::dvec4 upper_fit(const std::vector<LitPixel>& pixels, glm::dvec4 used) {
+  constexpr double quarter = 0.25, nearest = 1e-4, ridge = 1e-9;  // of all that is near the weight is one
+  constexpr int rounds = 30;
+  constexpr size_t most = 20000;
+  const size_t step = pixels.size() / most + 1;
+  glm::dvec4 fit{0};
+  for (int round = 0; round < rounds; ++round) {
+    glm::dmat4 products(ridge);
+    glm::dvec4 sum{0};
+    for (size_t i = 0; i < pixels.size(); i += step) {
+      const glm::dvec4 by = used * pixels[i].by;
+      const double off = pixels[i].value - glm::dot(fit, by);
+      const double weight = round == 0 ? 1 : (off > 0 ? 1 - quarter : quarter) / std::max(std::abs(off), nearest);
+      products += glm::outerProduct(weight * by, by);
+      sum += weight * pixels[i].value * by;
+    }
+    fit = glm::inverse(products) * sum;
+  }
+  return fit;
+}
+
+// How many of the pixels are as bright as the fit says; 0 if the fit is not evidence of shading.
+size_t explained_by(const std::vector<LitPixel>& pixels, glm::dvec4 used, bool roughly) {
+  constexpr double step = 1 / 255.0;
+  constexpr int bins = 64;
+  constexpr size_t least = 4;  // pixels of a bin
+  const glm::dvec4 fit = upper_fit(pixels, used);
+  double within = step;
+  if (roughly) {
+    std::vector<double> fitted;
+    for (const LitPixel& pixel : pixels) fitted.push_back(glm::dot(fit, used * pixel.by));
+    const double range = place_quantile(fitted, 0.95) - place_quantile(fitted, 0.05);
+    if (range < 0.1) return 0;
+    within = range / 16;
+  }
+  struct Bin {
+    size_t count = 0;
+    double fit = 0;
+  };
+  std::vector<Bin> by_cosine(bins + 1);
+  size_t explained = 0, above = 0;
+  for (const LitPixel& pixel : pixels) {
+    const double fitted = glm::dot(fit, used * pixel.by), off = pixel.value - fitted;
+    above += off > within;
+    if (std::abs(off) > within) continue;
+    ++explained;
+    Bin& bin = by_cosine[static_cast<size_t>(std::clamp(pixel.by[1], 0.0, 1.0) * bins)];
+    ++bin.count;
+    bin.fit = fitted;
+  }
+  int cosines = 0;
+  double low = 1, high = 0;
+  for (int i = 0; i <= bins; ++i) {
+    const Bin& bin = by_cosine[static_cast<size_t>(i)];
+    if (bin.count < least) continue;
+    ++cosines;
+    low = std::min(low, bin.fit), high = std::max(high, bin.fit);
+    ++i;  // a plane may lie in two bins
+  }
+  const int more = roughly ? 8 : 1;  // values of N.L than numbers that were chosen for them
+  const bool is_evidence = cosines >= static_cast<int>(glm::dot(used, used)) + more && high - low >= 4 * step &&
+                           explained * 5 >= pixels.size() * 2 && (roughly || above * 20 <= pixels.size());
+  return is_evidence ? explained : 0;
+}
+
+size_t explained_by_shading(const std::vector<LitPixel>& pixels, bool of_lamp) {
+  struct Row {
+    glm::dvec4 used;
+    bool roughly = false;
+  };
+  // Exactly, or where a renderer's own normals make N.L another one: N.L alone, and roughly. The acne of a wide filter follows
+  // N.L, too, but not in proportion to it.
+  static constexpr Row rows[] = {{{0, 1, 0, 0}}, {{1, 1, 0, 0}}, {{1, 1, 1, 0}}, {{0, 1, 0, 0}, true},
+                                 {{0, 0, 0, 1}}, {{1, 1, 0, 1}}, {{1, 1, 1, 1}}, {{0, 0, 0, 1}, true}};
+  size_t most = 0;
+  for (const Row& row : rows)
+    if (of_lamp || row.used[3] == 0) most = std::max(most, explained_by(pixels, row.used, row.roughly));
+  return most;
+}
 
 // The number of each triangle's part, and of one that has none a number of its own.
 std::vector<uint32_t> parts_of(const Scene& scene) {
@@ -98,34 +156,48 @@ std::vector<uint32_t> parts_of(const Scene& scene) {
   return part;
 }
 
-Shading shading_of(const CheckEvidence& e, const Image<uint8_t>& deep) {
-  constexpr size_t least = 32;  // pixels of a part, for four numbers
+// Whether this share of a filter's taps can be lit, as far as the picture's rounding tells. Filters whose taps lie many texels
+// apart, and which so can have one value on a whole plane, have at most 64.
+bool is_share_of_taps(double value, double rounding) {
+  for (int taps = 1; taps <= 64; ++taps)
+    if (std::abs(value * taps - std::round(value * taps)) <= taps * rounding) return true;
+  return false;
+}
+
+Shading shading_of(const CheckEvidence& e, const Image<uint8_t>& deep, const Region& lit) {
+  constexpr size_t least = 32;         // pixels of a part
+  constexpr double one_value = 0.002;  // half a step of 8 bits
   const std::vector<uint32_t> part = parts_of(e.scene);
-  std::unordered_map<uint32_t, Fit> fits;
+  const bool of_lamp = e.light.kind != LightKind::directional;
+  std::vector<LitPixel> all;
+  std::unordered_map<uint32_t, std::vector<LitPixel>> parts;
   double unit = 0;  // the squared distance of the first receiver
+  size_t at = 0, above = 0;
   for (size_t i = 0; i < deep.size(); ++i) {
     if (deep[i] != 2) continue;
     const glm::dvec3 p = e.receivers.position[i];
     const double n = glm::dot(glm::dvec3(e.receivers.normal[i]), e.light.direction_to_light(p));
     double fall = 0;
-    if (e.light.kind != LightKind::directional) {
+    if (of_lamp) {
       const glm::dvec3 way = e.light.to_light(p);
       if (unit == 0) unit = glm::dot(way, way);
       fall = unit / glm::dot(way, way);
     }
-    fits[part[e.receivers.primitive[i]]].add({1, n, n * n, n * fall}, e.frame.visibility[i]);
+    const double value = e.frame.visibility[i];
+    all.push_back({{1, n, n * n, n * fall}, value});
+    parts[part[e.receivers.primitive[i]]].push_back(all.back());
+    at += std::abs(value - lit.median) <= one_value;
+    above += value > lit.median + one_value;
   }
   Shading found;
-  double left = 0, all = 0;
-  for (const auto& [number, fit] : fits) {
-    if (fit.count < least) continue;
-    found.count += fit.count;
-    left += fit.residual_sum();
-    all += fit.variance_sum();
-  }
-  if (found.count == 0) return found;
-  found.residual = std::sqrt(left / static_cast<double>(found.count));
-  found.explained = all > 0 ? std::max(0.0, 1 - left / all) : 1;
+  if (all.empty()) return found;
+  size_t by_parts = 0;
+  for (const auto& [number, pixels] : parts)
+    if (pixels.size() >= least) by_parts += explained_by_shading(pixels, of_lamp);
+  const auto share = [&](size_t count) { return static_cast<double>(count) / static_cast<double>(all.size()); };
+  found.explained = share(std::max(by_parts, explained_by_shading(all, of_lamp)));
+  found.is_one_value = lit.median > 0.02 && share(at) >= 0.9 && share(above) <= 0.005 &&
+                       !is_share_of_taps(lit.median, rounding_of(e.frame.visibility));
   return found;
 }
 
@@ -226,7 +298,8 @@ FrameStatistics frame_statistics(const CheckEvidence& e) {
   }
   found.deep_dark = region_of(deep[0]);
   found.deep_lit = region_of(deep[1]);
-  found.shading = shading_of(e, found.deep);
+  if (found.deep_lit.count > 0 && found.deep_lit.median < 0.95)
+    found.shading = shading_of(e, found.deep, found.deep_lit);
   return found;
 }
 

@@ -38,12 +38,13 @@ struct Region {
   double median = 0, low = 0, high = 0, mean = 0;  // low, high: the 5th and the 95th percentile. NaN without a pixel
 };
 
-// How far the values deep in true light are a function of N.L, as shading makes them: of each part of the scene (of each
-// triangle where the scene has none) the values are fitted by N.L, its square, and under a lamp N.L over the squared distance.
+// What shading leaves in the values deep in true light, of the whole picture or part by part (each triangle where the scene has
+// no parts).
 struct Shading {
-  size_t count = 0;      // pixels of parts with enough of them to be fitted
-  double residual = 0;   // the standard deviation that the fit leaves
-  double explained = 0;  // the share of the variance that the fit takes away, 0 to 1
+  // The share of the pixels that are as bright as a function of N.L says, of more values of N.L than the function has numbers,
+  // where hardly a pixel is brighter. 0 without such a function.
+  double explained = 0;
+  bool is_one_value = false;  // nearly all have one value, between 0 and 1, which is no share of a filter's taps
 };
 
 // deep: R1 is the same at all pixels within `deep_px` of the pixel, and all of them are counted.

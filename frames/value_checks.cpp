@@ -36,13 +36,9 @@ constexpr const char* because_inverted = "light and shadow are exchanged";
 bool is_darkened(const FrameStatistics& s) {
   return s.deep_lit.count >= enough && s.deep_lit.high < 0.995 && s.deep_lit.median < 0.95;
 }
-// Rounding to 8 bits leaves 0.0011, and of a filter over acne a tap of a hundred that is lit here and not there 0.005.
-constexpr double most_even = 0.002;
-// Of frames of engines times N.L, whose vertices have normals of their own, N.L explains 0.9 and more; of acne at most a half.
-constexpr double mostly_explained = 0.9;
+// Lookups make at most a tenth of the pixels as bright as a function of N.L.
 bool is_shaded(const FrameStatistics& s) {
-  return is_darkened(s) && s.shading.count >= enough &&
-         (s.shading.residual <= most_even || s.shading.explained >= mostly_explained);
+  return is_darkened(s) && (s.shading.explained >= 0.4 || s.shading.is_one_value);
 }
 
 // Values that are the same at every distance of the occluder: an exponential map would leak by e^(-c d), which differs by 0.01
@@ -52,32 +48,60 @@ struct Evenness {
   size_t told = 0, even = 0;
 };
 struct Shadowed {
-  std::vector<double> values, distances;
+  float value, nearest, first;  // the distances to the nearest occluder, and to the first that the light meets
 };
-// Between the 5th and the 95th percentile: at a few pixels an edge's filter reaches further.
-double low_of(const std::vector<double>& values) { return quantile(values, 0.05); }
-double high_of(const std::vector<double>& values) { return quantile(values, 0.95); }
 
-// Of the pixels deep in true shadow, those of triangles on which occluders of several distances cast it, and those of them
-// where the triangle has one value all the same.
-Evenness evenness_in_shadow(const CheckEvidence& e, const FrameStatistics& s, bool whole) {
+double at_share(const std::vector<Shadowed>& pixels, double share, float Shadowed::*what) {
+  std::vector<double> values;
+  for (const Shadowed& pixel : pixels) values.push_back(pixel.*what);
+  return quantile(std::move(values), share);
+}
+
+// Between the 5th and the 95th percentile. A map holds the first occluder, or with front faces culled another one.
+bool are_apart(const std::vector<Shadowed>& pixels) {
+  for (float Shadowed::*const what : {&Shadowed::nearest, &Shadowed::first})
+    if (!(at_share(pixels, 0.95, what) >= distances_apart * at_share(pixels, 0.05, what))) return false;
+  return true;
+}
+
+// Three quarters have the lowest value. The others are brighter: an edge's filter reaches further there, or a bias loses the
+// shadow.
+bool is_even(std::vector<Shadowed> pixels) {
+  const double low = at_share(pixels, 0.05, &Shadowed::value);
+  const size_t all = pixels.size();
+  pixels.erase(
+      std::remove_if(pixels.begin(), pixels.end(), [&](const Shadowed& p) { return p.value > low + one_value; }),
+      pixels.end());
+  return pixels.size() * 4 >= all * 3 && are_apart(pixels);
+}
+
+// Of the pixels deep in true shadow, those of surfaces on which occluders of several distances cast it, and those of them
+// where the surface has one value all the same. Ambient light has a value of its own on each triangle, an intensity one on all.
+Evenness evenness_in_shadow(const CheckEvidence& e, const FrameStatistics& s) {
   constexpr size_t least = 32;
   Image<uint8_t> mask(s.deep.width, s.deep.height, 0);
   for (size_t i = 0; i < mask.size(); ++i) mask[i] = s.deep[i] == 1;
-  const Image<float> distance = e.tracer.occluder_distance(e.receivers, e.light, mask);
-  std::unordered_map<uint32_t, Shadowed> surfaces;
+  const Image<float> nearest = e.tracer.occluder_distance(e.receivers, e.light, mask);
+  const Image<uint32_t> first = e.tracer.first_on_the_way(e.receivers, e.light, mask);
+  std::vector<Shadowed> whole;
+  std::unordered_map<uint32_t, std::vector<Shadowed>> triangles;
   for (size_t i = 0; i < mask.size(); ++i) {
-    if (!mask[i] || !std::isfinite(distance[i])) continue;
-    Shadowed& surface = surfaces[whole ? 0 : e.receivers.primitive[i]];
-    surface.values.push_back(e.frame.visibility[i]);
-    surface.distances.push_back(distance[i]);
+    if (!mask[i] || !std::isfinite(nearest[i]) || first[i] == no_primitive) continue;
+    const glm::uvec3 corners = e.scene.triangles[first[i]];
+    const glm::dvec3 a = e.scene.positions[corners[0]], p = e.receivers.position[i];
+    const glm::dvec3 across =
+        glm::cross(glm::dvec3(e.scene.positions[corners[1]]) - a, glm::dvec3(e.scene.positions[corners[2]]) - a);
+    const double distance = glm::dot(across, a - p) / glm::dot(across, e.light.direction_to_light(p));
+    if (!std::isfinite(distance)) continue;  // the light grazes it
+    whole.push_back({e.frame.visibility[i], nearest[i], static_cast<float>(distance)});
+    triangles[e.receivers.primitive[i]].push_back(whole.back());
   }
+  if (whole.size() >= enough && is_even(whole)) return {whole.size(), whole.size()};
   Evenness found;
-  for (const auto& [primitive, surface] : surfaces) {
-    const size_t count = surface.values.size();
-    if (count < least || high_of(surface.distances) < distances_apart * low_of(surface.distances)) continue;
-    found.told += count;
-    if (high_of(surface.values) - low_of(surface.values) <= one_value) found.even += count;
+  for (const auto& [primitive, pixels] : triangles) {
+    if (pixels.size() < least || !are_apart(pixels)) continue;
+    found.told += pixels.size();
+    if (is_even(pixels)) found.even += pixels.size();
   }
   return found;
 }
@@ -130,19 +154,15 @@ Outcome check_shaded(const CheckEvidence&, const FrameStatistics& s) {
   const std::string found =
       fmt::format("deep in true light hardly a pixel reaches 1 (95% are below {:.3f}, the median is {:.3f})",
                   s.deep_lit.high, s.deep_lit.median);
-  if (s.shading.count < enough)
-    return not_checked(found + ", and no part of the scene has enough of them to tell shading from acne");
-  const std::string fit = fmt::format("N.L explains {:.1f}% of their variance and leaves {:.3g}",
-                                      100 * s.shading.explained, s.shading.residual);
   if (is_shaded(s))
-    return failed(
-        fmt::format("{}, and {}: this is a shaded frame or one with ambient light, not the visibility of the "
-                    "light",
-                    found, fit));
-  return not_checked(
-      fmt::format("{}, but {}: it is acne, or shading with textures, and the values alone do not tell "
-                  "which",
-                  found, fit));
+    return failed(fmt::format(
+        "{}, and {}: this is a shaded frame or one with ambient light, not the visibility of the light", found,
+        s.shading.explained > 0
+            ? fmt::format("{:.0f}% of them are as bright as a function of N.L says", 100 * s.shading.explained)
+            : "they have one value that no filter's taps make"));
+  return not_checked(found +
+                     ", but N.L does not explain that: it is acne, or shading with textures, and the values "
+                     "alone do not tell which");
 }
 
 Outcome check_intensity(const CheckEvidence& e, const FrameStatistics& s) {
@@ -154,19 +174,16 @@ Outcome check_intensity(const CheckEvidence& e, const FrameStatistics& s) {
   const std::string found =
       fmt::format("deep in true shadow hardly a pixel is 0 (95% are above {:.3f}, the median is {:.3f})",
                   s.deep_dark.low, s.deep_dark.median);
-  const bool is_one = s.deep_dark.high - s.deep_dark.low <= one_value;
-  const Evenness here = evenness_in_shadow(e, s, is_one);
-  // Ambient light has a value of its own on each surface, an intensity one on all.
-  if (here.told >= enough && (is_one || here.even * 10 >= here.told * 9))
+  const Evenness here = evenness_in_shadow(e, s);
+  if (here.told >= enough && here.even * 10 >= here.told * 9)
     return failed(
         fmt::format("{}, and it is the same at every distance of the occluder: the shadow's intensity is below "
                     "1, or light was added; write the visibility alone",
                     found));
   if (here.told < enough)
-    return not_checked(
-        found +
-        ": the shadow's intensity is below 1, or light was added, or a filtered map leaks; all occluders "
-        "are at one distance, so this cannot tell which");
+    return not_checked(found +
+                       ": the shadow's intensity is below 1, or light was added, or a filtered map leaks; too few "
+                       "pixels have occluders at different distances to tell which");
   return not_checked(found + ", and it differs by place: a filtered map leaks so; an intensity below 1 is one value");
 }
 

@@ -64,7 +64,7 @@ TEST(Checks, ExchangedLightAndShadowIsNamed) {
 }
 
 TEST(Checks, AShadedFrameIsNamed) {
-  expect_named(with(each_value(good().frame.visibility, [](float v) { return 0.1f + 0.45f * v; })), "shaded",
+  expect_named(with(each_value(good().frame.visibility, [](float v) { return 0.1f + 0.43f * v; })), "shaded",
                "shaded frame");
 }
 

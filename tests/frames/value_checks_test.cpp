@@ -2,7 +2,9 @@
 // shadow makes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "frames/value_curve.h"
@@ -113,18 +115,60 @@ TEST(Shaded, FilteredAcneOfCoarseTexelsIsNot) {
   EXPECT_GT(verdict.metrics.at("frame_acne"), 0.2);
 }
 
+double cosine_at(const Delivered& from, const LightFrame& light, size_t i) {
+  const glm::dvec3 p = from.receivers.position[i], n = from.receivers.normal[i];
+  return std::max(0.0, glm::dot(n, light.direction_to_light(p)));
+}
+
+// As it is, with ambient light, and as a screen shows it.
 TEST(Shaded, NLIsKnownUnderEveryLight) {
-  for (const char* scene : {"cube-room", "spot-room", "point-room"}) {
-    const Delivered from = good_frame(scene, width, height);
-    const LightFrame light = from.judged().light;
-    Image<float> v = from.frame.visibility;
-    for (size_t i = 0; i < v.size(); ++i) {
-      const glm::dvec3 p = from.receivers.position[i], n = from.receivers.normal[i];
-      v[i] *= static_cast<float>(0.9 * std::max(0.0, glm::dot(n, light.direction_to_light(p))));
+  using Shade = double (*)(double);
+  for (const char* scene : {"cube-room", "spot-room", "point-room"})
+    for (const Shade shade : {Shade([](double x) { return 0.9 * x; }), Shade([](double x) { return 0.15 + 0.7 * x; }),
+                              Shade([](double x) { return (1.2 * x + 0.05) / (1.2 * x + 1.05); })}) {
+      const Delivered from = good_frame(scene, width, height);
+      const LightFrame light = from.judged().light;
+      Image<float> v = from.frame.visibility;
+      for (size_t i = 0; i < v.size(); ++i) v[i] = static_cast<float>(shade(v[i] * cosine_at(from, light, i)));
+      const CheckResult found = check_named(verdict_of(from, v), "shaded");
+      EXPECT_EQ(found.state, CheckState::failed) << scene << ": " << found.says;
     }
-    const CheckResult found = check_named(verdict_of(from, v), "shaded");
-    EXPECT_EQ(found.state, CheckState::failed) << scene << ": " << found.says;
+}
+
+// Acne, or edges of a filter that lie elsewhere: a third of the pixels is darker than the shading makes them.
+TEST(Shaded, WhatAShadowDarkensDoesNotHideNL) {
+  const LightFrame light = good().judged().light;
+  Image<float> v = good().frame.visibility;
+  for (size_t i = 0; i < v.size(); ++i) {
+    const int x = static_cast<int>(i % width);
+    v[i] *= static_cast<float>(cosine_at(good(), light, i) * (x % 9 < 3 ? 0.2 * (x % 9) : 1));
   }
+  const CheckResult found = check_named(verdict_of(good(), v), "shaded");
+  EXPECT_EQ(found.state, CheckState::failed) << found.says;
+}
+
+// A renderer that shadows all, and a wide filter without a bias, half of whose taps meet the surface itself on every plane.
+TEST(Shaded, OneValueThatALookupCanHaveIsNot) {
+  for (const float value : {0.0f, 9 / 16.0f}) {
+    const FrameVerdict verdict =
+        verdict_of(good(), each_value(good().frame.visibility, [&](float v) { return value * v; }));
+    const CheckResult& found = check_named(verdict, "shaded");
+    EXPECT_EQ(found.state, CheckState::not_checked) << value << ": " << found.says;
+    EXPECT_FALSE(verdict.refused()) << value;
+  }
+}
+
+// The acne of a wide filter follows N.L on a plane below a lamp, but not all of it, and nothing keeps the rest below.
+TEST(Shaded, AcneThatFollowsNLIsNot) {
+  const Delivered from = good_frame("spot-room", width, height);
+  const LightFrame light = from.judged().light;
+  Image<float> v = from.frame.visibility;
+  for (size_t i = 0; i < v.size(); ++i) {
+    const int x = static_cast<int>(i % width);
+    v[i] *= static_cast<float>(0.3 + 0.5 * cosine_at(from, light, i) + (x % 9 < 3 ? -0.03 : x % 9 < 7 ? 0 : 0.03));
+  }
+  const CheckResult found = check_named(verdict_of(from, v), "shaded");
+  EXPECT_EQ(found.state, CheckState::not_checked) << found.says;
 }
 
 // ---- intensity
@@ -149,6 +193,38 @@ TEST(Intensity, ALeakThatDependsOnTheOccluderIsNone) {
   EXPECT_FALSE(verdict.refused());
   const CheckResult one = check_named(verdict_of(good(), leaking(good(), [](double) { return 0.5; })), "intensity");
   EXPECT_EQ(one.state, CheckState::failed) << one.says;
+}
+
+// An edge's filter that reaches further, or a bias that loses some of the shadow.
+TEST(Intensity, SomeBrighterPixelsDoNotHideIt) {
+  for (const float dark : {0.2f, 0.5f}) {
+    Image<float> v = leaking(good(), [&](double) { return dark; });
+    for (size_t i = 0; i < v.size(); ++i)
+      if (!std::isnan(v[i]) && !good().truth.lit[i] && i % 9 == 0) v[i] = 0.5f * (1 + dark);
+    const CheckResult found = check_named(verdict_of(good(), v), "intensity");
+    EXPECT_EQ(found.state, CheckState::failed) << dark << ": " << found.says;
+  }
+}
+
+// A map holds the occluder that the light meets first, and an exponential map knows that distance alone: it is one below a
+// level top. The shadows of all else are left out.
+TEST(Intensity, ALeakBelowOneTopTellsNothing) {
+  const Delivered from = good_frame("cube-room", 2 * width, 2 * height);
+  const FrameVerdict verdict = from.judged();
+  Image<uint8_t> dark(2 * width, 2 * height, 0);
+  for (size_t i = 0; i < dark.size(); ++i) dark[i] = verdict.counted[i] && !verdict.truth.lit[i];
+  const Image<uint32_t> first = from.tracer->first_on_the_way(verdict.receivers, verdict.light, dark);
+  std::map<uint32_t, size_t> pixels;  // by the triangle that is first
+  for (size_t i = 0; i < dark.size(); ++i)
+    if (dark[i]) ++pixels[first[i]];
+  const auto most =
+      std::max_element(pixels.begin(), pixels.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  Image<float> v = from.frame.visibility;
+  for (size_t i = 0; i < v.size(); ++i)
+    if (dark[i]) v[i] = first[i] == most->first && verdict.receivers.normal[i].y > 0.9f ? 0.4f : no_surface;
+  const CheckResult found = check_named(verdict_of(from, v), "intensity");
+  EXPECT_EQ(found.state, CheckState::not_checked) << found.says;
+  EXPECT_NE(found.says.find("different distances"), std::string::npos) << found.says;
 }
 
 // Below a plate that is parallel to its floor, an exponential map leaks by one value.
