@@ -266,6 +266,7 @@ int judge_one(const JudgeOptions& options) {
   Results results;
   PointRecord& record = results.points.emplace_back();
   record.metrics = verdict.metrics;
+  record.settings["given.frame"] = subject.frame.name;
   for (const CheckResult& check : verdict.checks)
     if (check.state == CheckState::failed && !check.accepted) record.delivery.refused = check.says;
   if (!verdict.refused())

@@ -7,7 +7,7 @@ program=$1 completion=$2 work=$3
 rm -rf "$work"
 mkdir -p "$work/sweeps" "$work/models"
 cd "$work"
-touch one.toml TWO.TOML notes.txt tree.glb shadow.exr SHADOW.PNG base.json lit.npy page.html acne.svg models/street.gltf models/readme.md sweeps/three.toml
+touch one.toml TWO.TOML notes.txt tree.glb figure.vrm shadow.exr SHADOW.PNG base.json lit.npy page.html acne.svg models/street.gltf models/readme.md sweeps/three.toml
 printf '[[part]]\nname = "sun"\n[[part]]\nname = "spot light"\n' >sweeps/parts.toml
 ln -s "$program" noonmark
 # shellcheck source=/dev/null
@@ -64,6 +64,7 @@ sample() {
     FILE.toml) echo one.toml ;;
     FILE.gltf) echo models ;;
     FILE.glb) echo tree.glb ;;
+    FILE.vrm) echo figure.vrm ;;
     FILE.exr) echo shadow.exr ;;
     FILE.png) echo SHADOW.PNG ;;
     FILE.json) echo base.json ;;
