@@ -125,7 +125,7 @@ constexpr FrameKey key_rows[] = {
     {"map", "technique", Kind::settings,
      "How the renderer draws the map and looks it up, in Noonmark's settings by name: bias.*, filter.*, map.format, "
      "map.cull, map.wrap, map.lit_beyond_far, map.depth_clamp, map.pancake. What is left out has its default, which is "
-     "no bias and one tap; the format of which bias.polygon_units are steps is 32f."},
+     "no bias and one tap; map.format is that which the depths tell, otherwise 32f."},
     {"", "edge", Kind::object, "How near to a true shadow edge an error is an error of the edge. Default: 2 pixels."},
     within({"edge", "pixels", Kind::number, "In pixels of the picture, at the receiver."}, edge_count, "pixels"),
     within({"edge", "texels", Kind::number, "In texels of the renderer's map; needs `texel`."}, edge_count, "texels"),

@@ -12,6 +12,7 @@
 #include "compare/ladder/measure.h"
 #include "measure/stages.h"
 #include "scenes/surfaces.h"
+#include "technique/depth_format.h"
 
 namespace noonmark {
 namespace {
@@ -39,9 +40,26 @@ double float_step(const MapDepths& exact) {
   return std::ldexp(1.0, exponent - 1 - 23);
 }
 
-// The metric map_bits, as the format that it stands for.
-DepthFormat format_of_bits(double bits) {
-  return bits == 16 ? DepthFormat::d16 : bits == 24 ? DepthFormat::d24 : DepthFormat::d32f;
+// Of the roundings on the way from a receiver to the depth that is compared, in each of two renderers: a row of the matrix, its
+// four products and their sums, the division, the change from clip space, the bias. Each is at most 2^-24 of the lengths in it.
+constexpr double roundings = 2 * 8 * 0x1p-24;
+// Two samplers whose weights have 8 bits along each of two axes. The step of a picture of 8 bits is smaller.
+constexpr double value_step = 2 * 0x1p-8;
+// The angle between normals that a file may mean to be the same: it may store them in bytes (KHR_mesh_quantization).
+constexpr double normal_step = 1.0 / 127;
+// As of the checks of a delivery: with fewer receivers there is too little to go on.
+constexpr double enough_receivers = 100;
+
+// Whether the vertices of a triangle have normals of their own.
+bool is_smooth(const Scene& scene, uint32_t triangle) {
+  const glm::uvec3 t = scene.triangles[triangle];
+  const glm::dvec3 a = scene.positions[t.x],
+                   way = glm::cross(glm::dvec3(scene.positions[t.y]) - a, glm::dvec3(scene.positions[t.z]) - a);
+  for (int i = 0; i < 3; ++i)
+    if (t[i] < scene.vertex_normals.size() &&
+        glm::length(glm::cross(glm::dvec3(scene.vertex_normals[t[i]]), way)) > normal_step * glm::length(way))
+      return true;
+  return false;
 }
 
 }  // namespace
@@ -55,7 +73,53 @@ struct GivenLookup::Impl {
   std::vector<uint32_t> surfaces;
   gl::Renderer renderer{gl::DebugMode::log};
   Pipeline stages;
+
+  void allow_rounding(const GivenPoint& point, GivenClimb& made);
 };
+
+// Each receiver is looked up at the corners of a box about it, along the light's axes. It is far smaller than a texel, so a tap
+// reads at the corners each texel that it reads in the box, with the least and the largest depth that it is compared with.
+void GivenLookup::Impl::allow_rounding(const GivenPoint& point, GivenClimb& made) {
+  const Ladder& ladder = made.ladder;
+  const Technique& technique = point.technique;
+  const LightFrame& frame = technique.frame;
+  const gl::ShadowMap map = renderer.upload_map(point.depth, technique.settings.map);
+  Image<float> least = ladder[Rung::shown], most = least;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 to(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    ReceiverImage moved = point.receivers;
+    for (size_t i = 0; i < moved.primitive.size(); ++i) {
+      if (!(ladder.flags[i] & flag_facing)) continue;
+      const glm::dvec3 at(moved.position[i]), light = frame.to_light(at);
+      const double off_m = roundings * (glm::length(at) + glm::length(frame.origin_m) + frame.far_m) +
+                           (point.moved_m.size() ? static_cast<double>(point.moved_m[i]) : 0.0);
+      const double step_m = depth_step(technique.settings.map.format, 0.5f) / frame.window_depth_slope(light);
+      moved.position[i] = glm::vec3(at + to.x * off_m * frame.right + to.y * off_m * frame.up +
+                                    to.z * (off_m + step_m) * frame.forward);
+    }
+    renderer.load_receivers(moved, point.eye_m);
+    const Image<float> seen = mixed_results(stages.look_up(renderer, map, {&technique, 1}), nullptr);
+    for (size_t i = 0; i < seen.size(); ++i) {
+      least[i] = std::min(least[i], seen[i]);
+      most[i] = std::max(most[i], seen[i]);
+    }
+  }
+  renderer.load_receivers(point.receivers, point.eye_m);
+  const bool reads_normal = technique.bias.reads_normal();
+  double asked = 0, beyond = 0, left_out = 0;
+  for (size_t i = 0; i < least.size(); ++i) {
+    if (!is_counted(ladder, i)) continue;
+    if (reads_normal && is_smooth(scene, point.receivers.primitive[i])) {
+      ++left_out;
+      continue;
+    }
+    const double shown = ladder.shown()[i];
+    ++asked;
+    beyond += shown < least[i] - value_step || shown > most[i] + value_step;
+  }
+  if (asked >= enough_receivers) made.beyond_rounding = beyond / asked;
+  made.interpolated = left_out / (asked + left_out);
+}
 
 GivenLookup::GivenLookup(const Scene& scene, const raytrace::Tracer& tracer)
     : impl_(std::make_unique<Impl>(scene, tracer)) {}
@@ -94,23 +158,17 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   }
   made.map_off_m = quantile(off, 0.5);
   made.depth_spread_m = quantile(depths, 0.95) - quantile(depths, 0.05);
-  // Floats are declared where nothing is, so then the depths themselves say which format they were drawn in.
-  const DepthFormat declared = technique.settings.map.format;
-  const auto unit_of = [&](DepthFormat format) {
-    return format == DepthFormat::d32f ? float_step(lookup.exact_depth) : renderer.polygon_offset_unit(format);
-  };
-  made.offset = map_offset(point.depth, lookup.exact_depth,
-                           declared == DepthFormat::d32f ? format_of_bits(made.metrics.at("map_bits")) : declared);
+  impl_->allow_rounding(point, made);
+  const DepthFormat format = technique.settings.map.format;
+  made.offset = map_offset(point.depth, lookup.exact_depth, format);
   made.precision_with_offset = made.metrics.at("precision");
   if (made.offset.in_map()) {
-    made.offset_unit = unit_of(made.offset.format);
-    made.declared_unit = unit_of(declared);
+    made.offset_unit =
+        format == DepthFormat::d32f ? float_step(lookup.exact_depth) : renderer.polygon_offset_unit(format);
     // What the declaration would be, looked up in the exact map that it gives.
     Settings with = technique.settings;
-    with.map.format = made.offset.format;
     with.bias["polygon_factor"] += made.offset.factor;
-    with.bias["polygon_units"] =
-        (with.bias["polygon_units"] * made.declared_unit + made.offset.constant) / made.offset_unit;
+    with.bias["polygon_units"] += made.offset.constant / made.offset_unit;
     const Technique declaring(with, technique.frame);
     const LookupStage again = impl_->stages.prepare_lookup(renderer, impl_->tracer, view, truth, declaring);
     const gl::ShadowMap moved = renderer.upload_map(again.exact_depth, with.map);

@@ -30,6 +30,8 @@ struct GivenPoint {
   Technique technique;  // with the frame of the map; its settings name the size of the picture
   Image<float> depth;   // the map: window depth in [0,1], row 0 with the lowest v
   RungOnTop frame;      // its picture is finite where receivers face the light
+  // How far from its place each receiver may lie, beside the rounding of its numbers, in metres. Empty: nowhere.
+  Image<float> moved_m = {};
 };
 
 struct GivenClimb {
@@ -39,13 +41,16 @@ struct GivenClimb {
   // Over the texels that taps read, along the light: the median distance of the map's depths from the scene's, and
   // how far apart nine tenths of the scene's are. NaN if none is read.
   double map_off_m = 0, depth_spread_m = 0;
+  // The share of the counted receivers whose picture on top is none that the lookup of the map gives within the rounding of
+  // the receivers, of both renderers' arithmetic and of the map's format. Where the bias reads a normal, receivers on
+  // surfaces whose vertices have other normals than their triangles are left out: `interpolated` is their share. 0 if too few
+  // are left.
+  double beyond_rounding = 0, interpolated = 0;
   // What the map holds beside the offset that the technique declares, and the mean |R5 - R4| over the counted receivers if
   // the exact map had it too. Without one the latter is the metric `precision`.
   MapOffset offset;
   double precision_with_offset = 0;
-  // Window depth of one unit of a polygon offset: of offset.format, and of the format that the technique declares. 0
-  // where no offset is in the map.
-  double offset_unit = 0, declared_unit = 0;
+  double offset_unit = 0;  // window depth of one unit of a polygon offset; 0 where no offset is in the map
 };
 
 class GivenLookup {

@@ -59,8 +59,21 @@ bool Bias::reads_tan() const {
   flat.n_dot_l = steep.n_dot_l = 0.5f;
   flat.tan_theta = 1;
   steep.tan_theta = 2;
+  return compares_otherwise(flat, steep);
+}
+
+bool Bias::reads_normal() const {
+  in_float::Surface flat{}, steep{};
+  flat.n_dot_l = 0.75f;
+  flat.tan_theta = 1;
+  steep.n_dot_l = 0.5f;
+  steep.tan_theta = 2;
+  return moves_lookup() || compares_otherwise(flat, steep);
+}
+
+bool Bias::compares_otherwise(const in_float::Surface& one, const in_float::Surface& other) const {
   return std::any_of(compared_.begin(), compared_.end(), [&](const ActivePart& active) {
-    return active.part->formula.factor(flat) != active.part->formula.factor(steep);
+    return active.part->formula.factor(one) != active.part->formula.factor(other);
   });
 }
 

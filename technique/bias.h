@@ -59,6 +59,9 @@ class Bias {
   // True if at() depends on tan_theta.
   bool reads_tan() const;
 
+  // True if the normal that a renderer shades with changes at() or the place looked up.
+  bool reads_normal() const;
+
   // True if the bias moves the place looked up. The probe and the truth of the taps then depend on the bias.
   bool moves_lookup() const { return !moving_.empty(); }
   // The vector by which the lookup is moved, in double. position and normal are in the world.
@@ -83,6 +86,8 @@ class Bias {
   OffsetUnit offset_unit_ = OffsetUnit::texel;
   const TapReference* reference_ = tap_references().data();
   float plane_cap_ = std::numeric_limits<float>::max();
+  // Whether a compared part has another factor at the second surface.
+  bool compares_otherwise(const in_float::Surface& one, const in_float::Surface& other) const;
   std::vector<ActivePart> compared_, moving_, casting_;
   std::optional<PolygonOffset> polygon_offset_;
 };

@@ -15,7 +15,9 @@
 #include "frames/value_curve.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
+#include "technique/depth_format.h"
 #include "technique/light_frame.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {
@@ -121,6 +123,26 @@ bool has_nan(const Image<float>& values) {
   return false;
 }
 
+// What the depths of the file say of the format that they were drawn in: it stands in the technique if nothing else does.
+void check_format(const std::vector<float>& depths, GivenMap& map) {
+  const Setting& format = find_setting("map.format");
+  Settings settings;
+  for (const auto& [name, value] : map.technique)
+    if (name == format.name) {
+      format.set(settings, value);
+      if (!are_held_by(settings.map.format, depths))
+        refuse_picture(map.name,
+                       fmt::format("its depths are no multiples of 1 / (2^{} - 1), so they were not drawn in the "
+                                   "map.format of the technique; leave that out, or declare 32f",
+                                   value));
+      return;
+    }
+  if (const std::optional<DepthFormat> told = told_format(depths)) {
+    settings.map.format = *told;
+    map.technique.emplace_back(format.name, format.get(settings));
+  }
+}
+
 GivenMap read_map(const FrameFile& file) {
   const std::string path = path_in(file, file.map->file);
   const DecodedImage image = read_image(path, [&](const DecodedImage& head) {
@@ -131,6 +153,7 @@ GivenMap read_map(const FrameFile& file) {
   });
   const std::vector<float> depths = grey_values(image);
   GivenMap map{path, Image<float>(image.width, image.height), file.map_from_world(), file.map->technique};
+  check_format(depths, map);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const float depth = depths[map.depth.index(x, y)];

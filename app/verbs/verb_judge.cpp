@@ -178,7 +178,7 @@ void print_verdict(const Subject& subject, const FrameVerdict& verdict) {
 
 // A cause of a frame with its own map, as it is printed and written.
 struct FrameCause {
-  CauseColor row;
+  std::string name, label;
   double part;  // of frame_error
   double size;  // the metric
 };
@@ -192,7 +192,8 @@ std::vector<FrameCause> causes_of_frame(const FrameVerdict& verdict, const Ladde
   for (const CauseColor& cause : causes_of({&record, 1}))
     for (size_t c = 0; c < parts.size(); ++c)  // sums of others are no images of the ladder
       if (ladder.causes[c].name == cause.name)
-        causes.push_back({cause, parts[c], verdict.metrics.at(std::string(cause.name))});
+        causes.push_back(
+            {std::string(cause.name), std::string(cause.label), parts[c], verdict.metrics.at(std::string(cause.name))});
   return causes;
 }
 
@@ -203,8 +204,7 @@ void print_causes(const FrameVerdict& verdict, const Ladder& ladder) {
       "  {:<14}{:>12}{:>12}\n",
       "", "its part", "by itself");
   for (const FrameCause& cause : causes_of_frame(verdict, ladder))
-    fmt::print("  {:<14}{:>11.5f}%{:>11.5f}%   {}\n", cause.row.name, 100 * cause.part, 100 * cause.size,
-               cause.row.label);
+    fmt::print("  {:<14}{:>11.5f}%{:>11.5f}%   {}\n", cause.name, 100 * cause.part, 100 * cause.size, cause.label);
   fmt::print(
       "  the parts sum to frame_error; where causes of opposite signs meet in a pixel they cancel, so by itself a "
       "cause can "
@@ -240,7 +240,7 @@ std::string judge_json(const Subject& subject, const FrameVerdict& verdict, cons
            {"folder", out}};
   if (ladder)
     for (const FrameCause& cause : causes_of_frame(verdict, *ladder))
-      all["causes"][cause.row.name] = {{"part", number_json(cause.part)}, {"size", number_json(cause.size)}};
+      all["causes"][cause.name] = {{"part", number_json(cause.part)}, {"size", number_json(cause.size)}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -14,22 +14,11 @@
 #include "compare/results/metrics.h"
 #include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
+#include "technique/depth_format.h"
 #include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
-
-double quantum(DepthFormat format, float depth) {
-  switch (format) {
-    case DepthFormat::d16:
-      return 1.0 / 65535;
-    case DepthFormat::d24:
-      return 1.0 / 16777215;
-    case DepthFormat::d32f:
-      break;
-  }
-  return static_cast<double>(std::nextafter(depth, 2.0f)) - depth;
-}
 
 // Whether `visibility` is what the technique's definition gives for the probe and a map whose depths are of `format`.
 // If all taps have the same weight, it must be the number of lit taps, divided, bit for bit.
@@ -50,7 +39,7 @@ bool holds(const LookupEvidence& e, const ReceiverTaps& taps, float bias, const 
     const Tap tap = taps.on(map, format, t);
     const bool lit = tap.lit(bias);
     const bool tie = format != DepthFormat::d32f && !tap.always_lit &&
-                     std::abs(static_cast<double>(tap.reference - bias) - tap.depth) <= quantum(format, tap.depth);
+                     std::abs(static_cast<double>(tap.reference - bias) - tap.depth) <= depth_step(format, tap.depth);
     if (lit && !tie) least += tap.weight;
     if (lit || tie) most += tap.weight;
   }
@@ -59,13 +48,6 @@ bool holds(const LookupEvidence& e, const ReceiverTaps& taps, float bias, const 
   const glm::dvec2 at = glm::abs(glm::dvec2(e.probe.map_texels[i]));
   const double weights = 2 * (0x1p-8 + 8 * 0x1p-24 * std::max({at.x, at.y, static_cast<double>(map.size().x)}));
   return visibility >= least - weights && visibility <= most + weights;
-}
-
-// Whether the float is a depth of n bits: k / (2^n - 1), or a neighbouring float, if the driver's conversion rounds.
-bool held_by(int bits, float depth) {
-  const double steps = std::exp2(bits) - 1;
-  const float nearest = static_cast<float>(std::round(depth * steps) / steps);
-  return std::abs(nearest - depth) <= std::nextafter(depth, 2.0f) - depth;
 }
 
 }  // namespace
@@ -111,9 +93,9 @@ SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
     const glm::ivec2 texel(i % across, i / across);
     const float stored = in.stored_map.at(texel), right = exact.at(texel);
     const double error = std::abs(static_cast<double>(stored) - right);
-    errors.push_back(std::isnan(error) ? infinity : error / quantum(in.evidence.map.format, right));
-    if (found.bits == 16 && !held_by(16, stored)) found.bits = 24;
-    if (found.bits == 24 && !held_by(24, stored)) found.bits = 32;
+    errors.push_back(std::isnan(error) ? infinity : error / depth_step(in.evidence.map.format, right));
+    if (found.bits == 16 && !is_held_by(DepthFormat::d16, stored)) found.bits = 24;
+    if (found.bits == 24 && !is_held_by(DepthFormat::d24, stored)) found.bits = 32;
   };
   for (size_t word = 0; word < asked.size(); ++word)
     for (uint64_t left = asked[word]; left != 0; left &= left - 1)

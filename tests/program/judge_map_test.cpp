@@ -294,6 +294,54 @@ TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamed) {
   }
 }
 
+// Also where the frame is full of acne, so that the declared lookup is nearer to it than to the truth.
+TEST_F(JudgeWithMap, ABiasThatIsLeftOutIsNamedWhateverTheFramesError) {
+  using Set = std::map<std::string, std::string>;
+  for (const char* scene : {"cube-room", "spot-room"})
+    for (const Set& bias : {Set{{"bias.constant", "0.0005"}, {"map.format", "16"}},
+                            Set{{"bias.slope", "1"}, {"bias.unit", "texel"}, {"filter.kind", "box"}}}) {
+      SCOPED_TRACE(scene + bias.begin()->first);
+      Set settings = bias;
+      settings["scene.name"] = scene;
+      measure(settings);
+      nlohmann::json frame = deliver({});
+      const nlohmann::json said = judged(frame);
+      EXPECT_EQ(said["metrics"]["frame_lookup_differs"], 0);
+      for (const char* key : {"bias.constant", "bias.slope", "bias.unit"}) frame["map"]["technique"].erase(key);
+      judged(frame, 3);
+      EXPECT_TRUE(says("it is not the frame's own; check bias")) << output_;
+    }
+}
+
+// The light is square to the floor, and no bias is there: what a receiver of the floor compares with its texel is the same depth
+// but for rounding. So a frame may show each of them lit or dark. No
+// cube stands beyond 4 m.
+TEST_F(JudgeWithMap, VerdictsThatRoundingCanTurnAreTheLookups) {
+  measure({{"light.position_m", "0,20,0"}, {"light.target_m", "0,0,0"}, {"map.format", "32f"}});
+  settings_.erase("light.position_m"), settings_.erase("light.target_m");
+  size_t turned = 0;
+  for (size_t i = 0; i < visibility_.size(); ++i)
+    if (visibility_[i] == 1 && positions_[i].y == -0.5f && std::abs(positions_[i].x) > 4) visibility_[i] = 0, ++turned;
+  ASSERT_GT(turned, 1000u);
+  EXPECT_GT(judged(deliver({}))["metrics"]["frame_lookup"], 0.01);
+}
+
+// The depths tell the format, on which the size of polygon units hangs.
+TEST_F(JudgeWithMap, TheFormatIsThatOfTheDepths) {
+  for (const char* format : {"16", "24"}) {
+    SCOPED_TRACE(format);
+    causes_.clear();
+    measure({{"bias.polygon_units", format == std::string("16") ? "80" : "20000"}, {"map.format", format}});
+    nlohmann::json frame = deliver({});
+    frame["map"]["technique"].erase("map.format");
+    expect_causes(judged(frame));
+    frame["map"]["technique"]["map.format"] = format == std::string("16") ? "24" : "16";
+    write("frame.json", frame.dump());
+    EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
+    EXPECT_TRUE(says("were not drawn in the map.format")) << output_;
+  }
+}
+
 TEST_F(JudgeWithMap, CastersThatAreDrawnOtherwiseAreNamed) {
   measure({{"map.cull", "front"}});
   nlohmann::json frame = deliver({});
