@@ -66,7 +66,7 @@ TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
   EXPECT_EQ(without_times(folder_ / "killed/results.csv"), without_times(folder_ / "whole/results.csv"));
   for (const auto& entry : fs::directory_iterator(folder_ / "killed"))
     EXPECT_TRUE(entry.path().filename() == "results.sqlite" || entry.path().filename() == "results.csv" ||
-                entry.path().filename() == "report.html")
+                entry.path().filename() == "report.html" || entry.path().filename() == ".noonmark-files")
         << entry;
 }
 
