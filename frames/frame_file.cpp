@@ -339,9 +339,10 @@ FrameFile parse_frame_file(const std::string& path, std::string_view text) {
     }
   }();
   if (!json.is_object()) refuse(path, "must be a JSON object");
-  // Lengths are checked in metres, so their unit is read before them. One that is no number is refused with the rest.
-  const auto unit = json.find("metres_per_unit");
-  check_object(path, json, "", unit != json.end() && unit->is_number() ? unit->get<double>() : 1);
+  // Lengths are checked in metres, so their unit is read before them. One that cannot be is refused with the rest.
+  constexpr const char* unit_key = "metres_per_unit";
+  const double unit = json.contains(unit_key) && json[unit_key].is_number() ? json[unit_key].get<double>() : 1;
+  check_object(path, json, "", range_of(unit_key).numbers.holds(unit) ? unit : 1);
   FrameFile file;
   file.path = path;
   const Object all(file.path, "", &json);

@@ -116,7 +116,7 @@ Outcome check_values(const CheckEvidence& e, const FrameStatistics&) {
   size_t shown = 0;
   for (size_t i = 0; i < v.size(); ++i) {
     shown += !std::isnan(v[i]);
-    if (std::isnan(v[i]) || (v[i] >= 0 && v[i] <= 1)) continue;
+    if (std::isnan(v[i]) || (v[i] >= -rounding_of_sums && v[i] <= 1 + rounding_of_sums)) continue;
     if (outside++ == 0) {
       const auto width = static_cast<size_t>(v.width);
       x = static_cast<int>(i % width), y = static_cast<int>(i / width), value = v[i];
@@ -129,12 +129,12 @@ Outcome check_values(const CheckEvidence& e, const FrameStatistics&) {
   if (outside == 0) return passed("every value is in [0,1] or says that there is no surface");
   if (value < 0 && value > -1)
     return failed(
-        fmt::format("{} values are outside [0,1]; the first is {:g} at x = {}, y = {}: -1 (no surface) was mixed with "
+        fmt::format("{} values are outside [0,1]; the first is {} at x = {}, y = {}: -1 (no surface) was mixed with "
                     "a visibility, as "
                     "by multisampling that was resolved, or by scaling; write one sample at each pixel's centre",
                     outside, value, x, y));
   return failed(
-      fmt::format("{} values are outside [0,1]; the first is {:g} at x = {}, y = {}; write visibility, from 0 "
+      fmt::format("{} values are outside [0,1]; the first is {} at x = {}, y = {}; write visibility, from 0 "
                   "(shadowed) to 1 (lit), and -1 or NaN where there is no surface",
                   outside, value, x, y));
 }
@@ -242,8 +242,8 @@ Outcome check_encoding(const CheckEvidence& e, const FrameStatistics&) {
     return failed(fmt::format("{}: {}", ramps(of_curve(curve)), wrong(*curve)));
   }
   return not_checked(
-      fmt::format("{} values are shared by many pixels, and {} ramps tell straight from curved: too little "
-                  "to tell linear values from encoded ones",
+      fmt::format("{} values are shared by many pixels, and {} ramps of a blend were asked: neither tells "
+                  "linear values from encoded ones",
                   found.levels.size(), found.ramps));
 }
 

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "frames/check_statistics.h"
 
 namespace noonmark {
 namespace {
 
-// Of a shader's float arithmetic: sums of weights are off by a few last places, and a GPU's pow by 2^-14.
-constexpr double of_sums = 1e-5, of_shader = 1e-4;
+// Of a shader's float arithmetic: a GPU's pow is off by 2^-14.
+constexpr double of_shader = 1e-4;
 constexpr size_t most_levels = 24;
 constexpr size_t least_of_level = 4;  // pixels
 
@@ -23,12 +24,12 @@ std::vector<double> levels_in(std::vector<double> values, double rounding) {
   std::vector<Level> found;
   for (size_t i = 0; i < values.size();) {
     size_t end = i;
-    while (end < values.size() && values[end] - values[i] <= of_sums) ++end;
+    while (end < values.size() && values[end] - values[i] <= rounding_of_sums) ++end;
     found.push_back({values[(i + end) / 2], end - i});
     i = end;
   }
   // Of a picture of whole numbers a place is one of them.
-  const double place = std::max(of_sums, 2 * rounding), reach = 0.03;
+  const double place = std::max(rounding_of_sums, 2 * rounding), reach = 0.03;
   std::vector<Level> levels;
   size_t first = 0, last = 0, inside = 0;
   for (const Level& level : found) {
@@ -44,12 +45,14 @@ std::vector<double> levels_in(std::vector<double> values, double rounding) {
   return result;
 }
 
+// Levels of one k are one finding: what rounding makes of a value is several levels.
 TapFit fit_of(const std::vector<double>& levels, const ValueCurve& curve, double rounding) {
   constexpr int most_taps = 256;
   TapFit best;
   for (int taps = 2; taps <= most_taps; ++taps) {
     // A number of taps is chosen among many, the larger ones among more.
     double bits = -2 * std::log2(taps);
+    std::set<double> found;
     for (const double level : levels) {
       const double value = curve.linear(level);
       const double off = 0.5 * (curve.linear(level + rounding) - curve.linear(level - rounding));
@@ -58,7 +61,7 @@ TapFit fit_of(const std::vector<double>& levels, const ValueCurve& curve, double
         bits = 0;
         break;
       }
-      bits += std::max(0.0, -std::log2(2 * taps * off));
+      if (found.insert(lit).second) bits += std::max(0.0, -std::log2(2 * taps * off));
     }
     if (bits > best.bits) best = {taps, bits};
   }
@@ -137,7 +140,7 @@ double rounding_of(const Image<float>& visibility) {
   }
   if (bits_8) return 0.5 / 255;
   if (half) return 0x1p-12;
-  return bits_16 ? std::max(0.5 / 65535, of_sums) : of_shader;
+  return bits_16 ? std::max(0.5 / 65535, rounding_of_sums) : of_shader;
 }
 
 CurveEvidence curve_evidence(const CheckEvidence& e) {
@@ -148,8 +151,7 @@ CurveEvidence curve_evidence(const CheckEvidence& e) {
     if (const float value = e.frame.visibility[i]; e.counted[i] && value > 0.004f && value < 0.996f)
       between.push_back(value);
   found.levels = levels_in(std::move(between), rounding == of_shader ? 0 : rounding);
-  for (size_t c = 0; c < curve_count; ++c)
-    found.fits[c] = fit_of(found.levels, value_curves[c], c == 0 && rounding == of_shader ? of_sums : rounding);
+  for (size_t c = 0; c < curve_count; ++c) found.fits[c] = fit_of(found.levels, value_curves[c], rounding);
   find_ramps(e, rounding == of_shader ? 0 : rounding, found);
   return found;
 }

@@ -38,6 +38,8 @@ struct CurveEvidence {
 };
 CurveEvidence curve_evidence(const CheckEvidence& evidence);
 
+// Sums of a filter's weights in float are off by a few last places.
+inline constexpr double rounding_of_sums = 1e-5;
 // What rounding can have done to a value of the picture: half a step of 8 or 16 bits, of a half float, or of a shader's float.
 double rounding_of(const Image<float>& visibility);
 

@@ -176,6 +176,12 @@ void OutputFolder::take() {
   lock_.emplace(outputs_.folder);
   MadeFiles made(outputs_.folder);
   made.require_ours(outputs_.all());
+  std::error_code none;
+  for (const std::string& name : outputs_.files)
+    if (fs::is_directory(fs::symlink_status(fs::path(outputs_.folder) / name, none)))
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}/{}: is a folder, where a file would be written; move it away, or give another --out",
+                              outputs_.folder, name));
   if (!outputs_.inner.empty() && made.has(outputs_.inner))
     remove_below(fs::path(outputs_.folder) / outputs_.inner, outputs_.inner_files);
   made.remove(outputs_.all());

@@ -59,8 +59,10 @@ std::string as_setting(const std::string& names, const std::vector<std::string>&
   return text;
 }
 
-// "; it is an option of judge": the verbs, other than this one, that have the option. Empty if there are none.
-std::string verbs_with(const CLI::App& app, const CLI::App& verb, const std::string& option) {
+// "; it is an option of judge": the verbs, other than this one, that have the option, which may be typed with capital letters.
+// Empty if there are none.
+std::string verbs_with(const CLI::App& app, const CLI::App& verb, const std::string& typed) {
+  const std::string option = CLI::detail::to_lower(typed);
   std::vector<std::string> names;
   for (const CLI::App* other : app.get_subcommands([](const CLI::App*) { return true; })) {
     const std::vector<std::string> options = options_of(*other);

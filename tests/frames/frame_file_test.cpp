@@ -198,6 +198,12 @@ TEST(FrameFile, EveryNumberHasARange) {
   EXPECT_NE(camera_at(2e9, 1).find("'camera.eye'"), std::string::npos) << camera_at(2e9, 1);
   EXPECT_EQ(camera_at(2e9, 0.01), "");
   EXPECT_NE(camera_at(2e7, 100).find("'camera.eye'"), std::string::npos);
+  for (const double unit : {0.0, -1.0, 1e20}) {
+    Json json = least();
+    json["metres_per_unit"] = unit;
+    json["contact"] = {{"distance", 1}};
+    EXPECT_NE(fault_of(json).find("'metres_per_unit' must"), std::string::npos) << fault_of(json);
+  }
 }
 
 TEST(FrameFile, AMatrixWithoutAnInverseIsRefused) {

@@ -25,6 +25,19 @@ float srgb(float v) {
 float gamma_22(float v) { return static_cast<float>(std::pow(v, 1 / 2.2)); }
 float as_8_bits(float v) { return std::round(v * 255) / 255; }
 
+// ---- values
+
+TEST(Values, SumsOfWeightsMayBeRounded) {
+  for (const float by : {1e-7f, 5e-6f}) {
+    const auto rounded = [&](float v) { return v == 1 ? 1 + by : v == 0 ? -by : v; };
+    const CheckResult found = check_named(verdict_of(good(), each_value(good().frame.visibility, rounded)), "values");
+    EXPECT_EQ(found.state, CheckState::passed) << found.says;
+  }
+  const auto beyond = [](float v) { return v == 1 ? 1.001f : v; };
+  EXPECT_EQ(check_named(verdict_of(good(), each_value(good().frame.visibility, beyond)), "values").state,
+            CheckState::failed);
+}
+
 // ---- encoding
 
 TEST(Encoding, TheLevelsOfAFilterTellIt) {  // of 9 taps
@@ -43,6 +56,18 @@ TEST(Encoding, AnAsymmetricEdgeIsNotSrgb) {
     const CheckResult found = check_named(verdict_of(good(), each_value(good().frame.visibility, bent)), "encoding");
     EXPECT_EQ(found.state, CheckState::not_checked) << power << ": " << found.says;
   }
+}
+
+// Two weights that are no k / n, each rounded to five values: decoded with a gamma of 2.2 all are multiples of 1/39 within a
+// shader's rounding, which two numbers are by chance.
+TEST(Encoding, RoundedWeightsAreNotGamma) {
+  int pixel = 0;
+  const auto weighted = [&](float v) {
+    if (!(v > 0 && v < 1)) return v;
+    return (v < 0.5f ? 0.3931f : 0.6069f) + static_cast<float>(pixel++ % 5 - 2) * 2e-5f;
+  };
+  const CheckResult found = check_named(verdict_of(good(), each_value(good().frame.visibility, weighted)), "encoding");
+  EXPECT_NE(found.state, CheckState::failed) << found.says;
 }
 
 // The blend of 2 x 2 texels that are lit or dark by chance: each is a shadow's error, and the ramps between them are straight.

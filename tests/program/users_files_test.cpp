@@ -123,6 +123,18 @@ TEST_F(UsersFiles, BesideARecommendationStay) {
   EXPECT_EQ(names, names_before);
 }
 
+// A user may have put a folder where Noonmark's list names a file.
+TEST_F(UsersFiles, AFolderOfAListedNameIsRefusedBeforeAnythingIsTouched) {
+  const Words words = Words{"recommend", "plate", "--out", "out"} + small + quick;
+  ASSERT_EQ(run(words), 0) << output_;
+  fs::remove(folder_ / "out/recommended.txt");
+  put("out/recommended.txt/notes");
+  const auto before = contents("out");
+  EXPECT_EQ(run(words), 2) << output_;
+  EXPECT_TRUE(says("recommended.txt")) << output_;
+  EXPECT_EQ(contents("out"), before);
+}
+
 // The list is a file, so anyone can write it. It cannot name what the verb itself does not write.
 TEST_F(UsersFiles, AreNotRemovedForAForgedList) {
   const Words words = Words{"recommend", "plate", "--out", "out"} + small + quick;
