@@ -36,7 +36,7 @@ std::optional<SurfaceAlignment> surface_alignment(const GivenFrame& frame) {
   SurfaceAlignment found{.differing = differing(shown, given)};
   found.left = found.differing;
   if (found.differing < least_differing) return found;
-  for (const Flip& flip : flips)
+  for (const PictureFlip& flip : flips)
     if (const size_t left = differing(flipped(shown, flip.left_to_right, flip.upside_down), given);
         left * 10 < found.differing && left < found.left)
       found.flip = &flip, found.left = left;
@@ -71,10 +71,10 @@ ValueAlignment value_alignment(const GivenFrame& frame, const ReceiverTruth& tru
   return found;
 }
 
-const Flip* ValueAlignment::flip() const {
+const PictureFlip* ValueAlignment::flip() const {
   // So many pixels must be wrong that no small shadow decides.
   constexpr double least_wrong_pixels = 100;
-  const Flip* best = nullptr;
+  const PictureFlip* best = nullptr;
   double least = 1;
   for (size_t k = 0; k < flips.size(); ++k) {
     const Compared& c = by_flip[k];

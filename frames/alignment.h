@@ -15,11 +15,11 @@
 
 namespace noonmark {
 
-struct Flip {
+struct PictureFlip {
   bool left_to_right = false, upside_down = false;
   const char* says = "";  // "flipped left to right"
 };
-inline constexpr std::array<Flip, 3> flips{{
+inline constexpr std::array<PictureFlip, 3> flips{{
     {true, false, "flipped left to right"},
     {false, true, "flipped upside down"},
     {true, true, "turned by 180 degrees"},
@@ -27,10 +27,10 @@ inline constexpr std::array<Flip, 3> flips{{
 
 // By the pixels that have no surface: the visibility's own (-1, NaN, alpha 0) and those of the given receivers.
 struct SurfaceAlignment {
-  size_t differing = 0;        // pixels where only one of both has a surface
-  const Flip* flip = nullptr;  // leaves less than a tenth of them
-  glm::ivec2 shift{0};         // of one pixel at most; leaves less than three tenths of them. x to the right, y down
-  size_t left = 0;             // what the flip or the shift leaves
+  size_t differing = 0;               // pixels where only one of both has a surface
+  const PictureFlip* flip = nullptr;  // leaves less than a tenth of them
+  glm::ivec2 shift{0};  // of one pixel at most; leaves less than three tenths of them. x to the right, y down
+  size_t left = 0;      // what the flip or the shift leaves
   bool misplaced() const { return flip || shift != glm::ivec2(0); }
 };
 // Empty if the visibility or the receivers have a surface nowhere or everywhere, or no receivers are given.
@@ -46,7 +46,7 @@ struct ValueAlignment {
   std::array<Compared, flips.size()> by_flip;
   // The flip with which the visibility differs from the truth by less than a third, or null. A light that is mirrored in a
   // scene that is symmetric looks the same.
-  const Flip* flip() const;
+  const PictureFlip* flip() const;
 };
 ValueAlignment value_alignment(const GivenFrame& frame, const ReceiverTruth& truth);
 

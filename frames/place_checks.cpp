@@ -250,7 +250,7 @@ Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
     return not_checked(
         fmt::format("{} receivers face the light and have a visibility both as delivered and flipped; {} are needed",
                     least->count, enough));
-  if (const Flip* const flip = values.flip()) {
+  if (const PictureFlip* const flip = values.flip()) {
     const ValueAlignment::Compared& c = values.by_flip[static_cast<size_t>(flip - flips.data())];
     return failed(
         fmt::format("the visibility differs from the truth by {:.3f} in the mean as delivered, and by {:.3f} if it is "
@@ -297,7 +297,7 @@ Outcome check_coverage(const CheckEvidence& e, const FrameStatistics&) {
   // the border of the picture stays.
   size_t least = differ;
   const char* flip = "";
-  for (const Flip& one : flips)
+  for (const PictureFlip& one : flips)
     if (const size_t left = differing(flipped(of_frame, one.left_to_right, one.upside_down), of_scene); left < least) {
       least = left;
       flip = one.says;
