@@ -139,10 +139,27 @@ Outcome check_values(const CheckEvidence& e, const FrameStatistics&) {
                   outside, value, x, y));
 }
 
-Outcome check_inverted(const CheckEvidence&, const FrameStatistics& s) {
-  if (const std::string why = too_few(s.deep_lit.count, s.deep_dark.count); !why.empty()) return not_checked(why);
-  if (is_inverted(s))
-    return failed(fmt::format("{}: light and shadow are exchanged; write 1 where the light reaches", deep_text(s)));
+// Of all pixels, not only those deep inside: hardly a lit one is lit in the frame, and hardly a shadowed one is dark. Acne
+// leaves the shadowed ones dark, and a lost shadow leaves the lit ones lit.
+bool is_exchanged(const CheckEvidence& e) {
+  double value[2] = {};
+  size_t count[2] = {};
+  for (size_t i = 0; i < e.counted.size(); ++i) {
+    if (!e.counted[i]) continue;
+    value[e.truth.lit[i]] += e.frame.visibility[i];
+    ++count[e.truth.lit[i]];
+  }
+  return count[0] >= enough && count[1] >= enough && value[0] > 0.9 * static_cast<double>(count[0]) &&
+         value[1] < 0.1 * static_cast<double>(count[1]);
+}
+
+Outcome check_inverted(const CheckEvidence& e, const FrameStatistics& s) {
+  constexpr const char* mend = "light and shadow are exchanged; write 1 where the light reaches";
+  if (is_inverted(s)) return failed(fmt::format("{}: {}", deep_text(s), mend));
+  if (const std::string why = too_few(s.deep_lit.count, s.deep_dark.count); !why.empty())
+    return is_exchanged(e)
+               ? failed(fmt::format("nearly all lit pixels are dark, and nearly all shadowed ones lit: {}", mend))
+               : not_checked(why);
   return passed(deep_text(s));
 }
 
