@@ -43,7 +43,7 @@ struct GivenClimb {
   double map_off_m = 0, depth_spread_m = 0;
   // The share of the counted receivers whose picture on top is none that the lookup of the map gives within the rounding of
   // the receivers, of both renderers' arithmetic and of the map's format. Where the bias reads a normal, receivers on
-  // surfaces whose vertices have other normals than their triangles are left out: `interpolated` is their share. 0 if too few
+  // smooth surfaces, whose vertices have normals of their own, are left out: `interpolated` is their share. 0 if too few
   // are left.
   double beyond_rounding = 0, interpolated = 0;
   // What the map holds beside the offset that the technique declares, and the mean |R5 - R4| over the counted receivers if
