@@ -71,7 +71,7 @@ struct SectionLine {
 struct MissingBlocker {
   std::string part;               // its name
   bool culled = false;            // the map does not draw the triangle
-  std::optional<double> drawn_m;  // where a face of the part that the map draws first lies there; empty: nowhere
+  std::optional<double> drawn_m;  // the first depth there of the faces of the part that the map draws; empty: there is none
 };
 
 struct ReceiverSection {
