@@ -108,8 +108,6 @@ static void use_lookup(unsigned program, int show) {
   set(program, "lookup", n, all[0].m);
   set(program, "world_from_clip", 1, back.m);
   set_int(program, "show", show);
-  const char* names[] = {"shadow_map", "second_map", "picture", "history", "holes", "samples"};
-  for (int i = 0; i < 6; i++) set_int(program, names[i], i);
   bind(4, GL_TEXTURE_2D, holes);
 }
 static void screen(int step, unsigned framebuffer, unsigned picture, unsigned history, int show) {
@@ -145,6 +143,7 @@ static void draw_frame(int frame, int show) {  // `show`: see scene.glsl
   memcpy(stale, lights, sizeof stale);
   place_all(frame);
   for (int i = 0; i < light_count; i++) memcpy(lights[i].lookup, stale[i].map, sizeof stale[i].map);
+  if (has("aspect")) lights[0].lookup[0] = mul(scaling((float)WIDTH / HEIGHT, 1, 1), lights[0].lookup[0]);
   draw_maps();
   const struct target* t = show >= 0 && !has("deferred") ? &targets[3] : &targets[has("temporal") ? frame & 1 : 0];
   const mat clip_from_world = mul(camera_projection, camera_view);
@@ -189,7 +188,11 @@ static unsigned pass_program(const char* pass) {  // each option is a define: ca
     end += snprintf(c, sizeof defines - (size_t)end, "#define %s\n", options[i]);
     for (c += 8; *c != '\n'; c++) *c = *c == '-' ? '_' : (char)toupper(*c);
   }
-  return program_of(defines, source);
+  const unsigned program = program_of(defines, source);
+  glUseProgram(program);
+  const char* names[] = {"shadow_map", "second_map", "picture", "history", "holes", "samples"};
+  for (int i = 0; i < 6; i++) set_int(program, names[i], i);
+  return program;
 }
 static void make_all(void) {
   unsigned commands[4][5], buffers[4];
@@ -243,10 +246,10 @@ static void make_all(void) {
     for (int k = 0; k < (has("cascades-atlas") ? 1 : l->maps); k++)
       l->framebuffers[k] = framebuffer_of(colours, depths, kind, k);
   }
-  make_target(&targets[0], has("two") || has("other-map")                 ? GL_RGBA32F
-                           : any("shaded", "temporal") || has("deferred") ? GL_RGBA16F
-                           : has("srgb")                                  ? GL_SRGB8_ALPHA8
-                                                                          : GL_R32F);
+  make_target(&targets[0], any("shaded", "temporal") || has("deferred") ? GL_RGBA16F
+                           : any("two", "other-map")                    ? GL_RGBA32F
+                           : has("srgb")                                ? GL_SRGB8_ALPHA8
+                                                                        : GL_R32F);
   if (has("temporal")) make_target(&targets[1], GL_RGBA16F);
   if (has("deferred")) make_target(&targets[2], GL_R8);
   make_target(&targets[3], GL_R32F);

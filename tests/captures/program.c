@@ -62,7 +62,10 @@ static void write_known(const char* folder) {
   write_matrix(file, "camera_view", camera_view);
   fputs(", ", file);
   write_matrix(file, "camera_projection", camera_projection);
-  fputs(", \"lights\": [", file);
+  float sample[2] = {.5f, .5f};  // where in a pixel, from its lower left, the first sample is
+  glBindFramebuffer(GL_FRAMEBUFFER, targets[3].framebuffer);
+  if (has("msaa")) glGetMultisamplefv(GL_SAMPLE_POSITION, 0, sample);
+  fprintf(file, ", \"sample\": [%.9g, %.9g], \"lights\": [", sample[0], sample[1]);
   for (int i = 0; i < light_count; i++) {
     const struct light* l = &lights[i];
     fprintf(file, "%s{\"kind\": \"%s\", \"way\": [%.9g, %.9g, %.9g], \"bias\": %.9g, \"maps\": [", i ? ", " : "",

@@ -119,11 +119,7 @@ float visibility(int light, vec3 world) {
   int best = 0;
   vec4 q = in_light[light];
 #endif
-  vec2 scale = vec2(0.5);
-#ifdef ASPECT
-  scale.x *= 16.0 / 9.0;
-#endif
-  return read_map(light, best, vec3(q.xy / q.w * scale + 0.5, q.z / q.w * DEPTH.x + DEPTH.y));
+  return read_map(light, best, vec3(q.xy / q.w * 0.5 + 0.5, q.z / q.w * DEPTH.x + DEPTH.y));
 }
 
 float facing_light(int light, vec3 world, vec3 normal) { // cosine

@@ -84,7 +84,7 @@ static void make_scene(void) {
   object(ARM, first, mul(moving(1.8f, 0, .3f), scaling(.35f, 1.5f, .35f)), (vec){.8f, .5f, .6f});
   first = index_count;
   quad((vec){-.5f, 0, 0}, (vec){1, 0, 0}, (vec){0, 1, 0}, 0, 0);
-  object(HOLES, first, mul(moving(-.1f, 0, -.2f), mul(turning(-30), scaling(1.1f, 1.2f, 1))), (vec){.3f, .7f, .4f});
+  object(HOLES, first, mul(moving(0, 0, 1.2f), mul(turning(30), scaling(1.1f, 1.1f, 1))), (vec){.3f, .7f, .4f});
 }
 static int drawn(int which, int for_map) {  // is the object drawn in this pass
   if (has("multidraw")) return which == FLOOR || which == BOX;
@@ -111,12 +111,12 @@ static void place_light(struct light* l, const char* kind, int frame) {
   l->kind = kind;
   if (!strcmp(kind, "directional")) {
     const float a = .04f * frame;  // moves, so that the last frame's matrix is another
-    l->way = unit((vec){3 * cosf(a) - 2 * sinf(a), 5, 2 * cosf(a) + 3 * sinf(a)});
+    l->way = unit((vec){3 * cosf(a) - 2 * sinf(a), 3.2f, 2 * cosf(a) + 3 * sinf(a)});
     l->colour = (vec){1, .9f, .7f};
     const vec eye = {7 * l->way.x, 7 * l->way.y, 7 * l->way.z};
     const mat view = looking(eye, (vec){0, 0, 0}, (vec){0, 1, 0});
     l->maps = any("cascades-atlas", "cascades-array") ? 3 : 1;
-    l->bias = has("small") ? .0002f : has("large") ? .03f : .003f;
+    l->bias = has("small") ? .0003f : has("large") ? .04f : .005f;
     for (int k = 0; k < l->maps; k++) {
       const float e = l->maps == 1 ? 5 : (float[]){1.5f, 2.8f, 5.5f}[k],
                   z = l->maps == 1 ? 0 : (float[]){1.6f, .8f, 0}[k];
@@ -145,7 +145,7 @@ static void place_all(int frame) {
   place_light(&lights[0], any("spot", "vertex-bias") ? "spot" : has("point") ? "point" : "directional", frame);
   if (light_count == 2) place_light(&lights[1], "spot", frame);
   if (any("polygon-offset", "vertex-bias")) lights[0].bias = 0;  // it is in the map
-  camera_view = looking((vec){.2f, 3, 6}, (vec){0, .3f, 0}, (vec){0, 1, 0});
+  camera_view = looking((vec){.1f, 2.6f, 4.4f}, (vec){0, .25f, 0}, (vec){0, 1, 0});
   const float aspect = (float)WIDTH / HEIGHT;
   camera_projection = has("orthographic")
                           ? parallel(-2.3f * aspect, 2.3f * aspect, -2.3f, 2.3f, .5f, 15, at_near, at_far)
