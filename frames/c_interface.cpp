@@ -150,11 +150,9 @@ GivenFrame frame_of(const noonmark_frame& f) {
                    .positions = {},
                    .view = view_of(f),
                    .light = light_of(f)};
-  for (size_t i = 0; i < frame.visibility.size(); ++i) {
-    const float value = f.visibility[i];
-    frame.visibility[i] = value == -1 ? std::numeric_limits<float>::quiet_NaN() : value;
-    frame.marks_no_surface = frame.marks_no_surface || std::isnan(frame.visibility[i]);
-  }
+  std::copy_n(f.visibility, frame.visibility.size(), frame.visibility.pixels.begin());
+  take_marks(frame);
+  frame.normalised = f.normalised != 0;
   if (f.positions) {
     frame.receivers = GivenReceivers::positions;
     frame.marks_no_surface = true;

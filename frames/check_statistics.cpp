@@ -205,7 +205,8 @@ Shading shading_of(const CheckEvidence& e, const Image<uint8_t>& deep, const Reg
 
 Coverage coverage_of_visibility(const GivenFrame& frame) {
   Coverage covered(frame.visibility.width, frame.visibility.height, 0);
-  for (size_t i = 0; i < covered.size(); ++i) covered[i] = !std::isnan(frame.visibility[i]);
+  for (size_t i = 0; i < covered.size(); ++i)
+    covered[i] = !std::isnan(frame.visibility[i]) || (frame.not_judged.size() > 0 && frame.not_judged[i]);
   return covered;
 }
 

@@ -21,8 +21,8 @@ enum class CheckState { passed, failed, not_checked };
 struct CheckResult {
   std::string_view name;  // of the row in frame_checks(); what --accept names
   CheckState state = CheckState::passed;
-  std::string says;  // evidence and consequence, one line. Of one that was not checked: why
-  bool accepted = false;
+  std::string says;       // evidence and consequence, one line. Of one that was not checked: why
+  bool accepted = false;  // by the caller, or because the frame's visibility is normalised
 };
 
 struct FrameCheck {

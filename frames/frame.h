@@ -4,6 +4,7 @@
 //
 // What another renderer hands over. Conventions: scenes/scene.h.
 #pragma once
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -30,8 +31,13 @@ struct GivenMap {
 
 struct GivenFrame {
   std::string name;  // for messages: the file of the visibility
-  // Of each pixel, as it was delivered: 1 lit, 0 shadowed. NaN: no surface.
+  // Of each pixel, as it was delivered: 1 lit, 0 shadowed. NaN: nothing is judged there.
   Image<float> visibility;
+  // 1 for a pixel whose visibility is NaN although it shows a surface: one that is not judged. Empty: there is none.
+  Image<uint8_t> not_judged = {};
+  // The visibility was measured as the share between the same frame with all lit and with all dark. So shading, ambient light
+  // and an exchange of light and shadow are no faults that it can have.
+  bool normalised = false;
   // True if the picture could say "no surface" (-1, NaN or alpha 0) and did so for at least one pixel, or if positions or
   // depths say it. Then its coverage can be compared with the scene's.
   bool marks_no_surface = false;
@@ -40,6 +46,11 @@ struct GivenFrame {
   ViewMatrix view;
   Light light;
   std::optional<GivenMap> map = {};
+  std::vector<std::string> notes = {};  // sentences for people
 };
+
+// Takes the marks out of a visibility as it was delivered: -1 or NaN where there is no surface, -2 at a surface that is not
+// judged. Sets not_judged, and marks_no_surface if there is a mark of the first kind.
+void take_marks(GivenFrame& frame);
 
 }  // namespace noonmark

@@ -76,6 +76,10 @@ std::string wanted(const FrameKey& key, const Json& value, double scale) {
       return value.is_object() ? "" : "an object with names of settings and their values";
     case Kind::version:
       return value == 1 ? "" : "1, the version that this program reads";
+    case Kind::texts: {
+      const auto is_text = [](const Json& one) { return one.is_string() && !one.get<std::string>().empty(); };
+      return value.is_array() && std::all_of(value.begin(), value.end(), is_text) ? "" : "a list of texts";
+    }
   }
   return "";
 }
@@ -107,6 +111,9 @@ class Object {
   explicit operator bool() const { return json_ != nullptr; }
   bool has(const char* key) const { return json_ && json_->contains(key); }
   Object object(const char* key) const { return {path_, key, has(key) ? &json_->at(key) : nullptr}; }
+  std::vector<std::string> texts(const char* key) const {
+    return get<std::vector<std::string>>(key).value_or(std::vector<std::string>());
+  }
   std::optional<std::string> text(const char* key) const { return get<std::string>(key); }
   std::optional<double> number(const char* key) const { return get<double>(key); }
   bool flag(const char* key) const { return get<bool>(key).value_or(false); }
@@ -349,9 +356,11 @@ FrameFile parse_frame_file(const std::string& path, std::string_view text) {
   all.require("noonmark_frame", "it is 1");
   all.require("visibility", "the picture that is judged");
   file.scene = all.text("scene");
+  file.notes = all.texts("notes");
   const Object visibility = all.object("visibility");
   visibility.require("file", "the picture that is judged");
   file.visibility = *visibility.text("file");
+  file.normalised = visibility.flag("normalised");
   file.encoding = visibility.is("encoding", "srgb") ? ValueEncoding::srgb : ValueEncoding::linear;
   file.world_from_frame = world_from_frame(path, all, json);
   read_camera(all.object("camera"), file);

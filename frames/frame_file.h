@@ -34,8 +34,10 @@ struct MapFile {
 struct FrameFile {
   std::string path;  // of the JSON file, for messages. Paths below are as they stand in it, relative to its folder
   std::optional<std::string> scene;
+  std::vector<std::string> notes;
   std::string visibility;
   ValueEncoding encoding = ValueEncoding::linear;
+  bool normalised = false;
   std::optional<std::string> positions;
   std::optional<std::string> depth;
   DepthMeasure depth_measure = DepthMeasure::window;

@@ -41,9 +41,13 @@ constexpr FrameKey key_rows[] = {
     {"visibility", "file", Kind::text,
      "EXR (half or float), PNG (8 or 16 bits) or NPY (uint8, uint16, float16, float32, float64): 1 is lit, 0 shadowed; "
      "-1, "
-     "NaN or alpha 0 is no surface. The top row comes first; a pixel's sample is at its centre. Required."},
+     "NaN or alpha 0 is no surface; -2 (a float) is a surface that is not judged. The top row comes first; a pixel's "
+     "sample is at its centre. Required."},
     {"visibility", "encoding", Kind::choice, "Whether the values are linear, or encoded with sRGB's transfer function.",
      "linear|srgb"},
+    {"visibility", "normalised", Kind::flag,
+     "Whether the values are the share between the same frame with all lit and with all dark. Then shaded, intensity, "
+     "inverted and match refuse nothing: what they find is the renderer's own shadow."},
     {"", "axes", Kind::axes,
      "The scene's x, y and z (right-handed, Y up, as in glTF), each as an axis of the renderer with its sign: [\"x\", "
      "\"z\", "
@@ -135,6 +139,7 @@ constexpr FrameKey key_rows[] = {
     {"", "contact", Kind::object, "How near an occluder is to the receiver where light leaks at a contact."},
     within({"contact", "distance", Kind::number, "Along the light's ray. Default: 1% of the scene's diagonal."}, edge_m,
            "m"),
+    {"", "notes", Kind::texts, "What `judge` prints about this frame and writes into judge.json."},
 };
 
 }  // namespace

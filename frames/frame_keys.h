@@ -19,7 +19,8 @@ enum class FrameKeyKind {
   axes,
   matrix,
   settings,  // an object with settings' names and values
-  version
+  version,
+  texts
 };
 
 struct FrameKey {

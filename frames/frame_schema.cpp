@@ -52,6 +52,8 @@ std::string frame_schema() {
         return {{"type", "object"}, {"additionalProperties", {{"type", {"string", "number", "boolean", "array"}}}}};
       case Kind::version:
         return {{"const", 1}};
+      case Kind::texts:
+        return {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}};
     }
     return {};
   };

@@ -198,7 +198,7 @@ FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, con
   const Image<float> pixel_m = pixel_width_m(frame.view, verdict.receivers);
   verdict.checks = check_frame({scene, tracer, frame, seen, verdict.receivers, found.moved_m, verdict.truth,
                                 verdict.counted, pixel_m, verdict.light});
-  for (CheckResult& check : verdict.checks) check.accepted = rules.accepted.contains(std::string(check.name));
+  for (CheckResult& check : verdict.checks) check.accepted |= rules.accepted.contains(std::string(check.name));
   classify(tracer, pixel_m, rules, verdict);
   measure(verdict);
   if (verdict.metrics.at("counted") == 0 && !verdict.refused())

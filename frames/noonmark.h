@@ -72,7 +72,7 @@ NOONMARK_API void noonmark_scene_free(noonmark_scene *scene);
 typedef struct noonmark_frame {
   size_t struct_size; /* set by noonmark_frame_init */
   int32_t width, height;
-  const float *visibility; /* width x height: 1 lit, 0 shadowed; -1 or NaN: no surface */
+  const float *visibility; /* width x height: 1 lit, 0 shadowed; -1 or NaN: no surface; -2: a surface that is not judged */
   const float *positions;  /* width x height x 3: world positions of the receivers, NaN without a surface; or NULL: by rays */
   double clip_from_world[16]; /* of the camera, column by column, for column vectors */
   int32_t depth_0_to_1;       /* whether clip space has depths from 0 to 1; otherwise -1 to 1 */
@@ -88,6 +88,7 @@ typedef struct noonmark_frame {
   double edge_m;      /* the same in metres across the light's rays; 0: by edge_pixels */
   double contact_m;   /* how near an occluder is at a contact; 0: 1% of the scene's diagonal */
   const char *accept; /* names of checks whose failure does not refuse the frame, separated by commas; or NULL */
+  int64_t normalised; /* not 0: visibility is the share between the same frame all lit and all dark */
 } noonmark_frame;
 
 /* Sets every field to its default. struct_size: sizeof(noonmark_frame), as the caller was compiled. */

@@ -109,7 +109,8 @@ Evenness evenness_in_shadow(const CheckEvidence& e, const FrameStatistics& s) {
 }  // namespace
 
 Outcome check_values(const CheckEvidence& e, const FrameStatistics&) {
-  size_t outside = 0;
+  size_t outside = 0, not_judged = 0;
+  for (const uint8_t mark : e.frame.not_judged.pixels) not_judged += mark;
   int x = 0, y = 0;
   float value = 0;
   const Image<float>& v = e.frame.visibility;
@@ -124,18 +125,21 @@ Outcome check_values(const CheckEvidence& e, const FrameStatistics&) {
   }
   if (shown == 0)
     return failed(
-        "no pixel has a visibility: every one is -1, NaN or has alpha 0; write 1 where light reaches and 0 in shadow",
+        "no pixel has a visibility: every one is -1, -2, NaN or has alpha 0; write 1 where light reaches and 0 in "
+        "shadow",
         "no pixel has a visibility");
-  if (outside == 0) return passed("every value is in [0,1] or says that there is no surface");
-  if (value < 0 && value > -1)
+  if (outside == 0)
+    return passed("every value is in [0,1] or says that there is no surface" +
+                  (not_judged ? fmt::format("; {} pixels show a surface that is not judged (-2)", not_judged) : ""));
+  if (value < 0 && value > -2)
     return failed(
-        fmt::format("{} values are outside [0,1]; the first is {} at x = {}, y = {}: -1 (no surface) was mixed with "
-                    "a visibility, as "
+        fmt::format("{} values are outside [0,1]; the first is {} at x = {}, y = {}: -1 (no surface) or -2 (a surface "
+                    "that is not judged) was mixed with a visibility, as "
                     "by multisampling that was resolved, or by scaling; write one sample at each pixel's centre",
                     outside, value, x, y));
   return failed(
       fmt::format("{} values are outside [0,1]; the first is {} at x = {}, y = {}; write visibility, from 0 "
-                  "(shadowed) to 1 (lit), and -1 or NaN where there is no surface",
+                  "(shadowed) to 1 (lit), and -1 or NaN where there is no surface, -2 at a surface that is not judged",
                   outside, value, x, y));
 }
 

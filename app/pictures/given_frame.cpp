@@ -51,9 +51,9 @@ Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
   visibility.pixels = grey_values(image);
   for (size_t i = 0; i < visibility.size(); ++i) {
     float& value = visibility[i];
-    if (value == -1 || !has_surface(image, i))
+    if (!has_surface(image, i))
       value = std::numeric_limits<float>::quiet_NaN();
-    else if (encoding == ValueEncoding::srgb)
+    else if (encoding == ValueEncoding::srgb && value > 0)  // not the marks
       value = static_cast<float>(linear_of_srgb(value));
   }
   return visibility;
@@ -115,12 +115,6 @@ Image<glm::dvec3> positions_of_depths(const FrameFile& file, const std::string& 
       }
     }
   return positions;
-}
-
-bool has_nan(const Image<float>& values) {
-  for (const float value : values.pixels)
-    if (std::isnan(value)) return true;
-  return false;
 }
 
 // What the depths of the file say of the format that they were drawn in: it stands in the technique if nothing else does.
@@ -220,7 +214,10 @@ GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
     frame.receivers = GivenReceivers::depth;
     frame.positions = positions_of_depths(file, path_in(file, *file.depth), frame.view, frame.visibility);
   }
-  frame.marks_no_surface = frame.receivers != GivenReceivers::none || has_nan(frame.visibility);
+  take_marks(frame);
+  frame.normalised = file.normalised;
+  if (frame.receivers != GivenReceivers::none) frame.marks_no_surface = true;
+  frame.notes = file.notes;
   if (file.map) frame.map = read_map(file);
   return frame;
 }
@@ -238,7 +235,7 @@ GivenFrame given_frame(const std::string& picture, ValueEncoding encoding, const
       .view =
           ViewMatrix(make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px).clip_from_world()),
       .light = effective_light(scene, settings)};
-  frame.marks_no_surface = has_nan(frame.visibility);
+  take_marks(frame);
   return frame;
 }
 

@@ -86,6 +86,29 @@ TEST_F(CInterface, AWrongDeliveryHasNoNumbers) {
   EXPECT_TRUE(std::isnan(noonmark_number(verdict_, "frame_error")));
 }
 
+TEST_F(CInterface, NormalisedVisibilityIsTheRenderersOwn) {
+  const std::vector<float> grey(width * height, 0.437f);
+  noonmark_frame frame = frame_of(grey);
+  frame.normalised = 1;
+  judge(&frame);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_OK);
+  EXPECT_NE(messages_of(verdict_).find("shaded (accepted)"), std::string::npos) << messages_of(verdict_);
+  frame.struct_size = offsetof(noonmark_frame, normalised);
+  judge(&frame);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_BAD_FILE) << "a program of the older header cannot set it";
+}
+
+TEST_F(CInterface, ASurfaceThatIsNotJudgedHasNoClass) {
+  std::vector<float> values(width * height, 0);
+  noonmark_frame frame = frame_of(values);
+  judge(&frame);
+  const double counted = noonmark_number(verdict_, "counted");
+  values[width * height / 2 + width / 2] = -2;
+  judge(&frame);
+  EXPECT_EQ(noonmark_status(verdict_), NOONMARK_OK) << messages_of(verdict_);
+  EXPECT_EQ(noonmark_number(verdict_, "counted"), counted - 1);
+}
+
 TEST_F(CInterface, WrongCallsAreSaid) {
   const std::vector<float> black(width * height, 0);
   judge(nullptr);
@@ -152,7 +175,8 @@ const Field fields[] = {FIELD(struct_size, 1, false),
                         FIELD(edge_pixels, 1, true),
                         FIELD(edge_m, 1, true),
                         FIELD(contact_m, 1, true),
-                        FIELD(accept, 1, false)};
+                        FIELD(accept, 1, false),
+                        FIELD(normalised, 1, false)};
 #undef FIELD
 
 // The call returns, whatever the numbers are: what cannot be is a wrong call that says which number it is, and no call is a

@@ -115,6 +115,24 @@ TEST(Checks, AnIntensityBelowOneIsNamed) {
                "intensity");
 }
 
+// What is measured between all lit and all dark cannot be scaled, shaded or exchanged on its way here.
+TEST(Checks, WhatIsNormalisedIsTheRenderersOwn) {
+  for (const auto& [check, change] : std::vector<std::pair<const char*, float (*)(float)>>{
+           {"intensity", [](float v) { return 0.5f + 0.5f * v; }}, {"inverted", [](float v) { return 1 - v; }}}) {
+    GivenFrame frame = with(each_value(good().frame.visibility, change));
+    const FrameVerdict refused = judge_frame(*good().scene, *good().tracer, frame, {});
+    frame.normalised = true;
+    const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer, frame, {.accepted = {"alignment"}});
+    EXPECT_TRUE(refused.refused() && !verdict.refused()) << check;
+    EXPECT_EQ(check_named(verdict, check).state, CheckState::failed) << check;
+    EXPECT_TRUE(check_named(verdict, check).accepted) << check;
+    EXPECT_EQ(check_named(verdict, check).says.find(check_named(refused, check).says), 0u) << check;
+  }
+  GivenFrame outside = with(each_value(good().frame.visibility, [](float v) { return 2 * v; }));
+  outside.normalised = true;
+  EXPECT_TRUE(judge_frame(*good().scene, *good().tracer, outside, {}).refused()) << "values are the delivery's";
+}
+
 // A bias that is too large and a format that is too coarse lose all shadows. That is judged, because the delivery is right.
 TEST(Checks, LostShadowsAreJudged) {
   const FrameVerdict verdict = judge_frame(*good().scene, *good().tracer,

@@ -170,6 +170,7 @@ TEST(FrameFile, WhatIsWrongIsNamed) {
            {with("/edge", {{"texels", 2}}), "'edge.texel' is missing"},
            {with("/edge", Json::object()), "one of pixels, texels and distance"},
            {with("/metres_per_unit", 0), "'metres_per_unit' must be a number"},
+           {with("/notes", {"pass 47", 85}), "'notes' must be a list of texts"},
            {with("/depth", Json::object()), "'depth.file' is missing"}})
     EXPECT_NE(fault.find(words), std::string::npos) << fault << "\nwanted: " << words;
   EXPECT_THROW(parse_frame_file("frame.json", "{"), Error);

@@ -199,6 +199,28 @@ TEST(Judge, PixelsThatTheFrameLeavesOutAreNotCounted) {
   EXPECT_EQ(holed.judged({.accepted = {"coverage"}}).metrics.at("counted"), all - holes);
 }
 
+// The same pixels as surfaces that are not judged: the coverage is whole, and nothing else changes.
+TEST(Judge, ASurfaceThatIsNotJudgedCountsForTheCoverageAlone) {
+  Delivered marked = good_frame("plate", 160, 90, 0);
+  const FrameVerdict before = marked.judged();
+  int marks = 0;
+  for (int y = 30; y < 80; ++y)
+    for (int x = 60; x < 80; ++x)
+      if (const size_t i = marked.frame.visibility.index(x, y); before.receivers.primitive[i] != no_primitive) {
+        marked.frame.visibility[i] = -2;
+        marks += before.counted[i];
+      }
+  ASSERT_GT(marks, 100);
+  take_marks(marked.frame);
+  const FrameVerdict verdict = marked.judged();
+  EXPECT_FALSE(verdict.refused());
+  for (const char* const check : {"values", "coverage"})
+    EXPECT_EQ(check_named(verdict, check).state, CheckState::passed) << check_named(verdict, check).says;
+  EXPECT_EQ(verdict.metrics.at("counted"), before.metrics.at("counted") - marks);
+  EXPECT_EQ(verdict.metrics.at("frame_error"), 0);
+  for (const float error : verdict.error.pixels) EXPECT_EQ(error, 0);
+}
+
 // A light from below the floor: no number would say anything.
 TEST(Judge, AFrameWithoutAReceiverThatFacesTheLightIsRefused) {
   Delivered below = good_frame("plate", 160, 90, 0);

@@ -124,7 +124,8 @@ TableLines frame_keys_table_lines() {
   for (const FrameKey& key : frame_keys()) {
     constexpr std::string_view takes[] = {// in the order of FrameKeyKind
                                           "object",        "text",       "",           "number",           "boolean",
-                                          "three numbers", "three axes", "16 numbers", "settings by name", "1"};
+                                          "three numbers", "three axes", "16 numbers", "settings by name", "1",
+                                          "list of texts"};
     const std::string_view choices = key.choices;
     std::string kind(takes[static_cast<size_t>(key.kind)]);
     for (const char c : choices) kind += c == '|' ? " | " : std::string(1, c);
