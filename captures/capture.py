@@ -15,6 +15,7 @@ import signal
 import struct
 import subprocess
 import sys
+import tempfile
 
 PACKAGES = {'renderdoc': 'python3-renderdoc', 'numpy': 'python3-numpy'}
 MEMORY, SECONDS = 16 << 30, 1200
@@ -88,10 +89,12 @@ def main():
     except OSError as why:
         print(f'noonmark: {options.capture}: {why.strerror or why}', file=sys.stderr)
         return 2
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that display and scratch folder end with this process
     folder = os.path.abspath(options.out)
     environment, server = with_display(dict(os.environ))
-    environment |= {'LIBGL_ALWAYS_SOFTWARE': environment.get('LIBGL_ALWAYS_SOFTWARE', '1'), 'MESA_SHADER_CACHE_DISABLE': 'true',
-                    'HOME': folder, 'TMPDIR': folder, 'XDG_RUNTIME_DIR': folder}
+    scratch = tempfile.mkdtemp(prefix='scratch-', dir=folder)
+    environment |= {'LIBGL_ALWAYS_SOFTWARE': environment.get('LIBGL_ALWAYS_SOFTWARE', '1'), 
+                    'HOME': scratch, 'TMPDIR': scratch, 'XDG_RUNTIME_DIR': scratch, 'XDG_CACHE_HOME': scratch, 'LP_NUM_THREADS': '2'}
     try:
         child = subprocess.Popen([sys.executable, os.path.abspath(__file__), os.path.abspath(options.capture), folder, '--inside',
                                   '--light', str(options.light), '--casters', options.casters],
@@ -101,6 +104,7 @@ def main():
         child.kill()
         code = -signal.SIGKILL
     finally:
+        shutil.rmtree(scratch, ignore_errors=True)
         if server:
             server.terminate()
     if code < 0:

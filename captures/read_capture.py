@@ -34,14 +34,26 @@ class Reader:
         self.camera, self.maps = solve.camera_and_maps(c, self.passes, self.vertices, self.say)
         self.lights = solve.lights_of(self.maps)
         self.zero_to_one = self.camera.draws[0].zero_to_one
-        self.found = {'api': c.driver, 'draws': len(self.draws), 'lights': []}
+        self.found = {'api': c.driver, 'draws': len(self.draws), 'lights': [], 'files': ['scene.glb']}
 
     def say(self, text):
         print(text, flush=True)
 
     def save(self, name, image):
         np.save(os.path.join(self.folder, name), top_first(image))
+        self.found['files'].append(name)
         return {'file': name}
+
+    def forget(self):
+        """Removes what an earlier reading wrote here, by its own list."""
+        try:
+            with open(os.path.join(self.folder, 'capture.json')) as f:
+                files = json.load(f)['files']
+        except (OSError, ValueError, KeyError):
+            return
+        for name in files:
+            if os.path.basename(name) == name and os.path.isfile(os.path.join(self.folder, name)):
+                os.remove(os.path.join(self.folder, name))
 
     def describe(self):
         c, cam = self.capture, self.camera
@@ -72,6 +84,7 @@ class Reader:
 
     def run(self):
         self.describe()
+        self.forget()
         c, depth = self.capture, self.depth()
         parts = scene.casters(self.camera, self.maps, self.vertices, c, self.say, self.options.casters)
         scene.write_glb(os.path.join(self.folder, 'scene.glb'), parts, c)
@@ -117,10 +130,12 @@ class Reader:
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
         light = self.true_light(m, light, notes, target)
+        if light.get('position') != group[0].light.get('position'):
+            lookups = [(m, depths, mine, None) for m, depths, mine, _ in lookups]
         base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'light': light,
                 'camera': {'clip_from_world': self.matrix().flatten().tolist(), 'order': 'row',
                            'depth_range': '0..1' if self.zero_to_one else '-1..1', 'reversed': self.camera.draws[0].reversed},
-                'depth': dict(self.save('depth.npy', depth), measure='window'), 'notes': notes, 'not_in_map': sorted(missing)}
+                'depth': dict(self.save('depth.npy', depth), measure='window'), 'notes': notes} | ({'not_in_map': sorted(missing)} if missing else {})
         decoded = any(f and f.decoded for *_, f in lookups)
         name = f'light-{n}'
         picture = lambda stem, marks: dict(self.save(f'{stem}.npy', marks), normalised=True, **({'encoding': 'srgb'} if decoded else {}))
@@ -133,6 +148,7 @@ class Reader:
         for stem, frame in frames:
             with open(os.path.join(self.folder, stem + '.json'), 'w') as f:
                 json.dump(frame, f, indent=1)
+            self.found['files'].append(stem + '.json')
         for note in notes:
             self.say(f'light {n}: {note}')
         self.found['lights'].append({'light': n, 'kind': light['kind'], 'frames': [f + '.json' for f, _ in frames], 'notes': notes})
@@ -163,7 +179,8 @@ class Reader:
         length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' else ''
         return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}'
                 + (f' and {found.tan:.3g} tan' if found.tan else '') + f', which leaves {100 * found.misses:.2f}% unexplained'
-                + (', after sRGB is decoded' if found.decoded else ''))
+                + (', after sRGB is decoded' if found.decoded else '')
+                + ('; a bias below 0 cannot be handed over, so its causes are not known' if found.constant < 0 else ''))
 
     def not_in(self, m, depths, parts):
         """Draws of the picture whose places the map holds nothing at or before."""
@@ -208,10 +225,10 @@ class Reader:
         return light
 
     def map(self, name, m, depths, mine, found):
-        if not found:
+        if not found or found.constant < 0:
             return {}
         factor, units = m.drawn.draws[0].polygon_offset
-        technique = found.technique | {'map.cull': m.drawn.draws[0].cull}
+        technique = found.technique | {'map.cull': m.cull}
         if factor or units:
             sign = -1 if m.reversed else 1
             technique |= {'bias.polygon_factor': repr(sign * factor), 'bias.polygon_units': repr(sign * units)}

@@ -18,7 +18,7 @@ class Part:
     role: str  # 'camera', or 'map': drawn into a map alone
     triangles: np.ndarray  # n x 3 x 3
     coordinates: np.ndarray = None  # n x 3 x 2, of a mask
-    mask: object = None  # texture
+    mask: object = None  # (texture, channel, cutoff)
 
     @property
     def name(self):
@@ -57,6 +57,36 @@ def parts_of(draw, role, to_camera, vertices):
     return [p for p in parts if len(p.triangles)]
 
 
+def mask_of(part, m, draw, capture):
+    """(texture, channel, cutoff) that explain best where the captured map holds the part, or None."""
+    from lookup import Taps
+    from visibility import crop
+    depths = crop(capture.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
+    seeds = np.random.default_rng(1)
+    pick = seeds.integers(len(part.triangles), size=6000)
+    weight = seeds.dirichlet((1, 1, 1), size=6000)[:, :, None]
+    taps = Taps(depths, m, (part.triangles[pick] * weight).sum(1))
+    beyond = taps.read('none')[0][0]
+    slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
+    told = taps.inside & (beyond < slack)  # elsewhere something nearer hides it
+    there, uv = (np.abs(beyond) < slack)[told], ((part.coordinates[pick] * weight).sum(1) % 1)[told]
+    best = (max(there.mean(), 1 - there.mean()) if told.any() else 1.0, None)
+    for texture in draw.reads:
+        try:
+            image = capture.image((texture, 0, 0), draw.event)
+        except Refusal:
+            continue
+        image = image if capture.gl else image[::-1]
+        rows, columns = image.shape[:2]
+        value = image[(uv[:, 1] * rows).astype(int) % rows, (uv[:, 0] * columns).astype(int) % columns]
+        for channel in range(image.shape[2]):
+            for cut in np.linspace(0.05, 0.95, 19):
+                agrees = ((value[:, channel] >= cut) == there).mean()
+                if agrees > best[0] + 0.01 or (agrees > best[0] - 1e-9 and best[1] and best[1][1] == channel and abs(cut - 0.5) < abs(best[1][2] - 0.5)):
+                    best = (agrees, (texture, channel, float(cut)))
+    return best[1]
+
+
 def casters(camera, maps, vertices, capture, say, which='union'):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
     to_camera = np.linalg.inv(camera.camera.clip)
@@ -80,7 +110,7 @@ def casters(camera, maps, vertices, capture, say, which='union'):
         back = np.linalg.inv(m.clip)
         for draw in m.drawn.draws:
             if draw.discards and draw.reads:  # a shader with "discard" in a branch that reads nothing drops nothing
-                masks[draw.geometry] = (draw, next(iter(draw.reads)))
+                masks[draw.geometry] = (m, draw)
             if which == 'map' or which == 'union':
                 if which == 'union' and draw.event in m.pairs:
                     continue
@@ -98,9 +128,11 @@ def casters(camera, maps, vertices, capture, say, which='union'):
         f'{sum(len(p.triangles) for p in parts if p.role == "map")} of them only in the maps; {len(parts) - len(kept)} draws again')
     for part in kept:
         if part.draw.geometry in masks:
-            _, part.mask = masks[part.draw.geometry]
-    for draw, texture in masks.values():
-        say(f'draw {draw.event} drops fragments by the texture "{capture.names.get(texture, "")}": its alpha is taken as a mask')
+            m, draw = masks[part.draw.geometry]
+            part.mask = mask_of(part, m, draw, capture) if part.coordinates is not None else None
+            say(f'draw {draw.event} drops fragments' + (
+                f' by channel {part.mask[1]} of "{capture.names.get(part.mask[0], "")}" below {part.mask[2]:.2f}' if part.mask else
+                ', and no texture explains which: it is a solid caster here, so behind it lit and dark are not to be trusted'))
     return kept
 
 
@@ -135,15 +167,14 @@ def write_glb(path, parts, capture):
         if part.mask is None or part.coordinates is None:
             return 0
         if part.mask not in by_mask:
-            rgba = np.clip(capture.image((part.mask, 0, 0), part.draw.event), 0, 1)
-            rgba = rgba if capture.gl else rgba[::-1]
-            alpha = rgba[..., 3] if rgba.shape[2] == 4 else rgba[..., 0]
-            pixels = np.full(alpha.shape + (4,), 255, 'u1')
-            pixels[..., 3] = np.rint(alpha * 255)
-            # The first row of the file is v = 0, in glTF as in the program.
+            texture, channel, cut = part.mask
+            image = capture.image((texture, 0, 0), part.draw.event)
+            image = np.clip(image if capture.gl else image[::-1], 0, 1)[..., channel]
+            pixels = np.full(image.shape + (4,), 255, 'u1')  # its first row is v = 0, in glTF as in the program
+            pixels[..., 3] = np.rint(image * 255)
             images.append({'bufferView': view(png(pixels)), 'mimeType': 'image/png'})
             textures.append({'source': len(images) - 1})
-            materials.append({'doubleSided': True, 'alphaMode': 'MASK', 'alphaCutoff': 0.5,
+            materials.append({'doubleSided': True, 'alphaMode': 'MASK', 'alphaCutoff': cut,
                               'pbrMetallicRoughness': {'baseColorTexture': {'index': len(textures) - 1}}})
             by_mask[part.mask] = len(materials) - 1
         return by_mask[part.mask]

@@ -61,7 +61,7 @@ class Pictures:
         for value in values:
             edits, shift = self.copies.without({d.event: d for m in (*lit, *dark) for d in m.drawn.draws}.values()), 0
             for m in dark:
-                clear, more = self.copies.cleared(m.drawn, self.clears, self.colour[id(m)], int(m.near) if value is None else value)
+                clear, more = self.copies.cleared(m.drawn, self.clears, self.colour[id(m)], m.near if value is None else value)
                 shift += more if not set(clear) & set(edits) else 0
                 edits |= clear
             copy = self.copies.open(edits)
