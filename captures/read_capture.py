@@ -176,7 +176,7 @@ class Reader:
         if not found:
             return 'its lookup is not known (moments, depths that do not read, or too few receivers); judged by place'
         per_unit = np.linalg.norm(m.clip[2, :3]) / (1 if m.drawn.draws[0].zero_to_one else 2)
-        length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' else ''
+        length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' and not self.camera.camera.orthographic else ''
         return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}'
                 + (f' and {found.tan:.3g} tan' if found.tan else '') + f', which leaves {100 * found.misses:.2f}% unexplained'
                 + (', after sRGB is decoded' if found.decoded else '')
