@@ -155,11 +155,19 @@ nlohmann::ordered_json frame_json(const Subject& subject, const FrameVerdict& ve
   return all;
 }
 
-// "directional light, map 1024 x 1024 D24, pass 47-85: error 0.767%, edge 0.281%, acne 0.269%", the largest part first.
+// " (directional, map 1024 x 1024 D24, pass 47-85): error 0.767%, edge 0.281%, acne 0.269%", the largest part first. Of the notes
+// it has the head of those about the map.
 std::string summary_of(const Subject& subject, const FrameVerdict& verdict, const Ladder* ladder) {
-  std::string text = fmt::format("{} light", kind_of_light(subject.frame.light.kind).name());
-  for (const std::string& note : subject.frame.notes) text += ", " + note;
-  if (verdict.refused()) return text + ": refused, the frame is not what was declared";
+  std::string text = fmt::format(" ({}", kind_of_light(subject.frame.light.kind).name());
+  for (const std::string& note : subject.frame.notes)
+    if (note.starts_with("map ")) text += ", " + note.substr(0, note.find(':'));
+  text += "): ";
+  if (verdict.refused()) {
+    text += "refused by";
+    for (const CheckResult& check : verdict.checks)
+      if (check.state == CheckState::failed && !check.accepted) text += fmt::format(" {}", check.name);
+    return text;
+  }
   std::vector<FrameCause> parts;
   if (ladder)
     parts = causes_of_frame(verdict, *ladder);
@@ -169,7 +177,7 @@ std::string summary_of(const Subject& subject, const FrameVerdict& verdict, cons
                        verdict.metrics.at(std::string(row.metric)), 0});
   std::stable_sort(parts.begin(), parts.end(),
                    [](const FrameCause& a, const FrameCause& b) { return std::abs(a.part) > std::abs(b.part); });
-  text += fmt::format(": error {}", quantity_text(verdict.metrics.at("frame_error"), "fraction", 3));
+  text += fmt::format("error {}", quantity_text(verdict.metrics.at("frame_error"), "fraction", 3));
   for (const FrameCause& one : parts)
     if (one.part != 0) text += fmt::format(", {} {}", one.name, quantity_text(one.part, "fraction", 3));
   return text;

@@ -36,7 +36,7 @@ struct JudgeOptions {
 struct JudgedFrame {
   Verdict verdict;
   nlohmann::ordered_json json;  // what judge.json says of it
-  std::string summary;          // one line
+  std::string summary;          // what follows the name of the light in one line
 };
 
 // options: of a frame.json, or of a scene with its picture. Writes <folder>/<stem>.exr and its pictures, and prints unless

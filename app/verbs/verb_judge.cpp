@@ -154,11 +154,12 @@ int judge_capture(const JudgeOptions& options, const std::vector<Bound>& bounds,
       frame = judge_frame_file(of_frame, bounds_for(options, bounds, has_map(path), false), frames, stem, [] {});
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::file) throw;
-      frame.json["error"] = frame.summary = error.what();
+      frame.json["error"] = error.what();
+      frame.summary = fmt::format(": {}", error.what());
     }
     frame.json["verdict"] = word_of(frame.verdict);
     worst = std::min(worst, frame.verdict);
-    summaries.push_back(fmt::format("{}: {}", stem, frame.summary));
+    summaries.push_back(stem + frame.summary);
     frame.json["summary"] = summaries.back();
     lights.push_back(std::move(frame.json));
   }
