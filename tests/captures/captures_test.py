@@ -1,0 +1,230 @@
+"""The reader of captures against programs that know what they drew: one for each feature, whose visibility, light and camera the reader
+must find, and one for each planted fault, whose cause must be named. A table says what was found.
+   captures_test.py NOONMARK SOURCE FOLDER [NAME]...    only these features and faults"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+
+program, source, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+only = sys.argv[4:]
+here = source / "tests/captures"
+python = "/usr/bin/python3"  # for this interpreter alone Debian builds the module renderdoc
+for tool in ("renderdoccmd", "Xvfb", "cc"):
+    if not shutil.which(tool):
+        print(f"skipped: there is no {tool} (Debian: renderdoc, xvfb, gcc)")
+        sys.exit(77)
+if subprocess.run([python, "-c", "import renderdoc, numpy"], capture_output=True).returncode:
+    print("skipped: python3-renderdoc or python3-numpy is missing")
+    sys.exit(77)
+if pathlib.Path(sys.executable).resolve() != pathlib.Path(python).resolve():
+    os.execv(python, [python, *sys.argv])  # for its numpy
+import numpy as np  # noqa: E402
+
+# A value of a float target is what the shader wrote, and the visibility is a quotient of differences of three of them.
+VISIBILITY = 1e-5
+# Of two shaded lights in a target of half floats: a step of it, where the light changes the picture by at least eight of them.
+HALF = 1 / 8
+# The least squares over float positions leave 1e-6 of clip space (a residual that the reader prints); the scene has 10 m.
+DIRECTION, PLACE_M, CAMERA = 2e-6, 5e-5, 1e-5
+# Of a hundred: a receiver here is 0.012 points, and the depths of both frames differ by their rounding.
+POINTS = 0.05
+
+# The features of a program, and the number of maps of each light, or the words of the refusal.
+FEATURES = {"sun": [1], "spot": [1], "point": [6], "cascades-atlas": [3], "cascades-array": [3], "reversed": [1], "infinite": [1], "depth16": [1],
+            "depth24": [1], "moments": [1], "exponential": [1], "compare": [1], "indexed instanced": [1], "indexed skinned": [1], "masked": [1],
+            "msaa": [1], "outside": [1], "prepass indexed": [1], "two": [1, 1], "deferred": [1], "deferred cascades-array": [3], "shaded": [1],
+            "shaded two prepass": [1, 1], "srgb": [1], "temporal": [1], "polygon-offset": [1], "vertex-bias": [1], "orthographic": [1],
+            "fragment-lookup": [1], "multidraw": "[Ii]ndirect"}
+# The fault, and what a verdict must say of it.
+FAULTS = {"no-model": "matrix", "stale": "matrix", "half": "viewport|128", "culled": "[Mm]issing", "sides": "front",
+          "gequal": "[Ii]nver", "component": "compar|lookup", "small": "[Aa]cne", "large": "Peter Panning|[Cc]ontact", "other-map": "another light|no effect",
+          "aspect": "1\\.77|x scale|matrix"}
+bad = []
+
+
+def run(*command, **more):
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, **more)
+
+
+def capture(name):
+    """Draws and captures a frame: the capture's path, and the folder of what the program knows."""
+    out = folder / name.replace(" ", "-")
+    out.mkdir(parents=True)
+    ran = run("renderdoccmd", "capture", "-w", "-d", out, "-c", out / "frame", folder / "program", here / "scene.glsl", out, *name.split(), timeout=120)
+    frames = list(out.glob("*.rdc"))
+    if len(frames) != 1 or not (out / "known.json").exists():
+        raise SystemExit(f"{name} was not captured: {ran.stdout}{ran.stderr}")
+    return frames[0], out
+
+
+def known_of(out):
+    known = json.loads((out / "known.json").read_text())
+    for key in ("camera_view", "camera_projection"):
+        known[key] = np.array(known[key]).reshape(4, 4).T
+    size = np.load(out / "visibility-1.npy").shape[::-1]  # a picture of several samples is that of its first one, from where that is in the pixel
+    known["camera_projection"][:2] -= np.outer((2 * np.array(known["sample"]) - 1) / size, known["camera_projection"][3])
+    return known
+
+
+def differences(known, out, frames):
+    """What of the frames is not what the program knows."""
+    view, found = known["camera_view"], []
+    for i, (light, frame) in enumerate(zip(known["lights"], frames), 1):
+        told, way = frame["light"], np.array(light["way"])
+        if light["kind"] == "directional":
+            off = np.linalg.norm(np.cross(view[:3, :3] @ -way, told.get("direction", [0, 0, 0])))
+            if told["kind"] != "directional" or not off < DIRECTION:
+                found.append(f"light {i}: direction off by {off:.1e}")
+        else:
+            off = np.linalg.norm((view @ [*way, 1])[:3] - told.get("position", [9, 9, 9]))
+            if told["kind"] != light["kind"] or not off < PLACE_M:
+                found.append(f"light {i}: {told['kind']}, off by {off:.1e} m")
+        camera = np.array(frame["camera"]["clip_from_world"]).reshape(4, 4, order="C" if frame["camera"]["order"] == "row" else "F")
+        true = known["camera_projection"]
+        if np.abs(camera - true).max() > CAMERA:
+            found.append(f"camera off by {np.abs(camera - true).max():.1e}")
+        got, want = np.load(out / "frames" / frame["visibility"]["file"]), np.load(out / f"visibility-{i}.npy")
+        both = (got >= 0) & (want >= 0)
+        off = np.abs(got - want)[both]
+        surfaces, judged = int((want >= 0).sum()), int(both.sum())
+        if ((got >= 0) & (want < 0)).any():
+            found.append(f"light {i}: {int(((got >= 0) & (want < 0)).sum())} pixels have a visibility and no surface")
+        if judged < 0.95 * surfaces:  # grazing faces of shaded pictures say nothing
+            found.append(f"light {i}: only {judged} of {surfaces} surfaces are judged")
+        bound = HALF if len(known["lights"]) == 2 and "shaded" in out.name else VISIBILITY
+        if judged and off.max() > bound:
+            found.append(f"light {i}: the visibility is off in {int((off > bound).sum())} of {judged} pixels, by up to {off.max():.4f}")
+    return found
+
+
+def own_frame(known, out, i):
+    """The frame.json that the program's author would write: its own triangles, matrices, depths and visibility."""
+    points = np.ascontiguousarray(np.load(out / "triangles.npy").reshape(-1, 3), "<f4")
+    told = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}], "materials": [{"doubleSided": True}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3",
+                           "min": points.min(0).tolist(), "max": points.max(0).tolist()}],
+            "bufferViews": [{"buffer": 0, "byteLength": points.nbytes}], "buffers": [{"byteLength": points.nbytes}]}
+    text = json.dumps(told).encode()
+    text += b" " * (-len(text) % 4)
+    (out / "own.glb").write_bytes(struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + points.nbytes, len(text), 0x4E4F534A) + text +
+                                  struct.pack("<II", points.nbytes, 0x004E4942) + points.tobytes())
+    light, reversed_depth = known["lights"][i], "reversed" in out.name
+    way = light["way"]
+    frame = {"noonmark_frame": 1, "scene": "own.glb", "visibility": {"file": f"visibility-{i + 1}.npy"},
+             "camera": {"view": known["camera_view"].flatten().tolist(), "projection": known["camera_projection"].flatten().tolist(), "order": "row",
+                        "depth_range": "0..1" if reversed_depth else "-1..1", "reversed": reversed_depth},
+             "light": {"directional": {"kind": "directional", "direction": [-x for x in way]}, "point": {"kind": "point", "position": way},
+                       "spot": {"kind": "spot", "position": way, "target": [-0.2, 0, -0.2], "cone_deg": 170}}[light["kind"]]}
+    if (out / "depth.npy").exists():
+        frame["depth"] = {"file": "depth.npy", "measure": "window"}
+    path = out / f"own-{i + 1}.json"
+    path.write_text(json.dumps(frame))
+    return path
+
+
+def judge(frame, *more):
+    """What the program says of a frame: all that it prints, and its numbers."""
+    out = frame.with_suffix("")
+    accepted = [part for name in ("coverage", "inverted", "shaded", "intensity", "match", "positions") for part in ("--accept", name)]
+    ran = run(program, "judge", frame, "--out", out, *accepted, *more)
+    said = ran.stdout + ran.stderr
+    if ran.returncode and not more and "map" in json.loads(frame.read_text()):  # the lookup is not one that can be declared: by place alone
+        text, numbers = judge(frame, "--without-map")
+        return said + text, numbers
+    return said, json.loads((out / "judge.json").read_text())["metrics"] if ran.returncode == 0 else {}
+
+
+def read(rdc, out):
+    """The reader's exit code, what it said, and the frames of the lights."""
+    (out / "frames").mkdir()
+    ran = run(python, os.environ.get("NOONMARK_READER", source / "captures/capture.py"), rdc, out / "frames", timeout=300)
+    frames = sorted(path for path in (out / "frames").glob("light-*.json") if re.fullmatch(r"light-\d+", path.stem))
+    return ran.returncode, ran.stdout + ran.stderr, frames
+
+
+def maps_of(path):
+    return len(list(path.parent.glob(f"{path.stem}-map-*.json"))) or int("map" in json.loads(path.read_text()))
+
+
+def check(name, maps, cause):
+    """One row of the table, and what is wrong with it."""
+    rdc, out = capture(name)
+    code, said, frames = read(rdc, out)
+    (out / "reader.txt").write_text(said)
+    if isinstance(maps, str):
+        wrong = [] if code == 3 and re.search(maps, said) else [f"is not refused by name ({maps}): {code} {said.strip().splitlines()[-1:]}"]
+        return wrong, "refused: " + (said.strip().splitlines() or ["?"])[-1]
+    if code:
+        return [f"the reader ended with {code}: {said.strip().splitlines()[-1:]}"], ""
+    known, wrong = known_of(out), []
+    told = [json.loads(path.read_text()) for path in frames]
+    if len(frames) != len(known["lights"]):
+        wrong.append(f"{len(frames)} lights of {len(known['lights'])}")
+    counts = [maps_of(path) for path in frames]
+    if maps and counts != maps:
+        wrong.append(f"maps {counts}, not {maps}")
+    wrong += differences(known, out, told)
+    words, verdicts = [], ""
+    for i, path in enumerate(frames):
+        text, numbers = judge(path)
+        verdicts += text
+        (out / f"verdict-{i + 1}.txt").write_text(text)
+        if not numbers:
+            wrong.append(f"light {i + 1}: not judged: {text.strip().splitlines()[-1:]}")
+            continue
+        words.append(f"error {100 * numbers['frame_error']:.3f}%")
+        if not cause:
+            own_text, own = judge(own_frame(known, out, i))
+            if not own:
+                raise SystemExit(f"{name}: the program's own frame is refused: {own_text}")
+            words.append(f"(own {100 * own['frame_error']:.3f}%)")
+            if abs(numbers["frame_error"] - own["frame_error"]) > POINTS / 100:
+                wrong.append(f"light {i + 1}: the error is {100 * numbers['frame_error']:.3f}%, of the program's own frame {100 * own['frame_error']:.3f}%")
+    if cause:
+        named = re.search(f"^.*({cause}).*$", said + verdicts, re.M)
+        words.append(f"named: {named[0].strip()}" if named else "NOT NAMED")
+        if not named:
+            unnamed.append(name)
+    return wrong, " ".join(words)
+
+
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+made = run("cc", "-std=gnu11", "-O1", "-Wall", "-Wextra", "-Werror", here / "program.c", "-o", folder / "program", "-lEGL", "-lOpenGL", "-lm", "-ldl")
+if made.returncode:
+    if "No such file" in made.stderr or "cannot find" in made.stderr:
+        print(f"skipped: libegl-dev, libgl-dev or libopengl-dev is missing: {made.stderr.splitlines()[0]}")
+        sys.exit(77)
+    raise SystemExit(made.stderr)
+reading, writing = os.pipe()
+server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "640x480x24", "-nolisten", "tcp"], pass_fds=[writing],
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+try:
+    os.close(writing)
+    os.environ.update(DISPLAY=":" + os.read(reading, 20).decode().strip(), LIBGL_ALWAYS_SOFTWARE="1", LP_NUM_THREADS="2")
+    unnamed, faults = [], 0
+    for name, maps, cause in [(*row, "") for row in FEATURES.items()] + [(name, [], cause) for name, cause in FAULTS.items()]:
+        if only and name not in only:
+            continue
+        faults += bool(cause)
+        wrong, found = check(name, maps, cause)
+        print(f"{name:24} {'FAILED' if wrong else 'ok':7} {found}", flush=True)
+        for one in wrong:
+            print(f"{'':24}   {one}")
+            bad.append(f"{name}: {one}")
+finally:
+    server.terminate()
+    server.wait()
+if faults:
+    print(f"{faults - len(unnamed)} of {faults} planted faults are named" + (f"; not {', '.join(unnamed)}" if unnamed else ""))
+if 10 * len(unnamed) > faults:
+    bad.append("at least nine of ten must be named")
+if bad:
+    raise SystemExit(f"{len(bad)} failures")
+print(f"captures are read as the programs drew them; {os.times().children_user + os.times().children_system:.0f} s of processor time")
