@@ -82,6 +82,8 @@ def main():
         print(f'noonmark: captures need these packages of Debian: {" ".join(missing())}; install them with apt', file=sys.stderr)
         return 4
     try:
+        if not os.path.isfile(options.capture) and os.path.exists(options.capture):
+            raise OSError('not a file')
         with open(options.capture, 'rb') as f:
             if f.read(4) != b'RDOC':
                 raise OSError('no capture of RenderDoc (its first bytes are not RDOC)')
@@ -107,6 +109,7 @@ def main():
         shutil.rmtree(scratch, ignore_errors=True)
         if server:
             server.terminate()
+            server.wait()
     if code < 0:
         print(f'noonmark: {options.capture}: the replay ended by signal {-code} (the driver, or its limits of {MEMORY >> 30} GiB and '
               f'{SECONDS} s)', file=sys.stderr)

@@ -59,10 +59,10 @@ class Capture:
         self.file = rd.OpenCaptureFile()
         result = self.file.OpenFile(path, '', None)
         if result.code != rd.ResultCode.Succeeded:
-            raise Refusal(f'{path}: RenderDoc does not read it: {result.Message()}')
+            raise Refusal(f'RenderDoc does not read it: {result.Message()}')
         result, self.control = self.file.OpenCapture(rd.ReplayOptions(), None)
         if self.control is None:
-            raise Refusal(f'{path}: RenderDoc cannot replay it on this machine: {result.Message()}')
+            raise Refusal(f'RenderDoc cannot replay it on this machine: {result.Message()}')
         self.api = self.control.GetAPIProperties().pipelineType
         self.gl = self.api == rd.GraphicsAPI.OpenGL
         self.driver = self.file.DriverName()

@@ -48,7 +48,8 @@ enum {
   NOONMARK_EDGE = 2,
   NOONMARK_ACNE = 3,
   NOONMARK_CONTACT = 4,
-  NOONMARK_LEAK = 5
+  NOONMARK_LEAK = 5,
+  NOONMARK_MISSING = 6    /* a caster that the frame's map lacks; only of a frame.json that names it */
 };
 
 /* Noonmark's version, "0.1.0". */

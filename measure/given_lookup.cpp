@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "compare/judge/soundness.h"
 #include "compare/ladder/measure.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
 #include "measure/stages.h"
 #include "scenes/surfaces.h"
 #include "technique/depth_format.h"
@@ -138,6 +140,11 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   map.map.emplace(renderer.upload_map(point.depth, technique.settings.map));
   const ShownStage shown = impl_->stages.show(renderer, map, lookup, truth, technique);
   Climbed climbed = impl_->stages.climb_strips(renderer, lookup, view, truth, shown, technique, nullptr);
+  if (point.missing.size() > 0)
+    rebook(climbed.ladder, Cause::precision,
+           {std::string(frame_missing), "Missing caster (the frame's map lacks it)",
+            std::string(find_metric(frame_missing).help), spare_colors[2], std::string(frame_rung)},
+           point.missing);
   add_rung(climbed.ladder, point.frame);
   GivenClimb made;
   made.ladder = std::move(climbed.ladder);
@@ -176,7 +183,8 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
     double differ = 0, counted = 0;
     for (size_t i = 0; i < r4.size(); ++i)
       if (is_counted(made.ladder, i)) {
-        differ += std::abs(static_cast<double>(made.ladder[Rung::shown][i]) - r4[i]);
+        if (point.missing.size() == 0 || !point.missing[i])
+          differ += std::abs(static_cast<double>(made.ladder[Rung::shown][i]) - r4[i]);
         counted += 1;
       }
     made.precision_with_offset = differ / counted;

@@ -30,6 +30,9 @@ struct GivenPoint {
   Technique technique;  // with the frame of the map; its settings name the size of the picture
   Image<float> depth;   // the map: window depth in [0,1], row 0 with the lowest v
   RungOnTop frame;      // its picture is finite where receivers face the light
+  // 1: what keeps the receiver's light away is not in the map. Its step from the exact map to this one has a cause of its own,
+  // frame_missing, and is no precision. Empty: none.
+  Image<uint8_t> missing = {};
   // How far from its place each receiver may lie, beside the rounding of its numbers, in metres. Empty: nowhere.
   Image<float> moved_m = {};
 };

@@ -31,6 +31,7 @@ Settings settings_of(const GivenMap& map, const Light& light, const Image<float>
   settings.view.width_px = picture.width;
   settings.view.height_px = picture.height;
   settings.map.resolution = map.depth.width;
+  settings.map.aspect = static_cast<double>(map.depth.width) / map.depth.height;
   settings.light.kind = light.kind == LightKind::spot ? LightChoice::spot : LightChoice::directional;
   return settings;
 }
@@ -102,7 +103,8 @@ FrameMap::FrameMap(const Scene& scene, const raytrace::Tracer& tracer) try : loo
 
 std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict) {
   const GivenMap& given = *frame.map;
-  const MapFrame map = map_frame(given.name, verdict.light, given.clip_from_world, given.depth.width);
+  const MapFrame map =
+      map_frame(given.name, verdict.light, given.clip_from_world, {given.depth.width, given.depth.height});
   // Where the frame shows nothing there is no receiver.
   ReceiverImage receivers = verdict.receivers;
   ReceiverTruth truth = verdict.truth;
@@ -119,6 +121,11 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
     moved_m = pixel_width_m(frame.view, receivers);
     for (float& m : moved_m.pixels) m *= most_moved_pixels;
   }
+  Image<uint8_t> missing;
+  if (!frame.not_in_map.empty()) {
+    missing = Image<uint8_t>(width, height, 0);
+    for (size_t i = 0; i < missing.size(); ++i) missing[i] = verdict.classes[i] == FrameClass::missing;
+  }
   const Technique technique = technique_of(given, frame.light, frame.visibility, map.frame);
   GivenClimb climbed = lookup_.climb({.receivers = std::move(receivers),
                                       .eye_m = eye_of(frame.view, width, height),
@@ -130,6 +137,7 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
                                                 .cause = std::string(frame_lookup),
                                                 .label = "Lookup (the frame is not the declared lookup of its map)",
                                                 .help = std::string(find_metric(frame_lookup).help)},
+                                      .missing = std::move(missing),
                                       .moved_m = std::move(moved_m)});
   CheckResult check = check_given_map(climbed.map_off_m, climbed.depth_spread_m);
   check.accepted = accepted;

@@ -1,6 +1,6 @@
 // Removes the verdict of an earlier run if this run fails before it opens its results' folder. That happens if the
 // command line is wrong, if threads do not start, or if two experiments have the same results' folder. Of `render`, `map`,
-// `inspect` and `judge` it removes the files of an earlier run (app/sweep/output_folder.h).
+// `inspect`, `judge` and `capture` it removes the files of an earlier run (app/sweep/output_folder.h).
 #pragma once
 #include <functional>
 #include <set>
@@ -22,7 +22,7 @@ struct Vocabulary {
 
 // The results' folders that the words of a command line (without the program) name, even if the words are wrong in
 // other ways: the value of --out, and the default folders of the experiments. Empty unless the verb is
-// `check`, `run`, `render`, `map`, `inspect` or `judge`, or a misspelling of one, and the command would have measured something.
+// `check`, `run`, `render`, `map`, `inspect`, `judge` or `capture`, or a misspelling of one, and the command would have measured something.
 struct MeantFolder {
   std::string path;
   std::vector<std::string> experiments;  // those that may be meant; the first is named. Empty: none is known

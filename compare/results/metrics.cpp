@@ -453,6 +453,11 @@ constexpr Metric of_given_frames[] = {
     {"frame_penumbra", "fraction",
      "The part of frame_error where the truth is between lit and shadowed, because the light has a size.", true, false,
      false, true},
+    {"frame_missing", "fraction",
+     "The part of frame_error where the truth is dark, the frame is too light, and only casters that the frame's map "
+     "lacks "
+     "(not_in_map) are in the light's way.",
+     true, false, false, true},
     {"frame_edge", "fraction",
      "The part of frame_error within the edge distance of a true shadow edge, outside penumbrae.", true, false, false,
      true},

@@ -45,6 +45,8 @@ NOT_RUN = {
     "noonmark recommend cube-room --engine": "engine_advice.works_typed_in tries the engines",
     "node shoot.mjs": "engine_frames.are_judged does, where node and Chromium are",
     "noonmark judge": "engine_frames.are_judged has frames of an engine",
+    "noonmark capture": "program.Capture does, with a reader of its own",
+    "xvfb-run": "it needs RenderDoc and a program to capture",
     "noonmark check frames.toml": "engine_frames.are_judged has frames of an engine",
     "examples/slurm/submit": "many_machines.slurm does, where Slurm is",
     "seq 8": "many_machines.parallel does, where GNU parallel is",
