@@ -11,6 +11,8 @@ from solve import usable
 
 SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through two matrices
 
+MASK_SAMPLES = 200  # of a triangle
+
 
 @dataclasses.dataclass
 class Part:
@@ -57,6 +59,38 @@ def parts_of(draw, role, to_camera, vertices):
     return [p for p in parts if len(p.triangles)]
 
 
+def drops(m, draw, texture, vertices, capture):
+    """Whether the map lacks the draw's own depths where the texture's alpha is below a half: a shader may have a `discard` that a
+    constant switches off."""
+    alpha = alpha_of(capture, texture, draw.event)
+    width, height = draw.viewport[2:]
+    depths = capture.image(m.drawn.target, m.drawn.last)[..., 0]
+    weights = np.random.default_rng(0).dirichlet((1, 1, 1), MASK_SAMPLES)
+    held = {True: [], False: []}  # where the mask is open, and where it is not: does the map hold this draw?
+    for part in parts_of(draw, 'map', np.eye(4), vertices):
+        if part.coordinates is None:
+            return False
+        q, uv = (np.einsum('sk,tkc->tsc', weights, a) for a in (part.triangles, part.coordinates))
+        x, y, z = q[..., 0] / 2 + 0.5, q[..., 1] / 2 + 0.5, q[..., 2] if draw.zero_to_one else q[..., 2] / 2 + 0.5
+        column, row = (np.floor(a).astype(int) for a in (draw.viewport[0] + x * width, draw.viewport[1] + y * height))
+        inside = (x > 0) & (x < 1) & (y > 0) & (y < 1) & (row < depths.shape[0]) & (column < depths.shape[1])
+        a = np.diff(part.triangles, axis=1)
+        normal = np.abs(np.cross(a[:, 0] * (width, height, 1), a[:, 1] * (width, height, 1)))
+        slope = (normal[:, 0] + normal[:, 1]) / np.maximum(normal[:, 2], 1e-12)  # clip depth a texel and axis, at most
+        own = np.abs(z - depths[np.where(inside, row, 0), np.where(inside, column, 0)]) < slope[:, None] + 1e-4
+        texel = tuple(np.floor(uv[..., k] % 1 * n).astype(int) % n for k, n in ((1, alpha.shape[0]), (0, alpha.shape[1])))
+        for is_open in held:
+            held[is_open] += own[inside & ((alpha[texel] < 0.5) == is_open)].tolist()
+    return bool(held[True]) and np.mean(held[True]) < 0.5 * np.mean(held[False] or [1])
+
+
+def alpha_of(capture, texture, event):
+    """Rows by v, upwards."""
+    rgba = np.clip(capture.image((texture, 0, 0), event), 0, 1)
+    rgba = rgba if capture.gl else rgba[::-1]
+    return rgba[..., 3] if rgba.shape[2] == 4 else rgba[..., 0]
+
+
 def casters(camera, maps, vertices, capture, say, which='union'):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
     to_camera = np.linalg.inv(camera.camera.clip)
@@ -79,8 +113,9 @@ def casters(camera, maps, vertices, capture, say, which='union'):
     for m in maps:
         back = np.linalg.inv(m.clip)
         for draw in m.drawn.draws:
-            if draw.discards and draw.reads:  # a shader with "discard" in a branch that reads nothing drops nothing
-                masks[draw.geometry] = (draw, next(iter(draw.reads)))
+            texture = next(iter(draw.reads), None) if draw.discards else None
+            if texture is not None and drops(m, draw, texture, vertices, capture):
+                masks[draw.geometry] = (draw, texture)
             if which == 'map' or which == 'union':
                 if which == 'union' and draw.event in m.pairs:
                     continue
@@ -135,9 +170,7 @@ def write_glb(path, parts, capture):
         if part.mask is None or part.coordinates is None:
             return 0
         if part.mask not in by_mask:
-            rgba = np.clip(capture.image((part.mask, 0, 0), part.draw.event), 0, 1)
-            rgba = rgba if capture.gl else rgba[::-1]
-            alpha = rgba[..., 3] if rgba.shape[2] == 4 else rgba[..., 0]
+            alpha = alpha_of(capture, part.mask, part.draw.event)
             pixels = np.full(alpha.shape + (4,), 255, 'u1')
             pixels[..., 3] = np.rint(alpha * 255)
             # The first row of the file is v = 0, in glTF as in the program.
