@@ -11,7 +11,7 @@ from solve import usable
 
 SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through two matrices
 
-MASK_SAMPLES = 200  # of a triangle
+MASK_SAMPLES, ENOUGH = 200, 20  # places: of a triangle; that say whether its mask is one
 
 
 @dataclasses.dataclass
@@ -63,25 +63,27 @@ def drops(m, draw, texture, vertices, capture):
     """Whether the map lacks the draw's own depths where the texture's alpha is below a half: a shader may have a `discard` that a
     constant switches off."""
     alpha = alpha_of(capture, texture, draw.event)
-    width, height = draw.viewport[2:]
+    size = np.array(draw.viewport[2:])
     depths = capture.image(m.drawn.target, m.drawn.last)[..., 0]
+    clip, coordinates = vertices.of(draw) or (None, None)
+    rows = triangle_rows(draw.topology, 0 if coordinates is None else len(clip))
+    rows = rows[(clip[rows, 3] > 0).all(1)] if coordinates is not None and rows is not None else []
+    if not len(rows):
+        return False
     weights = np.random.default_rng(0).dirichlet((1, 1, 1), MASK_SAMPLES)
-    held = {True: [], False: []}  # where the mask is open, and where it is not: does the map hold this draw?
-    for part in parts_of(draw, 'map', np.eye(4), vertices):
-        if part.coordinates is None:
-            return False
-        q, uv = (np.einsum('sk,tkc->tsc', weights, a) for a in (part.triangles, part.coordinates))
-        x, y, z = q[..., 0] / 2 + 0.5, q[..., 1] / 2 + 0.5, q[..., 2] if draw.zero_to_one else q[..., 2] / 2 + 0.5
-        column, row = (np.floor(a).astype(int) for a in (draw.viewport[0] + x * width, draw.viewport[1] + y * height))
-        inside = (x > 0) & (x < 1) & (y > 0) & (y < 1) & (row < depths.shape[0]) & (column < depths.shape[1])
-        a = np.diff(part.triangles, axis=1)
-        normal = np.abs(np.cross(a[:, 0] * (width, height, 1), a[:, 1] * (width, height, 1)))
-        slope = (normal[:, 0] + normal[:, 1]) / np.maximum(normal[:, 2], 1e-12)  # clip depth a texel and axis, at most
-        own = np.abs(z - depths[np.where(inside, row, 0), np.where(inside, column, 0)]) < slope[:, None] + 1e-4
-        texel = tuple(np.floor(uv[..., k] % 1 * n).astype(int) % n for k, n in ((1, alpha.shape[0]), (0, alpha.shape[1])))
-        for is_open in held:
-            held[is_open] += own[inside & ((alpha[texel] < 0.5) == is_open)].tolist()
-    return bool(held[True]) and np.mean(held[True]) < 0.5 * np.mean(held[False] or [1])
+    q, uv = (np.einsum('sk,tkc->tsc', weights, a[rows]) for a in (clip, coordinates))
+    window = lambda c: np.c_[(c[:, :2] / c[:, 3:] / 2 + 0.5) * size, c[:, 2] / c[:, 3] if draw.zero_to_one else c[:, 2] / c[:, 3] / 2 + 0.5]
+    edges = np.diff(window(clip[rows].reshape(-1, 4)).reshape(-1, 3, 3), axis=1)
+    normal = np.abs(np.cross(edges[:, 0], edges[:, 1]))
+    slope = np.repeat((normal[:, 0] + normal[:, 1]) / np.maximum(normal[:, 2], 1e-12), MASK_SAMPLES)  # window depth a texel, at most
+    at = window(q.reshape(-1, 4))
+    inside = ((at > 0) & (at < (*size, 1))).all(1)
+    column, row = (np.where(inside, at[:, k] + draw.viewport[k], 0).astype(int) for k in (0, 1))
+    held = np.abs(at[:, 2] - depths[row, column]) < slope + 1e-4
+    texel = lambda k, n: np.floor(uv[..., k].ravel() % 1 * n).astype(int) % n
+    is_open = alpha[texel(1, alpha.shape[0]), texel(0, alpha.shape[1])] < 0.5
+    holes, solid = inside & is_open, inside & ~is_open
+    return bool(held[solid].sum() >= ENOUGH <= holes.sum()) and held[holes].mean() < 0.5 * held[solid].mean()
 
 
 def alpha_of(capture, texture, event):
