@@ -65,7 +65,7 @@ class Reader:
                 self.say(f'light {n}, {solve.light_of(group)["kind"]}: map {c.describe(m.drawn.target)} "{c.names.get(m.drawn.target[0], "")}", '
                          f'{m.drawn.name}, {len(m.pairs)} of {len(m.drawn.draws)} draws are in the picture too, residual '
                          f'{m.residual[1]:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
-                         + ('' if m.drawn.draws[0].cull == 'none' else f', culls {m.drawn.draws[0].cull} faces') + self.unfilled(m))
+                         + ('' if m.cull == 'none' else f', without {m.cull} faces') + self.unfilled(m))
 
     def unfilled(self, m):
         """Of a map that is drawn into a part of a texture into which nothing else is drawn."""
