@@ -102,6 +102,17 @@ void add_rung(Ladder& ladder, RungOnTop rung) {
   ladder.brought.push_back({rung.cause, rung.label, rung.help, *rung.color, rung.name});
 }
 
+void rebook(Ladder& ladder, Cause from, RungCause as) {
+  if (!is_free_name(as.name)) throw std::logic_error("a cause cannot have the name " + as.name);
+  Image<float>& step = ladder.causes[static_cast<size_t>(from)].step;
+  Image<float> none(step.width, step.height, 0);
+  std::swap(step, none);
+  std::replace(ladder.cause.pixels.begin(), ladder.cause.pixels.end(), static_cast<uint8_t>(from),
+               static_cast<uint8_t>(ladder.causes.size()));
+  ladder.causes.push_back({as.name, std::move(none)});
+  ladder.brought.push_back(std::move(as));
+}
+
 Climb::Climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder) : e_(evidence), ladder_(ladder) {
   for (size_t i = strip.first; i < strip.end; ++i)
     ladder.flags[i] = static_cast<uint8_t>((evidence.truth.facing[i] ? flag_facing : 0) |
