@@ -20,6 +20,7 @@ struct MapOffset {
   double constant = 0;                    // window depth
   DepthFormat format = DepthFormat::d24;  // whose units the constant is in
   size_t texels = 0;                      // that the line was fitted to
+  double unsure = 0;                      // window depth: how far what moves each surface by itself can move `constant`
   // Whether the offset is more than what rounding and a rasteriser's grid do to a map without one.
   bool in_map() const;
 };

@@ -38,7 +38,7 @@ TEST(MapDistance, ASoundMapIsTheScenes) {
   EXPECT_LT(excess(frame, DepthFormat::d24, [](int, int, double exact) { return exact + 0.02 / 16 / 10; }), 0.3);
   EXPECT_LT(excess(frame, DepthFormat::d24, [](int x, int, double exact) { return x == 0 ? 1 : exact; }), 1e-4);
   // All depths alike: a step of the format is no other map.
-  const auto rounded = [](int, int, double exact) { return std::floor(exact * 65535 + 0.9) / 65535; };
+  const auto rounded = [](int, int, double exact) { return exact + 0.7 / 65535; };
   EXPECT_LE(excess(frame, DepthFormat::d16, rounded, 0), 1);
   EXPECT_GT(excess(frame, DepthFormat::d24, rounded, 0), 1) << "which 24 bits do not round to";
 }
