@@ -224,7 +224,7 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
   }
   const glm::dvec2 median = all.median();
   if (told == 0 ? glm::length(median) > most_off_px : moved_surfaces == told) {
-    const glm::dvec2 by = told == 0 ? median : worst->median();
+    const glm::dvec2 by = glm::length(median) > most_off_px ? median : worst->median();
     return failed(
         fmt::format("half of the positions lie more than ({:+.2f}, {:+.2f}) pixels (x to the right, y down) from "
                     "the centre of their pixel: the camera is another one, or the picture is shifted, flipped or "
