@@ -17,7 +17,7 @@ class FrameMap {
   FrameMap(const Scene& scene, const raytrace::Tracer& tracer);
 
   // frame: with a map. verdict: gets the result of the check "map", and unless that refuses the frame the metrics: the causes
-  // of the ladder by their names, frame_lookup, frame_lookup_differs. Throws Error(file) if the map is not one of the
+  // of the ladder by their names, frame_lookup, frame_lookup_differs, frame_map. Throws Error(file) if the map is not one of the
   // frame's light. accepted: whether the check's failure is accepted. Empty if the frame is refused.
   std::optional<Ladder> climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict);
 
