@@ -24,6 +24,7 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/undecided.h"
 #include "compare/judge/verdict.h"
 #include "compare/ladder/measure.h"
 #include "compare/report/cause_colors.h"
@@ -290,6 +291,8 @@ int judge_one(const JudgeOptions& options) {
   for (const BoundResult& bound : judged)
     fmt::print("{}  {}: {}, found {}\n", &bound == &judged.front() ? "\n" : "", bound.held ? "held" : "BROKEN",
                bound_text(bound), found_text(bound));
+  if (const std::string doubt = ambiguous_note(record); !doubt.empty() && !verdict.refused())
+    fmt::print("  note: {}\n", doubt);
   if (const std::string note = notes_line(subject.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
   fmt::print("\n{0}/judge.json, {0}/frame.exr and {0}/frame-*.png are written\n", printable(outputs.folder));
   if (verdict.refused())
