@@ -82,7 +82,10 @@ CheckResult check_given_map(double off_m, double spread_m) {
       spread_m);
   if (off_m <= most_map_off * spread_m) return {map_check, CheckState::passed, found};
   return {map_check, CheckState::failed,
-          found + ": the map is another one, or it is turned over; check 'first_row', 'y', 'reversed' and the matrix"};
+          found +
+              ": the map is another one, or it is turned over or mirrored; check 'first_row', 'y', 'reversed', the "
+              "order of "
+              "the columns and the matrix"};
 }
 
 }  // namespace noonmark
