@@ -110,13 +110,14 @@ max = 0.01
     run(words);
     const nlohmann::json all = nlohmann::json::parse(output_.substr(output_.find("{\n"))), one = all["experiments"][0],
                          &bounds = one["bounds"];
-    EXPECT_TRUE(bounds[1]["held"]) << "the lookup does not depend on the truth: " << bounds[1];
+    EXPECT_EQ(bounds[1]["verdict"], "held") << "the lookup does not depend on the truth: " << bounds[1];
     if (known) {
-      EXPECT_TRUE(bounds[0]["held"]) << bounds[0];
+      EXPECT_EQ(bounds[0]["verdict"], "held") << bounds[0];
       EXPECT_TRUE(bounds[2]["found"].is_number()) << bounds[2];
       continue;
     }
-    EXPECT_FALSE(bounds[2]["held"]) << bounds[2];
+    EXPECT_EQ(bounds[2]["verdict"], "broken") << bounds[2];
+    EXPECT_FALSE(bounds[2]["found"].is_number()) << bounds[2];
     EXPECT_EQ(one["exit_code"], 1);
     EXPECT_TRUE(says("is ambiguous")) << "the note: " << output_;
     EXPECT_NE(text("out/summary.md").find("is ambiguous"), std::string::npos);
@@ -126,6 +127,25 @@ max = 0.01
             2)
       << output_;
   EXPECT_TRUE(says("is ambiguous")) << output_;
+}
+
+// Of what is all in shadow no bias can be too small, so that the bounds hold says little.
+TEST_F(EmptyView, TheVerdictSaysThatThePictureIsPoor) {
+  write("dark.toml", R"(
+scene = "point-room"
+view = {width_px = 64, height_px = 36}
+map.resolution = 128
+[[bound]]
+metric = "acne"
+max = 1
+)");
+  EXPECT_EQ(run({"check", "dark.toml", "--out", "out", "--quiet"}), 0) << output_;
+  EXPECT_FALSE(says("poor")) << output_;
+  EXPECT_EQ(run({"check", "dark.toml", "--out", "dark", "--quiet", "--set", "light.kind=directional", "--set",
+                 "light.position_m=9,20,3", "--set", "light.target_m=0,0,0"}),
+            0)
+      << output_;
+  EXPECT_TRUE(says("1 of 1 bound held in a poor picture, see its note; 1 point measured")) << output_;
 }
 
 TEST_F(EmptyView, ABoundOverNothingFailsAndEveryPageSaysWhy) {
