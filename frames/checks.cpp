@@ -85,8 +85,9 @@ CheckResult check_given_map(double off_m, double spread_m, bool is_scenes_map) {
   if (is_scenes_map) return {map_check, CheckState::passed, found};
   return {map_check, CheckState::failed,
           found +
-              ": the map is another one, or turned over, or fills only a part of its texels; check 'first_row', 'y', "
-              "'reversed', the matrix and the viewport"};
+              ": the map is another one, turned over or mirrored, or fills only a part of its texels; check "
+              "'first_row', 'y', "
+              "'reversed', the order of the columns, the matrix and the viewport"};
 }
 
 }  // namespace noonmark

@@ -142,7 +142,7 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   if (point.missing.size() > 0)
     rebook(climbed.ladder, Cause::precision,
            {std::string(frame_missing), "Missing caster (the frame's map lacks it)",
-            std::string(find_metric(frame_missing).help), spare_colors[2], std::string(frame_rung)},
+            std::string(find_metric(frame_missing).help), spare_colors[2], "R5"},
            point.missing);
   if (!made.is_scenes_map)
     rebook(climbed.ladder, Cause::precision,

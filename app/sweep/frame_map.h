@@ -1,7 +1,7 @@
 // The causes of a frame whose own shadow map was handed over. It needs OpenGL.
 //
 //   FrameMap with_map(scene, tracer);
-//   const GivenClimb climb = with_map.climb(frame, verdict);
+//   const std::optional<Ladder> ladder = with_map.climb(frame, false, verdict);
 #pragma once
 #include <optional>
 #include <string>
