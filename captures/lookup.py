@@ -116,7 +116,7 @@ def explain(depths, m, place, normal, visibility):
     def best_constant(beyond, weights, slope, goal):
         """Tries the depths at which receivers turn, densest where they lie on their own surface, then finer."""
         turns = np.sort((beyond[0] - slope)[np.abs(beyond[0] - slope) < 0.1])
-        tries = np.unique(np.quantile(turns, np.linspace(0, 1, 49))) if len(turns) > 50 else np.linspace(-1e-3, 1e-3, 49)
+        tries = np.unique(np.maximum(0, np.quantile(turns, np.linspace(0, 1, 49)))) if len(turns) > 50 else np.linspace(0, 1e-3, 49)
         for _ in range(3):
             scores = np.array([misses(beyond, weights, slope + c, goal) for c in tries])
             k = int(np.argmin(scores))

@@ -62,9 +62,16 @@ class Reader:
         for n, group in enumerate(self.lights, 1):
             for m in group:
                 f, u = m.drawn.draws[0].polygon_offset
-                self.say(f'light {n}, {m.light["kind"]}: map {c.describe(m.drawn.target)} "{c.names.get(m.drawn.target[0], "")}", '
+                self.say(f'light {n}, {solve.light_of(group)["kind"]}: map {c.describe(m.drawn.target)} "{c.names.get(m.drawn.target[0], "")}", '
                          f'{m.drawn.name}, {len(m.pairs)} of {len(m.drawn.draws)} draws are in the picture too, residual '
-                         f'{m.residual[1]:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else ''))
+                         f'{m.residual[1]:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
+                         + ('' if m.cull == 'none' else f', without {m.cull} faces') + self.unfilled(m))
+
+    def unfilled(self, m):
+        """Of a map that is drawn into a part of a texture into which nothing else is drawn."""
+        t, (x, y, w, h) = self.capture.textures[m.drawn.target[0]], m.drawn.viewport
+        alone = all(p is m.drawn or m.drawn.target not in (p.depth, *p.outputs) for p in self.passes)
+        return f'; ITS VIEWPORT {w:.0f} x {h:.0f} FILLS A PART of the texture, and nothing fills the rest' if alone and w * h < t.width * t.height else ''
 
     def depth(self):
         cam = self.camera
@@ -109,7 +116,7 @@ class Reader:
     def light(self, n, group, pictures, parts, depth, place, normal, surface):
         c = self.capture
         v, lit, dark, target, notes = visibility.measure(pictures, group)
-        light = dict(group[0].light)
+        light = solve.light_of(group)
         facing = (normal * lookup.to_light(light, place)).sum(-1) > 0
         reacts = np.isfinite(v)
         mute = surface & ~reacts & facing
@@ -143,7 +150,7 @@ class Reader:
         for k, (m, depths, mine, found) in enumerate(lookups, 1):
             if len(group) > 1 and found:
                 only = np.where(mine | ~surface | ~facing, marks, visibility.NOT_JUDGED)
-                frames.append((f'{name}-map-{k}', base | {'visibility': picture(f'{name}-map-{k}', only)}
+                frames.append((f'{name}-map-{k}', base | {'light': m.light, 'visibility': picture(f'{name}-map-{k}', only)}
                                | self.map(f'{name}-map-{k}', m, depths, mine, found)))
         for stem, frame in frames:
             with open(os.path.join(self.folder, stem + '.json'), 'w') as f:
@@ -183,9 +190,10 @@ class Reader:
                 + ('; a bias below 0 cannot be handed over, so its causes are not known' if found.constant < 0 else ''))
 
     def not_in(self, m, depths, parts):
-        """Draws of the picture whose places the map holds nothing at or before."""
+        """Draws of the picture that the map's pass does not draw, and at whose places the map holds nothing."""
+        drawn = {d.event for d in m.pairs.values()}
         for part in parts:
-            if part.role != 'camera':
+            if part.role != 'camera' or part.draw.event in drawn:
                 continue
             centres = part.triangles.mean(1)
             taps = lookup.Taps(depths, m, centres[np.linspace(0, len(centres) - 1, min(len(centres), 2000)).astype(int)])
@@ -193,7 +201,8 @@ class Reader:
                 continue
             beyond = taps.read('none')[0][0][taps.inside]
             slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
-            if np.percentile(beyond, 90) < -slack:
+            # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
+            if np.percentile(beyond, 90 if m.drawn.draws[0].cull == 'front' else 50) < -slack:
                 yield part.name
 
     def true_light(self, m, light, notes, target):
@@ -207,21 +216,24 @@ class Reader:
                                 for want in ([1, 0, 1, 0], [0.5, 0.5, 0.5, 0.5], part))
         found = lookup.own_matrix(self.capture.matrices(lit[-1]), self.camera.camera, m)
         exact = [(miss(rows), name, rows) for rest, name, rows, _ in found if rest < 1e-3]
+        if light['kind'] == 'spot' and found:
+            _, name, _, matrix = min(found, key=lambda e: e[0])
+            centre = np.linalg.svd(matrix[[0, 1, 3]])[2][3]
+            centre = centre[:3] / centre[3]
+            moved = np.linalg.norm(centre - light['position'])
+            if 1e-4 < moved / max(1, np.linalg.norm(centre)) < 0.1:
+                notes.append(f'the map\'s vertices are moved by {moved:.4g} along the light (a bias in the map\'s shader); the truth is of '
+                             f'the light that {name} looks up from')
+                return light | {'position': centre.tolist()}
         if exact and min(e[0] for e in exact) > 1e-2:
             _, name, rows = min(exact, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        if light['kind'] != 'spot' or not found:
-            return light
-        _, name, _, matrix = min(found, key=lambda e: e[0])
-        centre = np.linalg.svd(matrix[[0, 1, 3]])[2][3]
-        centre = centre[:3] / centre[3]
-        moved = np.linalg.norm(centre - light['position'])
-        if 1e-4 < moved / max(1, np.linalg.norm(centre)) < 0.1:
-            notes.append(f'the map\'s vertices are moved by {moved:.4g} along the light (a bias in the map\'s shader); the truth is of the '
-                         f'light that {name} looks up from')
-            return light | {'position': centre.tolist()}
+        elif found and not exact:
+            rest, name, _, _ = min(found, key=lambda e: e[0])
+            notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
+                         'another light?), and no constant of the lit draw is nearer')
         return light
 
     def map(self, name, m, depths, mine, found):

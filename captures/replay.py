@@ -86,6 +86,12 @@ class Capture:
                 yield from walk(action.children)
         return list(walk(self.control.GetRootActions()))
 
+    def chunk_of(self, action):
+        """Of a draw out of a call for several, RenderDoc counts on from the call's own place."""
+        while action.parent and action.parent.flags & rd.ActionFlags.MultiAction:
+            action = action.parent
+        return action.events[-1].chunkIndex
+
     # ---- draws and their state
     def draws(self):
         found = []
@@ -113,7 +119,7 @@ class Capture:
         target = lambda t: (t.resourceId, max(0, t.firstSlice), max(0, t.firstMip))
         outputs = tuple(target(o) for o in state.GetOutputTargets() if o.resourceId != NULL)
         draw = Draw(
-            event=action.eventId, chunk=action.events[-1].chunkIndex, name=action.GetName(self.control.GetStructuredFile()),
+            event=action.eventId, chunk=self.chunk_of(action), name=action.GetName(self.control.GetStructuredFile()),
             count=action.numIndices, instances=instances, indexed=indexed,
             first=action.indexOffset if indexed else action.vertexOffset, base_vertex=action.baseVertex if indexed else 0,
             topology=state.GetPrimitiveTopology(), geometry=geometry + (action.numIndices, instances),

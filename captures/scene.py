@@ -58,7 +58,10 @@ def parts_of(draw, role, to_camera, vertices):
 
 
 def mask_of(part, m, draw, capture):
-    """(texture, channel, cutoff) that explain best where the captured map holds the part, or None."""
+    """((texture, channel, cutoff) that explain best where the captured map holds the part, or None; whether it has holes there).
+
+    The shader's text tells nothing: a `discard` may stand under a constant that is 0.
+    """
     from lookup import Taps
     from visibility import crop
     depths = crop(capture.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
@@ -84,7 +87,7 @@ def mask_of(part, m, draw, capture):
                 agrees = ((value[:, channel] >= cut) == there).mean()
                 if agrees > best[0] + 0.01 or (agrees > best[0] - 1e-9 and best[1] and best[1][1] == channel and abs(cut - 0.5) < abs(best[1][2] - 0.5)):
                     best = (agrees, (texture, channel, float(cut)))
-    return best[1]
+    return best[1], bool(told.any()) and there.mean() < 0.95
 
 
 def casters(camera, maps, vertices, capture, say, which='union'):
@@ -129,10 +132,13 @@ def casters(camera, maps, vertices, capture, say, which='union'):
     for part in kept:
         if part.draw.geometry in masks:
             m, draw = masks[part.draw.geometry]
-            part.mask = mask_of(part, m, draw, capture) if part.coordinates is not None else None
-            say(f'draw {draw.event} drops fragments' + (
-                f' by channel {part.mask[1]} of "{capture.names.get(part.mask[0], "")}" below {part.mask[2]:.2f}' if part.mask else
-                ', and no texture explains which: it is a solid caster here, so behind it lit and dark are not to be trusted'))
+            part.mask, has_holes = mask_of(part, m, draw, capture) if part.coordinates is not None else (None, True)
+            if part.mask:
+                texture, channel, cut = part.mask
+                say(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
+            elif has_holes:
+                say(f'draw {draw.event} may drop fragments, and no texture explains which: it is a solid caster here, so the shadows '
+                    'through its holes are not to be trusted')
     return kept
 
 

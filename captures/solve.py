@@ -302,3 +302,12 @@ def lights_of(maps):
         else:
             groups.append([m])
     return groups
+
+
+def light_of(group):
+    """The light of a group's maps as frame.json has it: maps of one place that look in several directions are those of a point light."""
+    light = group[0].light
+    if light['kind'] == 'spot' and any(np.dot(m.light['direction'], light['direction']) < 0.5 * np.dot(light['direction'], light['direction'])
+                                       for m in group):
+        return {'kind': 'point', 'position': light['position']}
+    return dict(light)

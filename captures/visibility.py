@@ -7,6 +7,7 @@ import numpy as np
 from replay import Refusal
 
 NO_SURFACE, NOT_JUDGED = -1.0, -2.0  # marks of frame.json
+MASK = 0.9  # of the pixels that react: more of them at the end of the format are no highlights
 STEPS_OF_REACTION = 8  # of the target's format, between lit and dark, that a pixel must show
 
 
@@ -105,6 +106,8 @@ def measure(pictures, group):
     span = lit - dark
     if form.compByteWidth == 1:  # where a channel is at its end, the light may go further than it shows
         clamped = (np.maximum(lit, frame) >= 1 - step / 2) & (span != 0)
+        if clamped.any(2).sum() > MASK * (span != 0).any(2).sum():
+            clamped[:] = False  # not a bright picture: a mask whose 1 is lit
         span = np.where(clamped, 0, span)
         if clamped.any():
             notes.append(f'{clamped.any(2).sum()} pixels reach the end of their format in a channel, which is left out')

@@ -68,7 +68,8 @@ std::vector<std::string> frames_in(const std::string& folder) {
 bool is_capture(const std::string& path) { return ends_with_any_case(path, ".rdc"); }
 
 std::vector<std::string> capture_files() {
-  return {"capture.json", log_name, "scene.glb", "light-*.json", "light-*.exr", "light-*.png", "*.npy"};
+  return {"capture.json", log_name,      "scene.glb",   "light-*.json",
+          "light-*.npy",  "light-*.exr", "light-*.png", "depth.npy"};
 }
 
 std::vector<std::string> capture_command(const std::string& capture, const std::string& reader) {

@@ -114,6 +114,8 @@ void write_unjudged(const std::string& out, const std::string& experiment, const
                     const std::string& command) {
   try {
     const Unjudged why{experiment, command, utc_now(), failure.message, failure.exit_code};
+    std::error_code none;  // the page of an earlier run shows its verdict
+    fs::remove(fs::path(out) / "report.html", none);
     write_file_atomically(out + "/junit.xml", to_junit(why));
     write_file_atomically(out + "/summary.md", to_summary(why));
   } catch (const Error& error) {  // the disk may be the cause of the failure

@@ -40,7 +40,8 @@ MeantFolders meant_folders(std::span<const std::string> words, const Vocabulary&
 void retract_verdicts(const MeantFolders& meant, const Failure& failure, const std::string& command);
 
 // Writes junit.xml and summary.md with the reason why an experiment was not judged, because a CI server that finds no
-// verdict may show that of the run before. Prints which files cannot be written.
+// verdict may show that of the run before, and removes report.html, which shows it too; `report` makes that again from the store. To be
+// called for a folder of this experiment (ResultsFolder::ours()). Prints which files cannot be written.
 void write_unjudged(const std::string& out, const std::string& experiment, const Failure& failure,
                     const std::string& command);
 

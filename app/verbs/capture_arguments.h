@@ -12,7 +12,7 @@ namespace noonmark {
 
 struct CaptureArguments {
   std::optional<int> light;  // its number, from 1 on
-  std::string bias, filter, casters;
+  std::string casters;
   std::string reader;  // the folder of the reader; empty: the program's own
 
   bool any() const;                        // one was given

@@ -11,6 +11,7 @@
 #include "app/sweep/frame_map.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "compare/judge/undecided.h"
 #include "compare/ladder/measure.h"
 #include "compare/report/cause_colors.h"
 #include "compare/results/metrics.h"
@@ -236,6 +237,8 @@ JudgedFrame judge_frame_file(const JudgeOptions& options, const std::vector<Boun
   for (const BoundResult& bound : judged)
     fmt::print("{}  {}: {}, found {}\n", &bound == &judged.front() ? "\n" : "", bound.held ? "held" : "BROKEN",
                bound_text(bound), found_text(bound));
+  if (const std::string doubt = ambiguous_note(record); !doubt.empty() && !verdict.refused())
+    fmt::print("  note: {}\n", doubt);
   if (const std::string note = notes_line(subject.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
   if (verdict.refused())
     fmt::print(

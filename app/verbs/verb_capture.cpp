@@ -21,8 +21,6 @@ std::vector<std::string> CaptureArguments::words() const {
     if (!value.empty()) words.push_back(option + value);  // one word, so that no value is taken for an option
   };
   add("--light=", light ? std::to_string(*light) : "");
-  add("--bias=", bias);
-  add("--filter=", filter);
   add("--casters=", casters);
   return words;
 }
@@ -32,14 +30,6 @@ void add_capture_options(CLI::App& verb, CaptureArguments& arguments) {
   verb.add_option("--light", arguments.light, "Of a capture: only this light, counted from 1")
       ->check(whole_number(1))
       ->type_name(value_kind::number);
-  verb.add_option(
-          "--bias", arguments.bias,
-          "Of a capture: the bias of the program's lookup, as the reader takes it; without it the reader fits it")
-      ->check(not_empty())
-      ->type_name("TEXT");
-  verb.add_option("--filter", arguments.filter, "Of a capture: the filter of the lookup, likewise")
-      ->check(not_empty())
-      ->type_name("TEXT");
   verb.add_option("--casters", arguments.casters,
                   "Of a capture: what casts shadows in the truth: what the camera's or the map's pass draws, or one "
                   "of them alone")

@@ -143,9 +143,9 @@ struct RungOnTop {
 // (is_free_name).
 void add_rung(Ladder& ladder, RungOnTop rung);
 
-// At the pixels in the mask the step of a cause of the ladder becomes that of a new one, which `as` describes; so does the name
-// of the pixel. Before any rung is put on top.
-void rebook(Ladder& ladder, Cause from, RungCause as, const Image<uint8_t>& mask);
+// The step of a cause of the ladder becomes that of a new one, which `as` describes, at the pixels in the mask, or everywhere with
+// an empty one; so does the name of the pixel. `from` stays. Before any rung is put on top.
+void rebook(Ladder& ladder, Cause from, RungCause as, const Image<uint8_t>& mask = {});
 
 // For causes that are not built in. Under the common colour-vision deficiencies (Machado et al. 2009) they differ from
 // each other and from all colours of cause_rows by 15 or more in CIELAB.

@@ -228,6 +228,30 @@ TEST_F(JudgeWithMap, AMapOfAnotherSceneOrUpsideDownIsNamed) {
   refused("first_row", "bottom", "the texel x = 5, y = 7 of the file is 1.5");
 }
 
+// The map's pass has the window's viewport: the scene fills a corner of the map, and the lookup reads all of it.
+TEST_F(JudgeWithMap, AMapThatIsNotTheScenesIsACauseOfItsOwn) {
+  measure({{"bias.constant", "0.002"}});
+  const nlohmann::json right = judged(deliver({}));
+  EXPECT_EQ(right["metrics"]["frame_map"], 0);
+  EXPECT_FALSE(right["causes"].contains("frame_map"));
+  const Image<float> drawn = stored_;
+  for (int y = 0; y < drawn.height; ++y)
+    for (int x = 0; x < drawn.width; ++x)
+      stored_.at(x, y) = 2 * x < drawn.width && 2 * y < drawn.height ? drawn.at(2 * x, 2 * y) : 1.0f;
+  write("frame.json", deliver({}).dump());
+  ASSERT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "map"}), 0) << output_;
+  EXPECT_TRUE(says("fills only a part of its texels")) << output_;
+  const nlohmann::json said = nlohmann::json::parse(read_file((folder_ / "out/judge.json").string()));
+  EXPECT_EQ(said["metrics"]["precision"], 0);
+  EXPECT_GT(said["metrics"]["frame_map"], 0.01);
+  EXPECT_TRUE(says("Map (it is not the scene's)")) << output_;
+  double parts = 0;
+  for (const auto& [name, cause] : said["causes"].items()) parts += cause["part"].get<double>();
+  EXPECT_NEAR(parts, said["metrics"]["frame_error"], 1e-7);
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "map", "--max", "frame_map=0.1%"}), 1) << output_;
+  judged(deliver({}), 3);
+}
+
 TEST_F(JudgeWithMap, AMapOfAPointLightIsRefused) {
   measure({{"bias.constant", "0.002"}});
   nlohmann::json frame = deliver({});
@@ -362,6 +386,15 @@ TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamed) {
       EXPECT_NEAR(with["metrics"][cause], metrics_.at(cause), with["metrics"]["frame_error"].get<double>() / 10)
           << cause;
   }
+}
+
+// Of depths that do not tell their format, where most of the map is empty: the floor's front is not drawn.
+TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamedInItsOwnFormat) {
+  measure({{"bias.polygon_units", "-20000"}, {"map.cull", "front"}, {"map.format", "24"}, {"filter.kind", "hardware"}});
+  nlohmann::json frame = deliver({});
+  for (const char* key : {"bias.polygon_units", "map.format"}) frame["map"]["technique"].erase(key);
+  judged(frame, 3);
+  EXPECT_TRUE(says("\"bias.polygon_units\": -2e+04, \"map.format\": \"24\"")) << output_;
 }
 
 // Also where the frame is full of acne, so that the declared lookup is nearer to it than to the truth.
