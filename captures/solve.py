@@ -187,6 +187,15 @@ def camera_of(capture, drawn, vertices):
 
 
 # ---- one pass against another
+def on_depth_line(clip, camera):
+    """The clip positions with z from w, in double. Their difference carries the matrix's constant, and rounds away in float where near is small."""
+    if camera.orthographic:
+        return clip
+    z = -camera.clip[2, 2] * clip[:, 3] + camera.clip[2, 3]
+    near = np.abs(z - clip[:, 2]) < 1e-6 * np.abs(clip[:, 3])
+    return np.c_[clip[:, :2], np.where(near, z, clip[:, 2]), clip[:, 3]]
+
+
 def matrix_between(light, camera, vertices):
     """(M, pairs, clip of the camera, clip of the light) with light = M camera over draws of both; None if none fits."""
     theirs = collections.defaultdict(list)
@@ -204,7 +213,7 @@ def matrix_between(light, camera, vertices):
             continue
         keep = usable(l) & usable(c)
         if keep.sum() >= 3:
-            data.append((a, b, sure, few(c[keep]), few(l[keep])))
+            data.append((a, b, sure, few(on_depth_line(c[keep], camera.camera)), few(l[keep])))
         if len(data) > 120:
             break
     seeds = [[x for x in data if x[2]]] + [[x] for x in data[:12]] + [[x, y] for x in data[:6] for y in data[:6] if x is not y]

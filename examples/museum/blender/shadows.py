@@ -21,6 +21,7 @@ if 'SHADOW_BIAS' in os.environ:
     light.data.shadow_buffer_bias = float(os.environ['SHADOW_BIAS'])
 if light.data.type == 'SUN':
     light.data.shadow_cascade_count = 1
+    light.data.shadow_cascade_max_distance = 15
     light.data.angle = 0
 else:
     light.data.shadow_soft_size = 0
