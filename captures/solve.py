@@ -153,7 +153,7 @@ def camera_of(capture, drawn, vertices):
         if c is None or draw.instances > 1:
             continue
         for place in capture.vertex_inputs(draw):
-            if len(place) != len(c):
+            if len(place) != len(c) or not np.isfinite(place).all():
                 continue
             source = np.c_[place, np.ones(len(place))]
             g, rank, _ = fit(source, c)
