@@ -229,7 +229,11 @@ void make_folder(const std::string& path) {
     const fs::path parent = made;
     made /= part;
     std::error_code error;
-    if (fs::is_directory(made, error)) continue;
+    const fs::file_status there = fs::status(made, error);
+    if (fs::is_directory(there)) continue;
+    if (fs::exists(there))
+      throw Error(ErrorKind::file,
+                  fmt::format("cannot make the folder {}: {} is a file; remove or rename it", path, made.string()));
     if (fs::create_directory(made, error))
       flush_folder(parent);
     else if (error)

@@ -15,6 +15,7 @@ import signal
 import struct
 import subprocess
 import sys
+import tempfile
 
 PACKAGES = {'renderdoc': 'python3-renderdoc', 'numpy': 'python3-numpy'}
 MEMORY, SECONDS = 16 << 30, 1200
@@ -81,6 +82,8 @@ def main():
         print(f'noonmark: captures need these packages of Debian: {" ".join(missing())}; install them with apt', file=sys.stderr)
         return 4
     try:
+        if not os.path.isfile(options.capture) and os.path.exists(options.capture):
+            raise OSError('not a file')
         with open(options.capture, 'rb') as f:
             if f.read(4) != b'RDOC':
                 raise OSError('no capture of RenderDoc (its first bytes are not RDOC)')
@@ -88,10 +91,12 @@ def main():
     except OSError as why:
         print(f'noonmark: {options.capture}: {why.strerror or why}', file=sys.stderr)
         return 2
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that display and scratch folder end with this process
     folder = os.path.abspath(options.out)
     environment, server = with_display(dict(os.environ))
-    environment |= {'LIBGL_ALWAYS_SOFTWARE': environment.get('LIBGL_ALWAYS_SOFTWARE', '1'), 'MESA_SHADER_CACHE_DISABLE': 'true',
-                    'HOME': folder, 'TMPDIR': folder, 'XDG_RUNTIME_DIR': folder}
+    scratch = tempfile.mkdtemp(prefix='scratch-', dir=folder)
+    environment |= {'LIBGL_ALWAYS_SOFTWARE': environment.get('LIBGL_ALWAYS_SOFTWARE', '1'), 
+                    'HOME': scratch, 'TMPDIR': scratch, 'XDG_RUNTIME_DIR': scratch, 'XDG_CACHE_HOME': scratch, 'LP_NUM_THREADS': '2'}
     try:
         child = subprocess.Popen([sys.executable, os.path.abspath(__file__), os.path.abspath(options.capture), folder, '--inside',
                                   '--light', str(options.light), '--casters', options.casters],
@@ -101,8 +106,10 @@ def main():
         child.kill()
         code = -signal.SIGKILL
     finally:
+        shutil.rmtree(scratch, ignore_errors=True)
         if server:
             server.terminate()
+            server.wait()
     if code < 0:
         print(f'noonmark: {options.capture}: the replay ended by signal {-code} (the driver, or its limits of {MEMORY >> 30} GiB and '
               f'{SECONDS} s)', file=sys.stderr)

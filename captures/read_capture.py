@@ -35,14 +35,26 @@ class Reader:
         self.camera, self.maps = solve.camera_and_maps(c, self.passes, self.vertices, self.say)
         self.lights = solve.lights_of(self.maps)
         self.zero_to_one = self.camera.draws[0].zero_to_one
-        self.found = {'api': c.driver, 'draws': len(self.draws), 'lights': []}
+        self.found = {'api': c.driver, 'draws': len(self.draws), 'lights': [], 'files': ['scene.glb']}
 
     def say(self, text):
         print(text, flush=True)
 
     def save(self, name, image):
         np.save(os.path.join(self.folder, name), top_first(image))
+        self.found['files'].append(name)
         return {'file': name}
+
+    def forget(self):
+        """Removes what an earlier reading wrote here, by its own list."""
+        try:
+            with open(os.path.join(self.folder, 'capture.json')) as f:
+                files = json.load(f)['files']
+        except (OSError, ValueError, KeyError):
+            return
+        for name in files:
+            if os.path.basename(name) == name and os.path.isfile(os.path.join(self.folder, name)):
+                os.remove(os.path.join(self.folder, name))
 
     def describe(self):
         c, cam = self.capture, self.camera
@@ -54,7 +66,7 @@ class Reader:
                 self.say(f'light {n}, {solve.light_of(group)["kind"]}: map {c.describe(m.drawn.target)} "{c.names.get(m.drawn.target[0], "")}", '
                          f'{m.drawn.name}, {len(m.pairs)} of {len(m.drawn.draws)} draws are in the picture too, residual '
                          f'{m.residual[1]:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
-                         + ('' if m.drawn.draws[0].cull == 'none' else f', culls {m.drawn.draws[0].cull} faces') + self.unfilled(m))
+                         + ('' if m.cull == 'none' else f', without {m.cull} faces') + self.unfilled(m))
 
     def unfilled(self, m):
         """Of a map that is drawn into a part of a texture into which nothing else is drawn."""
@@ -80,6 +92,7 @@ class Reader:
 
     def run(self):
         self.describe()
+        self.forget()
         c, depth = self.capture, self.depth()
         parts = scene.casters(self.camera, self.maps, self.vertices, c, self.say, self.options.casters)
         scene.write_glb(os.path.join(self.folder, 'scene.glb'), parts, c)
@@ -125,10 +138,12 @@ class Reader:
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
         light = self.true_light(m, light, notes, target)
+        if light.get('position') != group[0].light.get('position'):
+            lookups = [(m, depths, mine, None) for m, depths, mine, _ in lookups]
         base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'light': light,
                 'camera': {'clip_from_world': self.matrix().flatten().tolist(), 'order': 'row',
                            'depth_range': '0..1' if self.zero_to_one else '-1..1', 'reversed': self.camera.draws[0].reversed},
-                'depth': dict(self.save('depth.npy', depth), measure='window'), 'notes': notes, 'not_in_map': sorted(missing)}
+                'depth': dict(self.save('depth.npy', depth), measure='window'), 'notes': notes} | ({'not_in_map': sorted(missing)} if missing else {})
         decoded = any(f and f.decoded for *_, f in lookups)
         name = f'light-{n}'
         picture = lambda stem, marks: dict(self.save(f'{stem}.npy', marks), normalised=True, **({'encoding': 'srgb'} if decoded else {}))
@@ -141,6 +156,7 @@ class Reader:
         for stem, frame in frames:
             with open(os.path.join(self.folder, stem + '.json'), 'w') as f:
                 json.dump(frame, f, indent=1)
+            self.found['files'].append(stem + '.json')
         for note in notes:
             self.say(f'light {n}: {note}')
         self.found['lights'].append({'light': n, 'kind': light['kind'], 'frames': [f + '.json' for f, _ in frames], 'notes': notes})
@@ -168,7 +184,7 @@ class Reader:
         if not found:
             return 'its lookup is not known (moments, depths that do not read, or too few receivers); judged by place'
         per_unit = np.linalg.norm(m.clip[2, :3]) / (1 if m.drawn.draws[0].zero_to_one else 2)
-        length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' else ''
+        length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' and not self.camera.camera.orthographic else ''
         return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}'
                 + (f' and {found.tan:.3g} tan' if found.tan else '')
                 + f', {"WHICH LEAVES" if found.misses > UNEXPLAINED else "which leaves"} {100 * found.misses:.2f}% '
@@ -176,9 +192,10 @@ class Reader:
                 + (', after sRGB is decoded' if found.decoded else ''))
 
     def not_in(self, m, depths, parts):
-        """Draws of the picture whose places the map holds nothing at or before."""
+        """Draws of the picture that the map's pass does not draw, and at whose places the map holds nothing."""
+        drawn = {d.event for d in m.pairs.values()}
         for part in parts:
-            if part.role != 'camera':
+            if part.role != 'camera' or part.draw.event in drawn:
                 continue
             centres = part.triangles.mean(1)
             taps = lookup.Taps(depths, m, centres[np.linspace(0, len(centres) - 1, min(len(centres), 2000)).astype(int)])
@@ -215,17 +232,17 @@ class Reader:
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        elif found and not exact:
+        elif found and not exact and not self.camera.camera.orthographic:  # its scale is not known, and so not what leads to the world
             rest, name, _, _ = min(found, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
                          'another light?), and no constant of the lit draw is nearer')
         return light
 
     def map(self, name, m, depths, mine, found):
-        if not found:
+        if not found or found.constant < 0:
             return {}
         factor, units = m.drawn.draws[0].polygon_offset
-        technique = found.technique | {'map.cull': m.drawn.draws[0].cull}
+        technique = found.technique | {'map.cull': m.cull}
         if factor or units:
             sign = -1 if m.reversed else 1
             technique |= {'bias.polygon_factor': repr(sign * factor), 'bias.polygon_units': repr(sign * units)}

@@ -42,7 +42,7 @@ class Draw:
     reversed: bool
     y_down: bool
     writes_depth: bool
-    cull: str  # 'none', 'front', 'back'
+    culls: str  # 'none', or the turn on the screen of the triangles that are not drawn: 'ccw', 'cw'
     polygon_offset: tuple  # factor, units
     discards: bool
     samples: int
@@ -50,14 +50,6 @@ class Draw:
     @property
     def place(self):
         return self.depth, self.outputs, self.viewport
-
-    @property
-    def key(self):
-        return self.place
-
-    @property
-    def triangles(self):
-        return self.count * self.instances // 3
 
 
 class Capture:
@@ -67,10 +59,10 @@ class Capture:
         self.file = rd.OpenCaptureFile()
         result = self.file.OpenFile(path, '', None)
         if result.code != rd.ResultCode.Succeeded:
-            raise Refusal(f'{path}: RenderDoc does not read it: {result.Message()}')
+            raise Refusal(f'RenderDoc does not read it: {result.Message()}')
         result, self.control = self.file.OpenCapture(rd.ReplayOptions(), None)
         if self.control is None:
-            raise Refusal(f'{path}: RenderDoc cannot replay it on this machine: {result.Message()}')
+            raise Refusal(f'RenderDoc cannot replay it on this machine: {result.Message()}')
         self.api = self.control.GetAPIProperties().pipelineType
         self.gl = self.api == rd.GraphicsAPI.OpenGL
         self.driver = self.file.DriverName()
@@ -135,7 +127,7 @@ class Capture:
             viewport=(view.x, view.y, view.width, view.height), reads=self._reads(state),
             shaders=tuple(int(state.GetShader(s)) for s in STAGES),
             has_geometry_shader=state.GetShader(rd.ShaderStage.Geometry) != NULL, zero_to_one=True, reversed=False,
-            y_down=False, writes_depth=True, cull='none', polygon_offset=(0.0, 0.0),
+            y_down=False, writes_depth=True, culls='none', polygon_offset=(0.0, 0.0),
             discards=discards(state.GetShaderReflection(rd.ShaderStage.Pixel)), samples=1)
         main = outputs[0] if outputs else draw.depth
         if main:
@@ -155,7 +147,8 @@ class Capture:
             rows = self.textures[main[0]].height >> main[2] if main else h
             draw.viewport = (x, rows - y - h, w, h)
         draw.reversed = test.depthFunction in GREATER
-        draw.cull = {rd.CullMode.Front: 'front', rd.CullMode.Back: 'back'}.get(raster.cullMode, 'none')
+        if raster.cullMode in (rd.CullMode.Front, rd.CullMode.Back):
+            draw.culls = 'ccw' if (raster.cullMode == rd.CullMode.Front) == bool(raster.frontCCW) else 'cw'
         draw.polygon_offset = (raster.slopeScaledDepthBias, raster.depthBias)
         return draw
 

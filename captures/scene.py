@@ -11,8 +11,6 @@ from solve import usable
 
 SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through two matrices
 
-MASK_SAMPLES, ENOUGH = 200, 20  # places: of a triangle; that say whether its mask is one
-
 
 @dataclasses.dataclass
 class Part:
@@ -20,7 +18,7 @@ class Part:
     role: str  # 'camera', or 'map': drawn into a map alone
     triangles: np.ndarray  # n x 3 x 3
     coordinates: np.ndarray = None  # n x 3 x 2, of a mask
-    mask: object = None  # texture
+    mask: object = None  # (texture, channel, cutoff)
 
     @property
     def name(self):
@@ -59,38 +57,37 @@ def parts_of(draw, role, to_camera, vertices):
     return [p for p in parts if len(p.triangles)]
 
 
-def drops(m, draw, texture, vertices, capture):
-    """Whether the map lacks the draw's own depths where the texture's alpha is below a half: a shader may have a `discard` that a
-    constant switches off."""
-    alpha = alpha_of(capture, texture, draw.event)
-    size = np.array(draw.viewport[2:])
-    depths = capture.image(m.drawn.target, m.drawn.last)[..., 0]
-    clip, coordinates = vertices.of(draw) or (None, None)
-    rows = triangle_rows(draw.topology, 0 if coordinates is None else len(clip))
-    rows = rows[(clip[rows, 3] > 0).all(1)] if coordinates is not None and rows is not None else []
-    if not len(rows):
-        return False
-    weights = np.random.default_rng(0).dirichlet((1, 1, 1), MASK_SAMPLES)
-    q, uv = (np.einsum('sk,tkc->tsc', weights, a[rows]) for a in (clip, coordinates))
-    window = lambda c: np.c_[(c[:, :2] / c[:, 3:] / 2 + 0.5) * size, c[:, 2] / c[:, 3] if draw.zero_to_one else c[:, 2] / c[:, 3] / 2 + 0.5]
-    edges = np.diff(window(clip[rows].reshape(-1, 4)).reshape(-1, 3, 3), axis=1)
-    normal = np.abs(np.cross(edges[:, 0], edges[:, 1]))
-    slope = np.repeat((normal[:, 0] + normal[:, 1]) / np.maximum(normal[:, 2], 1e-12), MASK_SAMPLES)  # window depth a texel, at most
-    at = window(q.reshape(-1, 4))
-    inside = ((at > 0) & (at < (*size, 1))).all(1)
-    column, row = (np.where(inside, at[:, k] + draw.viewport[k], 0).astype(int) for k in (0, 1))
-    held = np.abs(at[:, 2] - depths[row, column]) < slope + 1e-4
-    texel = lambda k, n: np.floor(uv[..., k].ravel() % 1 * n).astype(int) % n
-    is_open = alpha[texel(1, alpha.shape[0]), texel(0, alpha.shape[1])] < 0.5
-    holes, solid = inside & is_open, inside & ~is_open
-    return bool(held[solid].sum() >= ENOUGH <= holes.sum()) and held[holes].mean() < 0.5 * held[solid].mean()
+def mask_of(part, m, draw, capture):
+    """((texture, channel, cutoff) that explain best where the captured map holds the part, or None; whether it has holes there).
 
-
-def alpha_of(capture, texture, event):
-    """Rows by v, upwards."""
-    rgba = np.clip(capture.image((texture, 0, 0), event), 0, 1)
-    rgba = rgba if capture.gl else rgba[::-1]
-    return rgba[..., 3] if rgba.shape[2] == 4 else rgba[..., 0]
+    The shader's text tells nothing: a `discard` may stand under a constant that is 0.
+    """
+    from lookup import Taps
+    from visibility import crop
+    depths = crop(capture.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
+    seeds = np.random.default_rng(1)
+    pick = seeds.integers(len(part.triangles), size=6000)
+    weight = seeds.dirichlet((1, 1, 1), size=6000)[:, :, None]
+    taps = Taps(depths, m, (part.triangles[pick] * weight).sum(1))
+    beyond = taps.read('none')[0][0]
+    slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
+    told = taps.inside & (beyond < slack)  # elsewhere something nearer hides it
+    there, uv = (np.abs(beyond) < slack)[told], ((part.coordinates[pick] * weight).sum(1) % 1)[told]
+    best = (max(there.mean(), 1 - there.mean()) if told.any() else 1.0, None)
+    for texture in draw.reads:
+        try:
+            image = capture.image((texture, 0, 0), draw.event)
+        except Refusal:
+            continue
+        image = image if capture.gl else image[::-1]
+        rows, columns = image.shape[:2]
+        value = image[(uv[:, 1] * rows).astype(int) % rows, (uv[:, 0] * columns).astype(int) % columns]
+        for channel in range(image.shape[2]):
+            for cut in np.linspace(0.05, 0.95, 19):
+                agrees = ((value[:, channel] >= cut) == there).mean()
+                if agrees > best[0] + 0.01 or (agrees > best[0] - 1e-9 and best[1] and best[1][1] == channel and abs(cut - 0.5) < abs(best[1][2] - 0.5)):
+                    best = (agrees, (texture, channel, float(cut)))
+    return best[1], bool(told.any()) and there.mean() < 0.95
 
 
 def casters(camera, maps, vertices, capture, say, which='union'):
@@ -115,9 +112,8 @@ def casters(camera, maps, vertices, capture, say, which='union'):
     for m in maps:
         back = np.linalg.inv(m.clip)
         for draw in m.drawn.draws:
-            texture = next(iter(draw.reads), None) if draw.discards else None
-            if texture is not None and drops(m, draw, texture, vertices, capture):
-                masks[draw.geometry] = (draw, texture)
+            if draw.discards and draw.reads:  # a shader with "discard" in a branch that reads nothing drops nothing
+                masks[draw.geometry] = (m, draw)
             if which == 'map' or which == 'union':
                 if which == 'union' and draw.event in m.pairs:
                     continue
@@ -135,9 +131,14 @@ def casters(camera, maps, vertices, capture, say, which='union'):
         f'{sum(len(p.triangles) for p in parts if p.role == "map")} of them only in the maps; {len(parts) - len(kept)} draws again')
     for part in kept:
         if part.draw.geometry in masks:
-            _, part.mask = masks[part.draw.geometry]
-    for draw, texture in masks.values():
-        say(f'draw {draw.event} drops fragments by the texture "{capture.names.get(texture, "")}": its alpha is taken as a mask')
+            m, draw = masks[part.draw.geometry]
+            part.mask, has_holes = mask_of(part, m, draw, capture) if part.coordinates is not None else (None, True)
+            if part.mask:
+                texture, channel, cut = part.mask
+                say(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
+            elif has_holes:
+                say(f'draw {draw.event} may drop fragments, and no texture explains which: it is a solid caster here, so the shadows '
+                    'through its holes are not to be trusted')
     return kept
 
 
@@ -172,13 +173,14 @@ def write_glb(path, parts, capture):
         if part.mask is None or part.coordinates is None:
             return 0
         if part.mask not in by_mask:
-            alpha = alpha_of(capture, part.mask, part.draw.event)
-            pixels = np.full(alpha.shape + (4,), 255, 'u1')
-            pixels[..., 3] = np.rint(alpha * 255)
-            # The first row of the file is v = 0, in glTF as in the program.
+            texture, channel, cut = part.mask
+            image = capture.image((texture, 0, 0), part.draw.event)
+            image = np.clip(image if capture.gl else image[::-1], 0, 1)[..., channel]
+            pixels = np.full(image.shape + (4,), 255, 'u1')  # its first row is v = 0, in glTF as in the program
+            pixels[..., 3] = np.rint(image * 255)
             images.append({'bufferView': view(png(pixels)), 'mimeType': 'image/png'})
             textures.append({'source': len(images) - 1})
-            materials.append({'doubleSided': True, 'alphaMode': 'MASK', 'alphaCutoff': 0.5,
+            materials.append({'doubleSided': True, 'alphaMode': 'MASK', 'alphaCutoff': cut,
                               'pbrMetallicRoughness': {'baseColorTexture': {'index': len(textures) - 1}}})
             by_mask[part.mask] = len(materials) - 1
         return by_mask[part.mask]

@@ -56,11 +56,21 @@ class Map:
     residual: tuple  # median, 99 in 100; clip units
     depth_off: tuple  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
     square: float  # cosine of its axes
-    near: float = 0.0  # the depth that is nearest
 
     @property
     def reversed(self):
         return self.drawn.draws[0].reversed
+
+    @property
+    def near(self):
+        return 1 if self.reversed else 0
+
+    @property
+    def cull(self):
+        """map.cull: the side of the triangles that most of the map's draws leave out."""
+        turn = max(self.drawn.draws, key=lambda d: sum(e.count for e in self.drawn.draws if e.culls == d.culls)).culls
+        mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.reversed
+        return turn if turn == 'none' else 'front' if (turn == 'ccw') != mirrored else 'back'
 
 
 class Vertices:
@@ -87,7 +97,7 @@ def passes_of(draws):
     found = collections.OrderedDict()
     for draw in draws:
         if draw.count >= 3 and (draw.depth or draw.outputs):
-            found.setdefault(draw.key, []).append(draw)
+            found.setdefault(draw.place, []).append(draw)
     return [Pass(d, *key) for key, d in found.items()]
 
 
@@ -243,9 +253,8 @@ def map_of(light, camera, vertices):
     k, b = robust_line(t, z)
     clip[2] = np.r_[k * axis, b] if parallel else k * clip[3] + np.r_[0, 0, 0, b]
     rest = z - k * t - b if parallel else (z - k * t - b) / l[:, 3]
-    is_reversed = light.draws[0].reversed
     if parallel:
-        toward = -1 if is_reversed else 1
+        toward = -1 if light.draws[0].reversed else 1
         axis = axis if clip[2, :3] @ axis * toward > 0 else -axis
         found, along = {'kind': 'directional', 'direction': axis.tolist()}, clip[2, :3]
     else:
@@ -256,7 +265,7 @@ def map_of(light, camera, vertices):
     square = max(abs(axes[0] @ axes[1]), abs(axes[0] @ axes[2]), abs(axes[1] @ axes[2]))
     e = off(m, c, l)
     return Map(light, clip, found, pairs, (float(np.median(e)), float(np.percentile(e, 99))),
-               tuple(np.percentile(rest, [1, 50, 99]).tolist()), float(square), 1.0 if is_reversed else 0.0)
+               tuple(np.percentile(rest, [1, 50, 99]).tolist()), float(square))
 
 
 def camera_and_maps(capture, passes, vertices, say):

@@ -62,7 +62,7 @@ class Pictures:
         for value in values:
             edits, shift = self.copies.without({d.event: d for m in (*lit, *dark) for d in m.drawn.draws}.values()), 0
             for m in dark:
-                clear, more = self.copies.cleared(m.drawn, self.clears, self.colour[id(m)], int(m.near) if value is None else value)
+                clear, more = self.copies.cleared(m.drawn, self.clears, self.colour[id(m)], m.near if value is None else value)
                 shift += more if not set(clear) & set(edits) else 0
                 edits |= clear
             copy = self.copies.open(edits)
@@ -95,8 +95,13 @@ def measure(pictures, group):
         if (reaction > 1 / 256).sum() >= 100:
             break
     else:
-        raise Refusal(f'the map of {group[0].drawn.name} has no effect on the picture: it is not looked up, or its bias is so large '
-                      'that nothing is in shadow')
+        own, later = {m.drawn.target[0] for m in group}, [d for d in pictures.draws if d.event > group[-1].drawn.last]
+        if any(own & set(d.reads) for d in later):
+            raise Refusal(f'the map of {group[0].drawn.name} has no effect on the picture, although draws read it: is its bias so large '
+                          'that nothing is in shadow?')
+        others = {m.drawn.name for m in pictures.maps if any(m.drawn.target[0] in d.reads for d in later)}
+        raise Refusal(f'the map of {group[0].drawn.name} has no effect on the picture: no later draw reads it'
+                      + (f'; they read the map of another light ({", ".join(sorted(others))})' if others else ''))
     frame, step = pictures.frame[target], step_of(form)
     span = lit - dark
     if form.compByteWidth == 1:  # where a channel is at its end, the light may go further than it shows

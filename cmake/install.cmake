@@ -29,6 +29,9 @@ install(DIRECTORY experiments/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMP
 # What `noonmark recommend --engine` runs.
 install(DIRECTORY examples/engines/ DESTINATION ${CMAKE_INSTALL_DATADIR}/noonmark/engines COMPONENT program
         PATTERN node_modules EXCLUDE PATTERN package-lock.json EXCLUDE)
+# What `noonmark capture` runs.
+install(DIRECTORY captures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/noonmark/captures COMPONENT program
+        PATTERN __pycache__ EXCLUDE)
 install(EXPORT noonmarkTargets NAMESPACE noonmark:: DESTINATION ${NOONMARK_PACKAGE_DIR})
 configure_package_config_file(cmake/noonmarkConfig.cmake.in ${PROJECT_BINARY_DIR}/noonmarkConfig.cmake
                               INSTALL_DESTINATION ${NOONMARK_PACKAGE_DIR} NO_SET_AND_CHECK_MACRO)

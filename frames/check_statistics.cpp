@@ -304,6 +304,14 @@ FrameStatistics frame_statistics(const CheckEvidence& e) {
   return found;
 }
 
+double way_to_plane(const Scene& scene, uint32_t triangle, glm::dvec3 p, glm::dvec3 direction) {
+  const glm::uvec3 corners = scene.triangles[triangle];
+  const glm::dvec3 a = scene.positions[corners[0]];
+  const glm::dvec3 across =
+      glm::cross(glm::dvec3(scene.positions[corners[1]]) - a, glm::dvec3(scene.positions[corners[2]]) - a);
+  return glm::dot(across, a - p) / glm::dot(across, direction);
+}
+
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   return place_quantile(values, share);

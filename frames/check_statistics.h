@@ -60,6 +60,9 @@ struct FrameStatistics {
 };
 FrameStatistics frame_statistics(const CheckEvidence& evidence);
 
+// The way along `direction` from p to the plane of a triangle, in lengths of it; not finite where it grazes the plane.
+double way_to_plane(const Scene& scene, uint32_t triangle, glm::dvec3 p, glm::dvec3 direction);
+
 // The value below which this share of the values lies; NaN of none.
 double quantile(std::vector<double> values, double share);
 

@@ -50,7 +50,7 @@ std::vector<CheckResult> check_frame(const CheckEvidence& evidence);
 
 inline constexpr std::string_view map_check = "map";
 // The check "map", which needs the exact map. off_m: the median distance of its depths from the scene's, over the texels that
-// are read. spread_m: how far apart the scene's depths there are.
-CheckResult check_given_map(double off_m, double spread_m);
+// are read. spread_m: how far apart the scene's depths there are. is_scenes_map: what that means.
+CheckResult check_given_map(double off_m, double spread_m, bool is_scenes_map);
 
 }  // namespace noonmark

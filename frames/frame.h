@@ -46,7 +46,8 @@ struct GivenFrame {
   ViewMatrix view;
   Light light;
   std::optional<GivenMap> map = {};
-  std::vector<std::string> notes = {};  // sentences for people
+  std::vector<std::string> not_in_map = {};  // names of parts of the scene: casters that the frame's map lacks
+  std::vector<std::string> notes = {};       // sentences for people
 };
 
 // Takes the marks out of a visibility as it was delivered: -1 or NaN where there is no surface, -2 at a surface that is not

@@ -356,6 +356,7 @@ FrameFile parse_frame_file(const std::string& path, std::string_view text) {
   all.require("noonmark_frame", "it is 1");
   all.require("visibility", "the picture that is judged");
   file.scene = all.text("scene");
+  file.not_in_map = all.texts("not_in_map");
   file.notes = all.texts("notes");
   const Object visibility = all.object("visibility");
   visibility.require("file", "the picture that is judged");

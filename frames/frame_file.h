@@ -34,7 +34,7 @@ struct MapFile {
 struct FrameFile {
   std::string path;  // of the JSON file, for messages. Paths below are as they stand in it, relative to its folder
   std::optional<std::string> scene;
-  std::vector<std::string> notes;
+  std::vector<std::string> not_in_map, notes;
   std::string visibility;
   ValueEncoding encoding = ValueEncoding::linear;
   bool normalised = false;

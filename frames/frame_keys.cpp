@@ -107,11 +107,11 @@ constexpr FrameKey key_rows[] = {
      "view of a perspective camera.",
      "window|view_z"},
     {"", "map", Kind::object,
-     "The shadow map that the frame was drawn with: one square map of a directional or a spot light. With it every "
+     "The shadow map that the frame was drawn with: one map of a directional or a spot light. With it every "
      "cause of "
      "the ladder is known; it needs OpenGL."},
     {"map", "file", Kind::text,
-     "EXR with one 32-bit float channel, or NPY of resolution x resolution: the depth that the lookup compares, from 0 "
+     "EXR with one 32-bit float channel, or NPY of height x width: the depth that the lookup compares, from 0 "
      "to "
      "1. Required."},
     {"map", "first_row", Kind::choice,
@@ -139,6 +139,9 @@ constexpr FrameKey key_rows[] = {
     {"", "contact", Kind::object, "How near an occluder is to the receiver where light leaks at a contact."},
     within({"contact", "distance", Kind::number, "Along the light's ray. Default: 1% of the scene's diagonal."}, edge_m,
            "m"),
+    {"", "not_in_map", Kind::texts,
+     "Names of the scene's nodes that cast shadows and that the frame's shadow map does not hold, as if they had been "
+     "culled."},
     {"", "notes", Kind::texts, "What `judge` prints about this frame and writes into judge.json."},
 };
 

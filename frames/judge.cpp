@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/suggestion.h"
 #include "frames/alignment.h"
+#include "frames/check_statistics.h"
 #include "frames/frame_keys.h"
 #include "frames/frame_memory.h"
 #include "scenes/number_ranges.h"
@@ -105,8 +107,42 @@ void compare_with_truth(const GivenFrame& frame, FrameVerdict& verdict) {
   }
 }
 
-void classify(const raytrace::Tracer& tracer, const Image<float>& pixel_m, const JudgeRules& rules,
-              FrameVerdict& verdict) {
+// Takes those pixels out of the mask that are too light where only casters that the frame's map lacks keep the light away: in
+// the scene without these casters the receiver is lit.
+void classify_missing(const Scene& scene, const GivenFrame& frame, Image<uint8_t>& mask, FrameVerdict& verdict) {
+  std::vector<uint8_t> lacks(scene.triangles.size(), 0);
+  for (const std::string& name : frame.not_in_map) {
+    bool found = false;
+    std::vector<std::string_view> names;
+    for (const Part& part : scene.parts) {
+      names.push_back(part.name);
+      if (part.name != name) continue;
+      found = true;
+      std::fill_n(lacks.begin() + part.first_triangle, part.triangle_count, uint8_t{1});
+    }
+    if (!found)
+      throw Error(ErrorKind::file, fmt::format("{}: 'not_in_map': the scene has no node '{}'{}", frame.name, name,
+                                               did_you_mean(name, names)));
+  }
+  Scene in_map;
+  in_map.positions = scene.positions;
+  std::vector<uint32_t> kept;
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t)
+    if (!lacks[t]) in_map.triangles.push_back(scene.triangles[t]), kept.push_back(t);
+  const Image<uint32_t> first = raytrace::Tracer(in_map).first_on_the_way(verdict.receivers, verdict.light, mask);
+  for (size_t i = 0; i < mask.size(); ++i) {
+    if (!mask[i] || verdict.truth_at(i) > 0) continue;
+    const uint32_t met = first[i] == no_primitive ? no_primitive : kept[first[i]];
+    const glm::dvec3 p = verdict.receivers.position[i];
+    // What the light meets at the receiver or behind it does not shadow it.
+    if (met == no_primitive || met == verdict.receivers.primitive[i] ||
+        !(way_to_plane(scene, met, p, verdict.light.direction_to_light(p)) > 0))
+      verdict.classes[i] = FrameClass::missing, mask[i] = 0;
+  }
+}
+
+void classify(const Scene& scene, const raytrace::Tracer& tracer, const GivenFrame& frame, const Image<float>& pixel_m,
+              const JudgeRules& rules, FrameVerdict& verdict) {
   const int width = verdict.error.width, height = verdict.error.height;
   Image<uint8_t> hard(width, height, 0), falsely_lit(width, height, 0);
   for (size_t i = 0; i < hard.size(); ++i) {
@@ -117,6 +153,7 @@ void classify(const raytrace::Tracer& tracer, const Image<float>& pixel_m, const
     else
       hard[i] = 1;
   }
+  if (!frame.not_in_map.empty()) classify_missing(scene, frame, hard, verdict);
   Image<float> reach(width, height, 0);
   for (size_t i = 0; i < reach.size(); ++i)
     reach[i] = static_cast<float>(rules.edge_m ? *rules.edge_m : rules.edge_pixels * pixel_m[i]);
@@ -199,7 +236,7 @@ FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, con
   verdict.checks = check_frame({scene, tracer, frame, seen, verdict.receivers, found.moved_m, verdict.truth,
                                 verdict.counted, pixel_m, verdict.light});
   for (CheckResult& check : verdict.checks) check.accepted |= rules.accepted.contains(std::string(check.name));
-  classify(tracer, pixel_m, rules, verdict);
+  classify(scene, tracer, frame, pixel_m, rules, verdict);
   measure(verdict);
   if (verdict.metrics.at("counted") == 0 && !verdict.refused())
     throw Error(ErrorKind::file,

@@ -29,7 +29,8 @@ enum class FrameClass : uint8_t {
   edge,      // a true shadow edge lies within the edge distance
   acne,      // the truth is lit, the frame is too dark, and no edge is near
   contact,   // the truth is dark, the frame is too light, and the occluder is nearer than the contact distance
-  leak       // the truth is dark, the frame is too light, and the occluder is further away
+  leak,      // the truth is dark, the frame is too light, and the occluder is further away
+  missing  // before edge: the truth is dark, the frame is too light, and only GivenFrame::not_in_map is in the light's way
 };
 struct FrameClassRow {
   FrameClass what;
@@ -37,8 +38,9 @@ struct FrameClassRow {
   std::string_view label;
   std::array<uint8_t, 3> color;  // sRGB, as in compare/results/causes.h where the causes are kin
 };
-inline constexpr std::array<FrameClassRow, 5> frame_classes{{
+inline constexpr std::array<FrameClassRow, 6> frame_classes{{
     {FrameClass::penumbra, "frame_penumbra", "Penumbra", {202, 186, 60}},
+    {FrameClass::missing, "frame_missing", "Missing caster (the frame's map lacks it)", {102, 17, 0}},
     {FrameClass::edge, "frame_edge", "Edge (near a true shadow edge)", {230, 159, 0}},
     {FrameClass::acne, "frame_acne", "Acne (lit in truth, too dark)", {213, 94, 0}},
     {FrameClass::contact, "frame_contact", "Contact (dark in truth, occluder near)", {0, 114, 178}},
@@ -75,7 +77,7 @@ struct FrameVerdict {
 };
 
 // tracer: of the scene. Throws Error(file) if the sizes of the images differ, if the frame does not fit into memory, if a given
-// position is not in the world, or if no receiver is counted and no check says why; Error(usage) if a number of the light or of
+// position is not in the world, if the scene has no part of a name in not_in_map, or if no receiver is counted and no check says why; Error(usage) if a number of the light or of
 // the rules is outside the range that it has in frame.json (frames/frame_keys.h), or the light has no direction.
 FrameVerdict judge_frame(const Scene& scene, const raytrace::Tracer& tracer, const GivenFrame& frame,
                          const JudgeRules& rules);

@@ -10,8 +10,8 @@
 namespace noonmark {
 namespace {
 
-// Matrices come from a renderer's floats. Their rows are right to some 1e-6; a map that is not square, or that looks along
-// another light, is off by far more.
+// Matrices come from a renderer's floats. Their rows are right to some 1e-6; a map whose texels are not square, or that looks
+// along another light, is off by far more.
 constexpr double matrix_tolerance = 1e-4;
 
 [[noreturn]] void refuse_map(const std::string& name, const std::string& why) {
@@ -31,21 +31,26 @@ void require_axis(const std::string& name, glm::dvec3 found, glm::dvec3 wanted) 
 
 }  // namespace
 
-MapFrame map_frame(const std::string& name, const LightFrame& light, const glm::dmat4& m, int resolution) {
+MapFrame map_frame(const std::string& name, const LightFrame& light, const glm::dmat4& m, glm::ivec2 texels) {
   if (light.kind == LightKind::point) refuse_map(name, no_map_of_point_light);
   const glm::dmat4 inverse = glm::inverse(m);
   for (int i = 0; i < 16; ++i)
     if (!std::isfinite(inverse[i / 4][i % 4])) refuse_map(name, "the map's matrix has no inverse");
   MapFrame made{light};
   LightFrame& frame = made.frame;
-  frame.resolution = frame.rows = resolution;
+  frame.resolution = texels.x, frame.rows = texels.y;
   frame.anchor_m.reset();
   const glm::dvec3 x = row(m, 0), y = row(m, 1), z = row(m, 2), w = row(m, 3);
   const double width = glm::length(x), height = glm::length(y);
-  if (!(std::abs(width - height) <= matrix_tolerance * width) ||
+  if (!(std::abs(width * texels.x - height * texels.y) <= matrix_tolerance * width * texels.x) ||
       !(std::abs(glm::dot(x, y)) <= matrix_tolerance * width * height))
     refuse_map(name,
-               "the map is not square in the world, or its axes are not at right angles; only square maps are read");
+               fmt::format("its texels are not square in the world ({:.6g} times as high as wide), or its axes are "
+                           "not at right angles; only square texels are read",
+                           width * texels.x / (height * texels.y)));
+  if (light.kind == LightKind::spot && texels.x != texels.y)
+    refuse_map(name,
+               fmt::format("has {} x {} texels, and only square maps of a spot light are read", texels.x, texels.y));
   if (light.kind == LightKind::directional) {
     if (glm::length(w) > matrix_tolerance * width)
       refuse_map(name, "the map's matrix is a perspective, but the light is directional");

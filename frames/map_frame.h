@@ -1,6 +1,6 @@
 // The frame of a shadow map that another renderer drew, from its matrix.
 //
-//   const MapFrame map = map_frame(light_frame, given.clip_from_world, 2048);
+//   const MapFrame map = map_frame(light_frame, given.clip_from_world, {2048, 1024});
 //   technique = Technique(settings, map.frame);
 #pragma once
 #include <glm/glm.hpp>
@@ -20,9 +20,10 @@ struct MapFrame {
 };
 
 // light: the frame of the light that the truth was traced for; its rays stay. clip_from_world: OpenGL's clip space.
-// resolution: texels on a side. One square map of a directional light (orthographic), or of a spot light (perspective,
-// with its axis in the middle). Throws Error(file), which begins with `name`, if the matrix is another one, or if its
+// texels: width and height. One map of a directional light (orthographic) with square texels, or a square one of a spot light
+// (perspective, with its axis in the middle). Throws Error(file), which begins with `name`, if the matrix is another one, or if its
 // axis is not the light's.
-MapFrame map_frame(const std::string& name, const LightFrame& light, const glm::dmat4& clip_from_world, int resolution);
+MapFrame map_frame(const std::string& name, const LightFrame& light, const glm::dmat4& clip_from_world,
+                   glm::ivec2 texels);
 
 }  // namespace noonmark

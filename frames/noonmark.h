@@ -48,7 +48,8 @@ enum {
   NOONMARK_EDGE = 2,
   NOONMARK_ACNE = 3,
   NOONMARK_CONTACT = 4,
-  NOONMARK_LEAK = 5
+  NOONMARK_LEAK = 5,
+  NOONMARK_MISSING = 6    /* a caster that the frame's map lacks; only of a frame.json that names it */
 };
 
 /* Noonmark's version, "0.1.0". */
@@ -97,7 +98,9 @@ NOONMARK_API void noonmark_frame_init(noonmark_frame *frame, size_t struct_size)
 /* Never NULL, but where there is no memory for it. */
 NOONMARK_API noonmark_verdict *noonmark_judge(noonmark_scene *scene, const noonmark_frame *frame);
 NOONMARK_API int noonmark_status(const noonmark_verdict *verdict);
-/* A metric by its name: "frame_error", "frame_wrong", "frame_acne", "counted" ... NaN if the verdict has none of this name. */
+/* A metric by its name: "frame_error", "frame_wrong", "frame_acne", "counted" ... NaN if the verdict has none of this name.
+   "ambiguous" is the share of the receivers whose truth rounding decides, as under a light at 1e7 m. They are left out of all others, so
+   each of these may be larger or smaller by that much. */
 NOONMARK_API double noonmark_number(const noonmark_verdict *verdict, const char *metric);
 /* The names of all its metrics: index 0 ... until NULL. */
 NOONMARK_API const char *noonmark_number_name(const noonmark_verdict *verdict, size_t index);

@@ -59,19 +59,73 @@ std::vector<uint8_t> cut_by_near_plane(const Scene& scene, const ViewMatrix& vie
   return cut;
 }
 
-std::string part_name(const Scene& scene, uint32_t triangle) {
-  for (const Part& part : scene.parts)
-    if (triangle - part.first_triangle < part.triangle_count && !part.name.empty()) return "'" + part.name + "'";
-  return fmt::format("triangle {}", triangle);
-}
-
 // Where positions lie in the picture, seen from the centres of their pixels.
 struct Offsets {
   std::vector<double> x, y;
   void add(glm::dvec2 off) { x.push_back(off.x), y.push_back(off.y); }
   glm::dvec2 median() const { return {quantile(x, 0.5), quantile(y, 0.5)}; }
 };
-constexpr double most_off_px = 0.1;
+// A camera moves all surfaces. What the near plane cuts is moved by a wrong camera if it is by half a pixel.
+constexpr double most_off_px = 0.1, most_off_of_cut_px = 0.5;
+
+// What the positions say of one surface: a part of the scene, or all triangles that are in none.
+struct SurfacePositions {
+  std::string name;
+  std::array<Offsets, 2> offsets;  // by whether the near plane cuts the triangle
+  // Positions on it, and how far those lie off it that are off the scene.
+  size_t count = 0;
+  std::vector<double> stray_m;
+  // Pixels at which the scene shows it, and those of them whose position lies before or behind it.
+  size_t seen = 0, gone = 0;
+
+  bool is_cut() const { return offsets[0].x.size() < enough; }
+  bool told() const { return offsets[is_cut()].x.size() >= enough; }
+  glm::dvec2 median() const { return offsets[is_cut()].median(); }
+  bool is_moved() const { return told() && glm::length(median()) > (is_cut() ? most_off_of_cut_px : most_off_px); }
+};
+
+// A tenth of a surface's positions: more than its outline. Half of its pixels: a surface that is nowhere near.
+constexpr double most_stray_of_surface = 0.1, most_gone = 0.5;
+
+std::vector<uint32_t> surface_of_triangles(const Scene& scene) {
+  std::vector<uint32_t> surface(scene.triangles.size(), static_cast<uint32_t>(scene.parts.size()));
+  for (size_t p = 0; p < scene.parts.size(); ++p)
+    std::fill_n(surface.begin() + scene.parts[p].first_triangle, scene.parts[p].triangle_count,
+                static_cast<uint32_t>(p));
+  return surface;
+}
+
+std::vector<SurfacePositions> positions_by_surface(const CheckEvidence& e, double least_stray_m) {
+  const Scene& scene = e.scene;
+  std::vector<SurfacePositions> surfaces(scene.parts.size() + 1);
+  for (size_t p = 0; p < scene.parts.size(); ++p)
+    surfaces[p].name = scene.parts[p].name.empty() ? fmt::format("part {}", p) : "'" + scene.parts[p].name + "'";
+  surfaces.back().name = "the surface";
+  const std::vector<uint32_t> surface_of = surface_of_triangles(scene);
+  const std::vector<uint8_t> cut = cut_by_near_plane(scene, e.frame.view);
+  const ReceiverImage first = resolve_receivers(scene, e.frame.view, e.seen);
+  const Image<float> pixel_m = pixel_width_m(e.frame.view, first);
+  const int width = e.seen.width, height = e.seen.height;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const size_t i = e.seen.index(x, y);
+      const glm::dvec3 p = e.frame.positions[i];
+      if (!std::isfinite(p.x)) continue;
+      if (const uint32_t triangle = e.receivers.primitive[i]; triangle != no_primitive) {
+        SurfacePositions& on = surfaces[surface_of[triangle]];
+        ++on.count;
+        on.offsets[cut[triangle]].add(glm::dvec2(e.frame.view.pixel_of(p, width, height)) -
+                                      glm::dvec2(x + 0.5, y + 0.5));
+        if (e.moved_m[i] > least_stray_m) on.stray_m.push_back(e.moved_m[i]);
+      }
+      if (e.seen[i] == no_primitive) continue;
+      SurfacePositions& shown = surfaces[surface_of[e.seen[i]]];
+      ++shown.seen;
+      shown.gone += std::abs(glm::dot(glm::dvec3(first.normal[i]), p - glm::dvec3(first.position[i]))) >
+                    OutlineAlignment::apart_px * pixel_m[i];
+    }
+  return surfaces;
+}
 
 // Good frames of five renderers differ by 0.3% to 1% of the pixels on the scene's outline, frames that are half a pixel
 // off by 16% and more.
@@ -128,22 +182,16 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
     return not_checked(
         "no positions or depths were given: the receivers are those of rays through the pixels' centres");
   const int width = e.frame.visibility.width, height = e.frame.visibility.height;
-  // By whether the near plane cuts the triangle.
-  std::array<Offsets, 2> offsets;
+  Offsets all;
   std::vector<double> off, moved, size;
   size_t half = 0;
-  uint32_t cut_triangle = 0;
-  const std::vector<uint8_t> cut = cut_by_near_plane(e.scene, e.frame.view);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const size_t i = e.moved_m.index(x, y);
       const glm::dvec3 p = e.frame.positions[i];
       if (!std::isfinite(p.x)) continue;
       const glm::dvec2 at = glm::dvec2(e.frame.view.pixel_of(p, width, height)) - glm::dvec2(x + 0.5, y + 0.5);
-      const uint32_t triangle = e.receivers.primitive[i];
-      const bool is_cut = triangle != no_primitive && cut[triangle];
-      if (is_cut) cut_triangle = triangle;
-      offsets[is_cut].add(at);
+      all.add(at);
       off.push_back(glm::length(at));
       moved.push_back(e.moved_m[i]);
       size.push_back(glm::length(p));
@@ -160,24 +208,60 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
         fmt::format("every position is a half float, which puts one of twenty more than {:.2g} pixels beside its "
                     "place: write the positions as 32-bit floats",
                     quantile(off, 0.95)));
-  // A camera moves all surfaces. So those that nothing else can have moved are asked; where there are none, a cut one is moved
-  // by a wrong camera if it is by half a pixel.
-  const bool only_cut = offsets[0].x.size() < enough;
-  const glm::dvec2 median = offsets[only_cut].median();
-  if (glm::length(median) > (only_cut ? 0.5 : most_off_px))
+  const double least_stray_m = 0x1p-12 * median_size;
+  const std::vector<SurfacePositions> surfaces = positions_by_surface(e, least_stray_m);
+  // Those that nothing but the near plane can have moved are asked; where there are none, the picture as a whole.
+  size_t told = 0, moved_surfaces = 0;
+  double others_px = 0;
+  const SurfacePositions* worst = nullptr;
+  for (const SurfacePositions& one : surfaces) {
+    if (!one.told()) continue;
+    ++told;
+    if (!one.is_moved())
+      others_px = std::max(others_px, glm::length(one.median()));
+    else if (++moved_surfaces; !worst || glm::length(one.median()) > glm::length(worst->median()))
+      worst = &one;
+  }
+  const glm::dvec2 median = all.median();
+  if (told == 0 ? glm::length(median) > most_off_px : moved_surfaces == told) {
+    const glm::dvec2 by = glm::length(median) > most_off_px ? median : worst->median();
     return failed(
         fmt::format("half of the positions lie more than ({:+.2f}, {:+.2f}) pixels (x to the right, y down) from "
                     "the centre of their pixel: the camera is another one, or the picture is shifted, flipped or "
                     "jittered",
-                    median.x, median.y));
+                    by.x, by.y));
+  }
+  if (worst)
+    return failed(fmt::format(
+        "the positions on {} lie ({:+.2f}, {:+.2f}) pixels (x to the right, y down) from the centres of their pixels "
+        "in the "
+        "median, and those on {} other surfaces {:.3f} at most: {}",
+        worst->name, worst->median().x, worst->median().y, told - moved_surfaces, others_px,
+        moved_surfaces == 1
+            ? "it is drawn with another camera or pose than its positions"
+            : fmt::format("{} surfaces are drawn with another camera or pose than their positions", moved_surfaces)));
   if (is_reversed(e))
     return failed(
         "where a surface hides another, the positions are the hidden one's: the depths are reversed, so check the "
         "camera's 'reversed'; or the frame does not draw what hides it",
         "the camera's depths are reversed, or surfaces are missing");
-  const double stray = static_cast<double>(std::count_if(moved.begin(), moved.end(),
-                                                         [&](double m) { return m > 0x1p-12 * median_size; })) /
-                       count;
+  const double stray =
+      static_cast<double>(std::count_if(moved.begin(), moved.end(), [&](double m) { return m > least_stray_m; })) /
+      count;
+  // One surface is elsewhere, and the rest is where the scene has it.
+  for (const SurfacePositions& one : surfaces) {
+    const auto of = [](size_t part, size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); };
+    if (one.seen >= enough && of(one.gone, one.seen) > most_gone && stray < most_gone)
+      return failed(
+          fmt::format("at {:.0f}% of the {} pixels where the scene shows {} the positions lie before or behind it: it "
+                      "is elsewhere in the frame, or was not drawn",
+                      100 * of(one.gone, one.seen), one.seen, one.name));
+    if (one.count >= enough && of(one.stray_m.size(), one.count) > most_stray_of_surface && stray < most_gone)
+      return failed(
+          fmt::format("{:.0f}% of the {} positions on {} lie off it, half of these by more than {:.2g} m: its pose "
+                      "in the frame is another one, or its shape",
+                      100 * of(one.stray_m.size(), one.count), one.count, one.name, quantile(one.stray_m, 0.5)));
+  }
   if (stray > most_stray)
     return failed(
         fmt::format("{:.1f}% of the positions lie off the scene, half of all by more than {:.2g} m: the scene, its "
@@ -187,12 +271,10 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
       "positions lie on the scene (half of them within {:.1g} m) and in their own pixels (off by "
       "({:+.3f}, {:+.3f}) in the median)",
       median_moved, median.x, median.y);
-  if (!offsets[1].x.empty()) {
-    const glm::dvec2 moved_by = offsets[1].median();
-    if (glm::length(moved_by) > most_off_px)
-      says += fmt::format("; {}, which the camera's near plane cuts, is moved by ({:+.2f}, {:+.2f}) pixels",
-                          part_name(e.scene, cut_triangle), moved_by.x, moved_by.y);
-  }
+  for (const SurfacePositions& one : surfaces)
+    if (const Offsets& cut = one.offsets[1]; cut.x.size() >= enough && glm::length(cut.median()) > most_off_px)
+      says += fmt::format("; {}, which the camera's near plane cuts, is moved by ({:+.2f}, {:+.2f}) pixels", one.name,
+                          cut.median().x, cut.median().y);
   return passed(std::move(says));
 }
 

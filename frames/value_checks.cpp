@@ -87,11 +87,8 @@ Evenness evenness_in_shadow(const CheckEvidence& e, const FrameStatistics& s) {
   std::unordered_map<uint32_t, std::vector<Shadowed>> triangles;
   for (size_t i = 0; i < mask.size(); ++i) {
     if (!mask[i] || !std::isfinite(nearest[i]) || first[i] == no_primitive) continue;
-    const glm::uvec3 corners = e.scene.triangles[first[i]];
-    const glm::dvec3 a = e.scene.positions[corners[0]], p = e.receivers.position[i];
-    const glm::dvec3 across =
-        glm::cross(glm::dvec3(e.scene.positions[corners[1]]) - a, glm::dvec3(e.scene.positions[corners[2]]) - a);
-    const double distance = glm::dot(across, a - p) / glm::dot(across, e.light.direction_to_light(p));
+    const glm::dvec3 p = e.receivers.position[i];
+    const double distance = way_to_plane(e.scene, first[i], p, e.light.direction_to_light(p));
     if (!std::isfinite(distance)) continue;  // the light grazes it
     whole.push_back({e.frame.visibility[i], nearest[i], static_cast<float>(distance)});
     triangles[e.receivers.primitive[i]].push_back(whole.back());

@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "compare/judge/map_distance.h"
 #include "compare/judge/soundness.h"
 #include "compare/ladder/measure.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
 #include "measure/stages.h"
 #include "scenes/surfaces.h"
 #include "technique/depth_format.h"
@@ -17,26 +20,16 @@
 namespace noonmark {
 namespace {
 
-// The inverse of MapTile::window_depth.
-double depth_m(const LightFrame& frame, double window_depth) {
-  const double near = frame.near_m, range = frame.far_m - frame.near_m;
-  return frame.uniform() ? near + window_depth * range : frame.far_m * near / (frame.far_m - window_depth * range);
-}
-
-// Reorders the values. share: from 0 to 1.
-double quantile(std::vector<double>& values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 // A unit of the polygon offset of a map of floats is 2^-23 of the power of two below a triangle's largest depth. That of the
-// map's middle depth.
+// middle depth of what the map shows.
 double float_step(const MapDepths& exact) {
-  std::vector<double> depths(exact.depth.begin(), exact.depth.end());
+  std::vector<float> depths = exact.depth;
+  std::erase_if(depths, [](float depth) { return depth >= 1; });
+  if (depths.empty()) return 0x1p-24;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
   int exponent = 0;
-  std::frexp(quantile(depths, 0.5), &exponent);
+  std::frexp(static_cast<double>(*middle), &exponent);
   return std::ldexp(1.0, exponent - 1 - 23);
 }
 
@@ -138,8 +131,24 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   map.map.emplace(renderer.upload_map(point.depth, technique.settings.map));
   const ShownStage shown = impl_->stages.show(renderer, map, lookup, truth, technique);
   Climbed climbed = impl_->stages.climb_strips(renderer, lookup, view, truth, shown, technique, nullptr);
-  add_rung(climbed.ladder, point.frame);
   GivenClimb made;
+  MapDistance apart(technique.frame, technique.settings.map.format);
+  for (int y = 0; y < point.depth.height; ++y)
+    lookup.exact_depth.texels->each_in_row(y, [&](int x, size_t index) {
+      apart.add({x, y}, lookup.exact_depth[index], shown.stored[index]);
+    });
+  made.map_off_m = apart.off_m(), made.depth_spread_m = apart.spread_m();
+  made.is_scenes_map = apart.excess() <= 1;
+  if (point.missing.size() > 0)
+    rebook(climbed.ladder, Cause::precision,
+           {std::string(frame_missing), "Missing caster (the frame's map lacks it)",
+            std::string(find_metric(frame_missing).help), spare_colors[2], "R5"},
+           point.missing);
+  if (!made.is_scenes_map)
+    rebook(climbed.ladder, Cause::precision,
+           {std::string(frame_map), "Map (it is not the scene's)", std::string(find_metric(frame_map).help),
+            spare_colors[1], "R5"});
+  add_rung(climbed.ladder, point.frame);
   made.ladder = std::move(climbed.ladder);
   const Image<float> occluders =
       impl_->tracer.occluder_distance(view.receivers, technique.frame, peter_panning_mask(made.ladder));
@@ -150,25 +159,25 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
                                  technique.moves_casters(),
                                  impl_->surfaces});
   made.metrics.insert(climbed.soundness.begin(), climbed.soundness.end());
-  std::vector<double> off, depths;
-  for (size_t texel = 0; texel < lookup.exact_depth.depth.size(); ++texel) {
-    const double exact = depth_m(technique.frame, lookup.exact_depth[texel]);
-    depths.push_back(exact);
-    off.push_back(std::abs(depth_m(technique.frame, shown.stored[texel]) - exact));
-  }
-  made.map_off_m = quantile(off, 0.5);
-  made.depth_spread_m = quantile(depths, 0.95) - quantile(depths, 0.05);
+  made.maps_differ = made.metrics.at(made.is_scenes_map ? "precision" : std::string(frame_map));
+  made.metrics["map_excess"] = 0;  // another renderer's map, whatever it holds, is no contradiction
   impl_->allow_rounding(point, made);
-  const DepthFormat format = technique.settings.map.format;
-  made.offset = map_offset(point.depth, lookup.exact_depth, format);
-  made.precision_with_offset = made.metrics.at("precision");
-  if (made.offset.in_map()) {
-    made.offset_unit =
+  made.precision_with_offset = made.maps_differ;
+  // Depths that do not tell their format are taken for floats, and may be of 24 bits all the same: then an offset has one size
+  // at all depths.
+  std::vector<DepthFormat> formats = {technique.settings.map.format};
+  if (formats.front() == DepthFormat::d32f) formats.push_back(DepthFormat::d24);
+  for (const DepthFormat format : formats) {
+    const MapOffset offset = map_offset(point.depth, lookup.exact_depth, format);
+    if (format == formats.front()) made.offset = offset;
+    if (!offset.in_map()) continue;
+    const double unit =
         format == DepthFormat::d32f ? float_step(lookup.exact_depth) : renderer.polygon_offset_unit(format);
     // What the declaration would be, looked up in the exact map that it gives.
     Settings with = technique.settings;
-    with.bias["polygon_factor"] += made.offset.factor;
-    with.bias["polygon_units"] += made.offset.constant / made.offset_unit;
+    with.map.format = format;
+    with.bias["polygon_factor"] += offset.factor;
+    with.bias["polygon_units"] += offset.constant / unit;
     const Technique declaring(with, technique.frame);
     const LookupStage again = impl_->stages.prepare_lookup(renderer, impl_->tracer, view, truth, declaring);
     const gl::ShadowMap moved = renderer.upload_map(again.exact_depth, with.map);
@@ -176,10 +185,12 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
     double differ = 0, counted = 0;
     for (size_t i = 0; i < r4.size(); ++i)
       if (is_counted(made.ladder, i)) {
-        differ += std::abs(static_cast<double>(made.ladder[Rung::shown][i]) - r4[i]);
+        if (point.missing.size() == 0 || !point.missing[i])
+          differ += std::abs(static_cast<double>(made.ladder[Rung::shown][i]) - r4[i]);
         counted += 1;
       }
-    made.precision_with_offset = differ / counted;
+    if (made.offset_unit != 0 && !(differ / counted < made.precision_with_offset)) continue;
+    made.offset = offset, made.offset_unit = unit, made.precision_with_offset = differ / counted;
   }
   PointRecord record;
   record.metrics = made.metrics;

@@ -30,6 +30,9 @@ struct GivenPoint {
   Technique technique;  // with the frame of the map; its settings name the size of the picture
   Image<float> depth;   // the map: window depth in [0,1], row 0 with the lowest v
   RungOnTop frame;      // its picture is finite where receivers face the light
+  // 1: what keeps the receiver's light away is not in the map. Its step from the exact map to this one has a cause of its own,
+  // frame_missing, and is no precision. Empty: none.
+  Image<uint8_t> missing = {};
   // How far from its place each receiver may lie, beside the rounding of its numbers, in metres. Empty: nowhere.
   Image<float> moved_m = {};
 };
@@ -41,13 +44,16 @@ struct GivenClimb {
   // Over the texels that taps read, along the light: the median distance of the map's depths from the scene's, and
   // how far apart nine tenths of the scene's are. NaN if none is read.
   double map_off_m = 0, depth_spread_m = 0;
+  // By compare/judge/map_distance.h. If it is not, R5 - R4 is the ladder's cause frame_map, and its precision is 0.
+  bool is_scenes_map = true;
+  double maps_differ = 0;  // the mean |R5 - R4| over the counted receivers
   // The share of the counted receivers whose picture on top is none that the lookup of the map gives within the rounding of
   // the receivers, of both renderers' arithmetic and of the map's format. Where the bias reads a normal, receivers on
   // smooth surfaces, whose vertices have normals of their own, are left out: `interpolated` is their share. 0 if too few
   // are left.
   double beyond_rounding = 0, interpolated = 0;
   // What the map holds beside the offset that the technique declares, and the mean |R5 - R4| over the counted receivers if
-  // the exact map had it too. Without one the latter is the metric `precision`.
+  // the exact map had it too. Without one the latter is maps_differ.
   MapOffset offset;
   double precision_with_offset = 0;
   double offset_unit = 0;  // window depth of one unit of a polygon offset; 0 where no offset is in the map

@@ -4,7 +4,7 @@
 //   std::vector<LightPart> parts;
 //   for (const Settings& light : lights) parts.push_back(light_part(bench.measure(light, std::nullopt)));
 //   const LightsFrame frame = measure_lights(parts);
-//   frame.metrics["lights_error"]; frame.of_light[0]["light_share"];
+//   use(frame.metrics.at("lights_error"), frame.of_light[0].at("light_share"));
 #pragma once
 #include <map>
 #include <span>

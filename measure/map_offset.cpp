@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace noonmark {
@@ -36,18 +37,56 @@ std::optional<double> slope_at(const Image<float>& map, glm::ivec2 t, double rou
   return std::max(*x, *y);
 }
 
+struct Texel {
+  double slope, off, least;  // least: what moves it without an offset
+};
+
+// A rasteriser's grid moves each triangle by itself, by a share of its own slope. Texels of one slope are mostly those of one
+// surface, which has a difference from the line of its own. The line turns about the slope that has most texels, to
+// meet these: how far its height at m = 0 moves then. With two slopes every line meets both, so the grid's most is taken.
+double unsure_constant(std::vector<Texel> texels, const MapOffset& line) {
+  constexpr size_t enough_of_slope = 20;
+  constexpr double apart = 0.25;  // of the larger slope; nearer ones tell little of how the line turns
+  std::sort(texels.begin(), texels.end(), [](const Texel& a, const Texel& b) { return a.slope < b.slope; });
+  struct Surface {
+    double slope, off;  // medians; off: from the line
+    size_t texels;
+  };
+  std::vector<Surface> surfaces;
+  for (size_t first = 0, end = 0; first < texels.size(); first = end) {
+    while (end < texels.size() && texels[end].slope <= (1 + apart / 2) * texels[first].slope + step_of(line.format))
+      ++end;
+    if (end - first < enough_of_slope) continue;
+    std::vector<double> off;
+    for (size_t i = first; i < end; ++i)
+      off.push_back(std::abs(texels[i].off - line.factor * texels[i].slope - line.constant));
+    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+    std::nth_element(off.begin(), middle, off.end());
+    surfaces.push_back({texels[(first + end) / 2].slope, *middle, end - first});
+  }
+  const auto most = std::max_element(surfaces.begin(), surfaces.end(),
+                                     [](const Surface& a, const Surface& b) { return a.texels < b.texels; });
+  if (most == surfaces.end()) return 0;
+  size_t others = 0;
+  double unsure = 0;
+  for (const Surface& one : surfaces) {
+    const double between = std::abs(one.slope - most->slope);
+    if (between < apart * std::max(one.slope, most->slope)) continue;
+    ++others;
+    unsure = std::max(unsure, one.off * most->slope / between);
+  }
+  return others < 2 ? most_moved_by_grid * most->slope : unsure;
+}
+
 }  // namespace
 
 bool MapOffset::in_map() const {
   return texels >= enough &&
-         (std::abs(factor) > most_moved_by_grid || std::abs(constant) > step_of(format) + matrix_error);
+         (std::abs(factor) > most_moved_by_grid || std::abs(constant) > step_of(format) + matrix_error + unsure);
 }
 
 MapOffset map_offset(const Image<float>& given, const MapDepths& exact, DepthFormat format) {
   MapOffset found{.format = format};
-  struct Texel {
-    double slope, off, least;  // least: what moves it without an offset
-  };
   std::vector<Texel> texels;
   const double step = step_of(found.format);
   for (int y = 0; y < given.height; ++y)
@@ -77,6 +116,7 @@ MapOffset map_offset(const Image<float>& given, const MapDepths& exact, DepthFor
     found.factor = factor, found.constant = constant;
     if (settled) break;
   }
+  found.unsure = unsure_constant(std::move(texels), found);
   return found;
 }
 

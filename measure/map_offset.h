@@ -18,8 +18,9 @@ namespace noonmark {
 struct MapOffset {
   double factor = 0;                      // beside what the exact map has already
   double constant = 0;                    // window depth
-  DepthFormat format = DepthFormat::d24;  // as declared
+  DepthFormat format = DepthFormat::d24;  // whose units the constant is in
   size_t texels = 0;                      // that the line was fitted to
+  double unsure = 0;                      // window depth: how far what moves each surface by itself can move `constant`
   // Whether the offset is more than what rounding and a rasteriser's grid do to a map without one.
   bool in_map() const;
 };

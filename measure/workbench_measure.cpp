@@ -451,7 +451,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       for (const auto& stage : placements) receivers.push_back(stage->receivers());
       of_placements = join_placements(cascades, receivers, m.cascades.blends());
     }
-    laws = join_laws(cascades);
+    laws = join_laws(cascades, technique.moments.has_value());
     if (checks == Checks::all) {
       soundness = join_soundness(cascades, maps.front().climbed.soundness);
       soundness["cascade_choice_excess"] = choice->excess;

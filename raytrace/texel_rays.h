@@ -2,7 +2,7 @@
 // a flat map they are found by scan conversion in double (raytrace/lattice_raster.h), as those of the lattice of all
 // placements are, or by rays that give the same (LatticeRaster::hits_by_rays); of a cube by rays.
 //
-//   TexelRays texels(traced, view, Wrap::border);
+//   TexelRays texels(traced, view, Wrap::clamp_to_border);
 //   texels.ask(truth.facing, probe, strip);  // for each strip of the picture
 //   texels.trace();
 //   uint32_t triangle = texels.hit({12, 7});

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "technique/cascades.h"
 #include "technique/chosen_light.h"

@@ -43,7 +43,7 @@ bool has_file(const fs::path& path) {
 
 // In the build and where it is installed (app/CMakeLists.txt).
 std::string adapters_of_program() {
-  return (fs::path(own_program()).parent_path() / NOONMARK_ADAPTERS).lexically_normal().string();
+  return (fs::path(own_program()).parent_path() / NOONMARK_ENGINES).lexically_normal().string();
 }
 
 // The last line that says something.

@@ -8,6 +8,7 @@
 #include "app/advise/recommend_filtered.h"
 #include "app/advise/recommend_judge.h"
 #include "base/error.h"
+#include "compare/judge/undecided.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "measure/memory_estimate.h"
@@ -44,6 +45,9 @@ Settings Screening::of_choice(Settings settings, size_t level, size_t place, con
 }
 
 void Screening::see(const PointRecord& record) {
+  if (hides_more_than(record, request_.curve))
+    throw Error(ErrorKind::usage,
+                fmt::format("no bound on acne or Peter Panning can be said to hold: {}", ambiguous_note(record)));
   const double lit = metric_of(record, "lit");
   shadowed_ = std::max(shadowed_, 1 - lit);
   lit_ = std::max(lit_, lit);
@@ -251,8 +255,8 @@ void Screening::measure(const Choice& choice) {
     PointRecord record = bench_.measure(settings, searched_, metric_set_for(request_.accuracy), Checks::none).record;
     if (nothing_judged(record))
       throw Error(ErrorKind::usage, "nothing of the scene that faces the light is in view; choose another view");
-    if (!seen_) seen_ = seen_share(record);
     see(record);
+    if (!seen_) seen_ = seen_share(record);
     if (tried.filtered())
       judge_filtered(bench_, tried, {record}, searched_, request_.accuracy);
     else

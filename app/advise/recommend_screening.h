@@ -66,7 +66,8 @@ class Screening {
   // The accuracy of the settings, with what was chosen for them, under the first condition and at one placement.
   double error_of(const Tried& tried) const;
 
-  // What was measured tells the largest share of receivers that are dark in the truth.
+  // What was measured tells the largest share of receivers that are dark in the truth. Throws Error(usage) if the truth of too many
+  // receivers is ambiguous for any answer.
   void see(const PointRecord& record);
   double shadowed() const { return shadowed_; }
   double lit() const { return lit_; }

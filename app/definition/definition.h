@@ -1,7 +1,7 @@
 // An experiment as one text in the store, so that stores can be joined and judged without its file.
 //
 //   info.definition = definition_text(experiment);
-//   Experiment experiment = experiment_of(info.definition);   // the same points, bounds and laws, and the same commands
+//   Experiment experiment = experiment_of(info.definition, "out/x/results.sqlite");   // the same points, bounds and laws, and the same commands
 #pragma once
 #include <string>
 

@@ -24,7 +24,7 @@ bool is_cause(std::string_view metric) {
 }  // namespace
 
 bool needs_own_map(std::string_view metric) {
-  return is_cause(metric) || metric == frame_lookup || metric == frame_lookup_differs;
+  return is_cause(metric) || is_cause_of_own_map(metric) || metric == frame_lookup_differs;
 }
 
 void require_frame_metric(std::string_view metric) {

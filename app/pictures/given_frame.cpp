@@ -141,8 +141,6 @@ GivenMap read_map(const FrameFile& file) {
   const std::string path = path_in(file, file.map->file);
   const DecodedImage image = read_image(path, [&](const DecodedImage& head) {
     if (head.stored_as != StoredAs::float32) refuse_picture(path, "write the map's depths as 32-bit floats");
-    if (head.width != head.height)
-      refuse_picture(path, fmt::format("has {} x {} texels; only square maps are read", head.width, head.height));
     require_grey_channels(head);
   });
   const std::vector<float> depths = grey_values(image);
@@ -217,6 +215,7 @@ GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
   take_marks(frame);
   frame.normalised = file.normalised;
   if (frame.receivers != GivenReceivers::none) frame.marks_no_surface = true;
+  frame.not_in_map = file.not_in_map;
   frame.notes = file.notes;
   if (file.map) frame.map = read_map(file);
   return frame;

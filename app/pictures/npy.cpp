@@ -76,7 +76,12 @@ DecodedImage read_npy(const std::string& path, std::string_view bytes, const Wan
   if (bytes.size() < 8 + length_bytes) refuse("is an NPY file without a header; write it again");
   const size_t header_size = length_bytes == 2 ? little_endian<uint16_t>(bytes, 8) : little_endian<uint32_t>(bytes, 8);
   const size_t begin = 8 + length_bytes + header_size;
-  if (begin > bytes.size() || header_size > 65536) refuse("is an NPY file whose header is cut off; write it again");
+  constexpr size_t most_header_bytes = 65536;  // NumPy's own have some hundred
+  if (begin > bytes.size()) refuse("is an NPY file whose header is cut off; write it again");
+  if (header_size > most_header_bytes)
+    refuse(fmt::format(
+        "is an NPY file with a header of {} bytes, and {} are read; write it again, as one array without fields",
+        header_size, most_header_bytes));
   const std::string_view header = bytes.substr(8 + length_bytes, header_size);
   const std::string_view type = value_of(header, "'descr':", '\'', '\''),
                          shape = value_of(header, "'shape':", '(', ')');

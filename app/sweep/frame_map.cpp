@@ -31,6 +31,7 @@ Settings settings_of(const GivenMap& map, const Light& light, const Image<float>
   settings.view.width_px = picture.width;
   settings.view.height_px = picture.height;
   settings.map.resolution = map.depth.width;
+  settings.map.aspect = static_cast<double>(map.depth.width) / map.depth.height;
   settings.light.kind = light.kind == LightKind::spot ? LightChoice::spot : LightChoice::directional;
   return settings;
 }
@@ -56,20 +57,20 @@ glm::dvec3 eye_of(const ViewMatrix& view, int width, int height) {
 // and R5 is off by as much the other way. So does any other difference of the two maps that is larger than the frame's whole
 // error. Then no cause says anything of the frame. Empty: the map is as declared.
 std::string undeclared_text(const GivenClimb& climbed, const Settings& declared, double frame_error) {
-  const double precision = climbed.metrics.at("precision");
   const std::string apart =
-      fmt::format("an exact map gives a picture that is {:.4f}% off the handed map's", 100 * precision);
+      fmt::format("an exact map gives a picture that is {:.4f}% off the handed map's", 100 * climbed.maps_differ);
   const MapOffset& offset = climbed.offset;
-  if (offset.in_map() && climbed.precision_with_offset < precision / 2) {
+  Settings with = declared;
+  with.map.format = offset.format;
+  if (offset.in_map() && climbed.precision_with_offset < climbed.maps_differ / 2) {
     return fmt::format(
         "the map holds a bias that is not declared: {}, but {:.4f}% with a polygon offset in it; add to 'technique' "
         "{{\"bias.polygon_factor\": {:.4g}, \"bias.polygon_units\": {:.4g}, \"map.format\": \"{}\"}} (below 0: towards "
         "the light), or what the renderer moves its casters by (bias.caster_*)",
         apart, 100 * climbed.precision_with_offset, declared.bias["polygon_factor"] + offset.factor,
-        declared.bias["polygon_units"] + offset.constant / climbed.offset_unit,
-        find_setting("map.format").get(declared));
+        declared.bias["polygon_units"] + offset.constant / climbed.offset_unit, find_setting("map.format").get(with));
   }
-  if (precision > frame_error)
+  if (climbed.maps_differ > frame_error)
     return fmt::format(
         "{}, which is more than the frame's whole error of {:.4f}%: causes cancel, so they say nothing of the frame; "
         "the "
@@ -102,7 +103,8 @@ FrameMap::FrameMap(const Scene& scene, const raytrace::Tracer& tracer) try : loo
 
 std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, FrameVerdict& verdict) {
   const GivenMap& given = *frame.map;
-  const MapFrame map = map_frame(given.name, verdict.light, given.clip_from_world, given.depth.width);
+  const MapFrame map =
+      map_frame(given.name, verdict.light, given.clip_from_world, {given.depth.width, given.depth.height});
   // Where the frame shows nothing there is no receiver.
   ReceiverImage receivers = verdict.receivers;
   ReceiverTruth truth = verdict.truth;
@@ -119,6 +121,11 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
     moved_m = pixel_width_m(frame.view, receivers);
     for (float& m : moved_m.pixels) m *= most_moved_pixels;
   }
+  Image<uint8_t> missing;
+  if (!frame.not_in_map.empty()) {
+    missing = Image<uint8_t>(width, height, 0);
+    for (size_t i = 0; i < missing.size(); ++i) missing[i] = verdict.classes[i] == FrameClass::missing;
+  }
   const Technique technique = technique_of(given, frame.light, frame.visibility, map.frame);
   GivenClimb climbed = lookup_.climb({.receivers = std::move(receivers),
                                       .eye_m = eye_of(frame.view, width, height),
@@ -130,8 +137,9 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
                                                 .cause = std::string(frame_lookup),
                                                 .label = "Lookup (the frame is not the declared lookup of its map)",
                                                 .help = std::string(find_metric(frame_lookup).help)},
+                                      .missing = std::move(missing),
                                       .moved_m = std::move(moved_m)});
-  CheckResult check = check_given_map(climbed.map_off_m, climbed.depth_spread_m);
+  CheckResult check = check_given_map(climbed.map_off_m, climbed.depth_spread_m, climbed.is_scenes_map);
   check.accepted = accepted;
   // A lookup that is not the frame's has causes of its own, which say nothing of the frame.
   // Where normals are interpolated and the bias reads them, it may be the frame's all the same, if it is nearer to it than the
@@ -159,6 +167,7 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
   for (const Ladder::CauseImage& cause : climbed.ladder.causes)
     if (const auto found = climbed.metrics.find(cause.name); found != climbed.metrics.end())
       verdict.metrics.insert(*found);
+  verdict.metrics.try_emplace(std::string(frame_map), 0);
   const Image<float>& looked_up = climbed.ladder[Rung::shown];
   double counted = 0, differ = 0;
   for (size_t i = 0; i < looked_up.size(); ++i)

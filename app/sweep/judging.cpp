@@ -15,6 +15,7 @@
 #include "compare/judge/last_run.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
+#include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/report/csv.h"
 #include "compare/report/report.h"
@@ -74,7 +75,9 @@ std::string verdict_words(const Results& results) {
   if (!results.laws.empty())
     verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
                            results.laws.size() == 1 ? "holds" : "hold");
-  return verdict.empty() ? "nothing is promised" : verdict;
+  if (verdict.empty()) return "nothing is promised";
+  return verdict +
+         (bounds_held > 0 && !poor_view_note(results.points).empty() ? " in a poor picture, see its note" : "");
 }
 
 std::string refused_text(const Results& results) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -29,14 +30,16 @@ bool is_there(const fs::path& path) {
   return fs::exists(fs::symlink_status(path, none));
 }
 
-// Of a folder that a verb filled: the files of these names in it and in its folders, and then those of the folders that are
+// Of a folder that a verb filled: the files of these names (patterns of fnmatch) in it and in its folders, and then those of the folders that are
 // empty. Links are not followed.
 void remove_below(const fs::path& folder, std::span<const std::string> names) {
   std::error_code none;
   if (!fs::is_directory(fs::symlink_status(folder, none))) return;
   std::vector<fs::path> folders = {folder};
   for (const auto& entry : fs::recursive_directory_iterator(folder, none)) {
-    const bool named = std::find(names.begin(), names.end(), entry.path().filename().native()) != names.end();
+    const bool named = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return fnmatch(name.c_str(), entry.path().filename().c_str(), FNM_PERIOD) == 0;
+    });
     if (entry.symlink_status(none).type() == fs::file_type::directory)
       folders.push_back(entry.path());
     else if (named)

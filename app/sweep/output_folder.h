@@ -60,7 +60,7 @@ class MadeFiles {
   std::set<std::string, std::less<>> names_;
 };
 
-// The folder of `recommend`, `render`, `map`, `inspect` and `judge`, locked. The files of an earlier run are removed before
+// The folder of `recommend`, `render`, `map`, `inspect`, `judge` and `capture`, locked. The files of an earlier run are removed before
 // anything else can fail, so that a run that fails or is killed leaves no file that looks like its own.
 class OutputFolder {
  public:

@@ -60,7 +60,7 @@ MeantFolders meant_folders(std::span<const std::string> words, const Vocabulary&
   if (at == sorted.plain.end()) at = sorted.plain.begin();
   const std::string verb = is_verb(*at) ? *at : nearest_name(*at, verbs);
   const std::vector<std::string> paths(at + 1, sorted.plain.end());
-  if (verb == "render" || verb == "map" || verb == "inspect" || verb == "judge") {
+  if (verb == "render" || verb == "map" || verb == "inspect" || verb == "judge" || verb == "capture") {
     const std::string subject = paths.empty() ? "" : paths.front();
     for (const std::string& out : sorted.outs) meant.outputs.push_back(outputs_of(verb, subject, out));
     if (sorted.outs.empty() && (verb == "render" || !subject.empty()))
@@ -114,6 +114,8 @@ void write_unjudged(const std::string& out, const std::string& experiment, const
                     const std::string& command) {
   try {
     const Unjudged why{experiment, command, utc_now(), failure.message, failure.exit_code};
+    std::error_code none;  // the page of an earlier run shows its verdict
+    fs::remove(fs::path(out) / "report.html", none);
     write_file_atomically(out + "/junit.xml", to_junit(why));
     write_file_atomically(out + "/summary.md", to_summary(why));
   } catch (const Error& error) {  // the disk may be the cause of the failure

@@ -7,12 +7,15 @@
 #include "app/advise/engine_trial.h"
 #include "app/advise/recommend.h"
 #include "app/definition/default_folder.h"
+#include "app/pictures/capture.h"
 #include "app/pictures/frame_pictures.h"
 #include "app/pictures/pictures.h"
 
 namespace noonmark {
 
 namespace {
+
+constexpr const char* frames_folder = "frames";  // of a capture
 
 VerbOutputs outputs_of_recommend(const std::string& out) {
   VerbOutputs outputs{out, {"engines.txt", "recommended.json", "recommended.txt", "recommended.html"}};
@@ -44,8 +47,12 @@ VerbOutputs outputs_of(std::string_view verb, const std::string& subject, const 
   if (verb == "judge") {
     VerbOutputs judge{folder(default_folder(subject, "judge-")), {"judge.json", "frame.exr"}};
     for (const std::string_view name : frame_picture_names) judge.files.push_back(fmt::format("frame-{}.png", name));
+    if (!is_capture(subject)) return judge;
+    judge.inner = frames_folder;
+    judge.inner_files = capture_files();
     return judge;
   }
+  if (verb == "capture") return {folder(default_folder(subject, "capture-")), {}, frames_folder, capture_files()};
   if (verb == "texels") return {out, {"texels.toml", "texels.json"}};
   if (verb == "recommend") return outputs_of_recommend(out);
   if (verb != "render") throw std::logic_error(fmt::format("the outputs of {} are not listed", verb));

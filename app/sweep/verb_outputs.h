@@ -1,4 +1,4 @@
-// Where `recommend`, `render`, `map`, `inspect` and `judge` write, and the files that they write there
+// Where `recommend`, `render`, `map`, `inspect`, `judge` and `capture` write, and the files that they write there
 // (app/sweep/output_folder.h).
 //
 //   const VerbOutputs outputs = outputs_of("render", experiment, arguments.out);
@@ -14,7 +14,7 @@ struct VerbOutputs {
   std::vector<std::string> files;  // in the folder: all that the verb may write
 
   std::string inner = {};                     // a folder in the folder; empty: none
-  std::vector<std::string> inner_files = {};  // in that one and its folders
+  std::vector<std::string> inner_files = {};  // in that one and its folders; patterns of fnmatch
 
   std::vector<std::string> all() const;  // `files` and `inner`
 };

@@ -22,8 +22,9 @@ inline constexpr const char* experiment = "FILE.toml";
 inline constexpr const char* scene = "SCENE|FILE.gltf|FILE.glb|FILE.vrm";  // a built-in scene, or a model
 inline constexpr const char* model = "FILE.gltf|FILE.glb|FILE.vrm";
 inline constexpr const char* picture = "FILE.exr|FILE.png|FILE.npy";
+inline constexpr const char* capture = "FILE.rdc";
 inline constexpr const char* frame =
-    "FILE.json|SCENE|FILE.gltf|FILE.glb|FILE.vrm";  // what another renderer handed over
+    "FILE.json|FILE.rdc|SCENE|FILE.gltf|FILE.glb|FILE.vrm";  // what another renderer handed over
 inline constexpr const char* baseline = "FILE.json";
 inline constexpr const char* folder = "FOLDER";
 inline constexpr const char* setting = "NAME=VALUE";  // a setting and its value

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/pictures/capture.h"
 #include "app/pictures/image_file.h"
 #include "app/verbs/verbs.h"
 #include "base/build_facts.h"
@@ -81,6 +82,11 @@ int examine_machine() {
     fmt::print("Pictures  NOT USABLE: {}\n", printable(error.what()));
     can_read_pictures = false;
   }
+  // Nothing else needs what these do.
+  if (const std::vector<std::string> missing = missing_for_captures(); missing.empty())
+    fmt::print("Captures  RenderDoc's can be read\n");
+  else
+    fmt::print("Captures  of RenderDoc cannot be read without Debian's {}\n", fmt::join(missing, ", "));
   std::string libraries;
   for (const LibraryVersion& library : facts.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : "; ", library.name, library.version);

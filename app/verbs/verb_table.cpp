@@ -8,6 +8,7 @@ Verb verb_check();
 Verb verb_render();
 Verb verb_section();
 Verb verb_judge();
+Verb verb_capture();
 Verb verb_map();
 Verb verb_live();
 Verb verb_recommend();
@@ -25,9 +26,9 @@ Verb verb_version();
 
 std::span<const Verb> verb_table() {
   static const Verb table[] = {
-      verb_run(),       verb_check(),  verb_render(),  verb_section(), verb_judge(),   verb_map(),    verb_live(),
-      verb_recommend(), verb_init(),   verb_inspect(), verb_report(),  verb_merge(),   verb_scenes(), verb_export(),
-      verb_settings(),  verb_schema(), verb_doctor(),  verb_help(),    verb_version(),
+      verb_run(),    verb_check(),     verb_render(), verb_section(), verb_judge(),  verb_capture(), verb_map(),
+      verb_live(),   verb_recommend(), verb_init(),   verb_inspect(), verb_report(), verb_merge(),   verb_scenes(),
+      verb_export(), verb_settings(),  verb_schema(), verb_doctor(),  verb_help(),   verb_version(),
   };
   return table;
 }

@@ -37,6 +37,7 @@ constexpr std::string_view placements[] = {"worst", "first"};
 struct Value {
   const PointRecord* point;
   double value;
+  double room = 0;  // ambiguous_room()
 };
 
 bool by_value(const Value& a, const Value& b) { return a.value < b.value; }
@@ -56,6 +57,19 @@ struct Values {
 double mean(const std::vector<Value>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0, [](double sum, const Value& v) { return sum + v.value; }) /
          static_cast<double>(values.size());
+}
+
+// Whether the bound, which the values hold, would hold too if what is ambiguous were the worst for it.
+bool surely_holds(const Bound& bound, Values values) {
+  const auto joined = [&](const std::vector<Value>& list, auto extreme) {
+    return bound.join == "mean"     ? mean(list)
+           : bound.join == "median" ? median(list)
+                                    : extreme(list.begin(), list.end(), by_value)->value;
+  };
+  for (Value& one : values.for_max) one.value += one.room;
+  for (Value& one : values.for_min) one.value -= one.room;
+  return !(bound.max && joined(values.for_max, [](auto... all) { return std::max_element(all...); }) > *bound.max) &&
+         !(bound.min && joined(values.for_min, [](auto... all) { return std::min_element(all...); }) < *bound.min);
 }
 
 // values: all finite, at least one.
@@ -78,6 +92,12 @@ void judge(const Bound& bound, const Values& values, BoundResult& result) {
   result.point = (from_below ? smallest : largest).point->id;
   // A sum of finite values can overflow, so a joined value that is not finite breaks the bound too.
   result.held = std::isfinite(result.found) && !below_min(result.found) && !above_max(result.found);
+  if (!result.held || surely_holds(bound, values)) return;
+  result.held = false;
+  result.found = not_a_number;
+  result.point = std::max_element(values.for_max.begin(), values.for_max.end(), [](const Value& a, const Value& b) {
+                   return a.room < b.room;
+                 })->point->id;
 }
 
 // The largest or the least of a point's quantities of these names. Not a number if one of them is missing.
@@ -127,8 +147,9 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
         low = extreme_of(point, placed.least, std::less<>());
       }
     }
-    values.for_max.push_back({&point, high});
-    values.for_min.push_back({&point, low});
+    const double room = ambiguous_room(point, bound.metric);
+    values.for_max.push_back({&point, high, room});
+    values.for_min.push_back({&point, low, room});
   }
   result.points = static_cast<int>(values.for_max.size());
   result.found = not_a_number;

@@ -7,7 +7,9 @@
 //   for (const BoundResult& r : results) if (!r.held) print(describe(r, find_point(points, r.point)));
 //
 // A bound is broken by a joined value beyond max or min, by a value that is missing or not finite at any of its points,
-// and if no point matches it. A frame whose delivery was refused (PointRecord::Delivery) has no values, so it matches none.
+// and if no point matches it. One that the ambiguous receivers, which are left out, could break is broken too, with nothing
+// found: it is not known to hold (ambiguous_room() in compare/judge/undecided.h). A frame whose delivery was refused
+// (PointRecord::Delivery) has no values, so it matches none.
 #pragma once
 #include <functional>
 #include <map>

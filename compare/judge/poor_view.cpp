@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "compare/judge/undecided.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -76,7 +77,7 @@ std::string why_poor_view(const PointRecord& point) {
           number_of(setting_of(point, "light.elevation_deg")).value_or(0) < 0
               ? "the sun is below the horizon: raise light.elevation_deg"
               : "for a test of leaks that is right, for all else move the light or the camera out of what encloses it");
-    return number(point, "clipped") >= few ? cut_off(point) : "";
+    return number(point, "clipped") >= few ? cut_off(point) : ambiguous_note(point);
   }
   std::string text = counted == 0 ? fmt::format("no pixel of {:.0f} can be judged: ", pixels)
                                   : fmt::format("only {:.0f} of {:.0f} pixels can be judged: ", counted, pixels);

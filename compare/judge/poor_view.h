@@ -11,7 +11,8 @@ namespace noonmark {
 inline constexpr double few_receivers_share = 0.01;  // of the picture's pixels; fewer receivers than this are few
 
 // "only 535 of 921600 pixels can be judged: ...", with the reason and what to do. It also reports a picture in which
-// nothing is lit (which a test of leaks means to be so), or of which near or far cut off more than that share. Empty if the picture is good, and if the record
+// nothing is lit (which a test of leaks means to be so), of which near or far cut off more than that share, or in which the
+// truth of many receivers is ambiguous (ambiguous_note()). Empty if the picture is good, and if the record
 // lacks the numbers.
 std::string why_poor_view(const PointRecord& point);
 

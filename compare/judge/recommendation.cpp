@@ -12,6 +12,7 @@
 
 #include "compare/judge/conditions.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/undecided.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -122,8 +123,9 @@ bool meets(const PointRecord& point, const BoundResult& bound, std::optional<dou
   const std::optional<double> of_curve = bias_depth ? curve_value(point, bound.metric, *bias_depth) : std::nullopt;
   const double one = of_curve ? *of_curve : quantity(point, bound.metric).value_or(std::nan(""));
   const double high = bound.placement == "worst" ? std::max(one, metric_at(point, bound.metric, bias_depth)) : one;
-  return std::isfinite(one) && std::isfinite(high) && (!bound.max || high <= *bound.max) &&
-         (!bound.min || one >= *bound.min);
+  const double room = ambiguous_room(point, bound.metric);
+  return std::isfinite(one) && std::isfinite(high) && (!bound.max || high + room <= *bound.max) &&
+         (!bound.min || one - room >= *bound.min);
 }
 
 std::vector<double> curve_biases(const Choice& choice, double low, double high) {

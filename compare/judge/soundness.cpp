@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "compare/judge/map_distance.h"
 #include "compare/ladder/numbers.h"
 #include "compare/ladder/probe_errors.h"
 #include "compare/ladder/receiver_taps.h"
@@ -19,6 +20,9 @@
 
 namespace noonmark {
 namespace {
+
+// Of fewer texels the depths may have no spread although a slope is there, which a rasteriser's grid moves.
+constexpr size_t enough_texels = 100;
 
 // Whether `visibility` is what the technique's definition gives for the probe and a map whose depths are of `format`.
 // If all taps have the same weight, it must be the number of lit taps, divided, bit for bit.
@@ -88,12 +92,14 @@ SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
     asked[at / 64] |= uint64_t{1} << at % 64;
   }
   std::vector<double> errors;
+  MapDistance apart(in.frame, in.evidence.map.format);
   MapFound found;
   const auto compare = [&](size_t i) {
     const glm::ivec2 texel(i % across, i / across);
     const float stored = in.stored_map.at(texel), right = exact.at(texel);
     const double error = std::abs(static_cast<double>(stored) - right);
     errors.push_back(std::isnan(error) ? infinity : error / depth_step(in.evidence.map.format, right));
+    apart.add(texel, right, stored);
     if (found.bits == 16 && !is_held_by(DepthFormat::d16, stored)) found.bits = 24;
     if (found.bits == 24 && !is_held_by(DepthFormat::d24, stored)) found.bits = 32;
   };
@@ -104,6 +110,7 @@ SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
   const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
   std::nth_element(errors.begin(), middle, errors.end());
   found.error_quanta = *middle;
+  if (apart.texels() >= enough_texels) found.excess = apart.excess();
   return found;
 }
 
@@ -139,6 +146,7 @@ std::map<std::string, double> SoundnessCheck::metrics() const {
       {"address_error_texels", measured(found_.probe.address_texels)},
       {"reference_error_m", measured(found_.probe.reference_m)},
       {"map_error_quanta", measured(map.error_quanta)},
+      {"map_excess", measured(map.excess)},
       {"map_bits", measured(map.bits)},
   };
 }

@@ -51,6 +51,8 @@ struct SoundnessInput {
 //   reference_error_m     largest error of the reference depth.
 //   map_error_quanta      median |stored - exact| over the texels that middle taps read, in steps of the format that
 //                         the settings name (32f: the spacing of floats at that depth).
+//   map_excess            how far the map is from the scene's (compare/judge/map_distance.h), over the same texels; 0 of fewer
+//                         than 100. Sound: at most 1.
 //   map_bits              16, 24 or 32: the coarsest format that could have stored the depths of those texels. With
 //                         more bits than the settings name, the driver stored another format. With fewer, it did so
 //                         too, or all depths lie beyond one half, where floats are no finer than 24 bits, or there are
@@ -76,7 +78,7 @@ class SoundnessCheck {
 
  private:
   struct MapFound {
-    double error_quanta = 0;
+    double error_quanta = 0, excess = 0;
     int bits = 16;
   };
   MapFound compare_maps() const;
@@ -101,6 +103,7 @@ inline constexpr SoundLimit sound_limits[] = {
     {"tap_residual", 1e-6},
     {"contract", 0},
     {"rounding_excess", 1},
+    {"map_excess", 1},
     {"cascade_choice_excess", 1},
     {"placement_disagreements", 0},
     {"contract_store", 0},

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
+#include <cmath>
+#include <limits>
 
+#include "compare/judge/curve_reading.h"
 #include "compare/results/causes.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
@@ -17,6 +19,23 @@ bool may_hold_undecided(std::string_view metric) {
   return metric == "peter_panning_lit" || std::any_of(cause_rows.begin(), cause_rows.end(), [&](const CauseRow& row) {
            return row.place == CausePlace::technique && row.name == metric;
          });
+}
+
+// The share of the ambiguous receivers if they are many, and 0 also if their number is not known. In a small picture a few at an
+// edge are no sign: their number must be further above what is usual than three of its standard deviations.
+double if_many(double ambiguous, double receivers) {
+  const double usual = much_ambiguous * receivers;
+  return ambiguous > usual + 3 * std::sqrt(usual) ? ambiguous / receivers : 0;
+}
+
+double many_ambiguous(const PointRecord& point) {
+  const double facing = metric_of(point, "facing");
+  return if_many(metric_of(point, "ambiguous") * facing, facing);
+}
+
+double many_ambiguous_of_lights(const PointRecord& point) {
+  const double ambiguous = metric_of(point, "lights_ambiguous");
+  return if_many(ambiguous, ambiguous + metric_of(point, "lights_counted"));
 }
 
 }  // namespace
@@ -48,6 +67,34 @@ std::string undecided_note(const BoundResult& bound, const PointRecord& point) {
   if (!(bound.found + undecided > *bound.max)) return "";
   return fmt::format("it would be broken if all that is undecided there, {}, were {}",
                      quantity_text(undecided, "fraction"), bound.metric);
+}
+
+bool hides_more_than(const PointRecord& point, const CauseBounds& bounds) {
+  return many_ambiguous(point) > std::min(bounds.acne_bound, bounds.peter_panning_bound);
+}
+
+double ambiguous_room(const PointRecord& point, std::string_view quantity) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  const double share = is_of_lights(quantity) ? many_ambiguous_of_lights(point) : many_ambiguous(point);
+  if (share == 0) return 0;
+  if (quantity.starts_with("edge_displacement") || quantity.starts_with("peter_panning_gap")) return any;
+  if (find_quantity(quantity, {&point, 1}).of_curve)
+    return has_curve(point) && hides_more_than(point, curve_bounds(point)) ? any : 0;
+  for (const Metric& row : metrics_table())
+    if (row.name == quantity)  // what is not plotted is a count or a check, and map_ is a share of texels
+      return row.unit == "fraction" && row.plotted && !quantity.starts_with("map_") ? share : 0;
+  return share;  // a cause of a rung of its own
+}
+
+std::string ambiguous_note(const PointRecord& point) {
+  const double share = many_ambiguous(point);
+  if (share == 0) return "";
+  return fmt::format(
+      "the truth of {} of the receivers that face the light is ambiguous and left out, because rounding of floats "
+      "decides it: the light or the scene is too far away for its size, or shapes overlap; a bound that as many wrong "
+      "receivers would break is not known to hold; move the light nearer (light.position_m), or the scene to the "
+      "origin",
+      share_text(share));
 }
 
 }  // namespace noonmark

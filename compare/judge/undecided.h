@@ -1,8 +1,9 @@
-// Warns of taps whose truth float error can change. They are booked as undecided, so a cause may be larger by their
-// weight.
+// What float error can change: taps, which are booked as undecided, so a cause may be larger by their weight; and receivers
+// whose truth is ambiguous, which no metric of errors includes, so a value may be larger or smaller by their share.
 #pragma once
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "compare/results/records.h"
 
@@ -19,5 +20,21 @@ std::string undecided_note(std::span<const PointRecord> points);
 // For a bound on the filter or a cause that held at `point`, its worst point. Says that the bound would be broken if
 // everything undecided there had that cause. Otherwise empty.
 std::string undecided_note(const BoundResult& bound, const PointRecord& point);
+
+// Where floats resolve the shapes, less than this share of the facing receivers is ambiguous: tests hold every built-in scene to it
+// (tests/raytrace/truth_test.cpp). There are many of them if significantly more are: a light or a scene is so far away that rounding
+// is as large as the shapes, or shapes touch and overlap in many places.
+inline constexpr double much_ambiguous = 0.001;
+
+// Whether many receivers are ambiguous, and more than one of the bounds lets be wrong: then no window of a curve is known.
+bool hides_more_than(const PointRecord& point, const CauseBounds& bounds);
+
+// By how much the quantity of all facing receivers may differ from that of the counted ones: of a share the ambiguous share,
+// and infinity of a largest distance, and of what a curve says if that hides_more_than() its bounds. 0 where not many are ambiguous,
+// where the record does not have their number, and of a quantity that does not depend on the truth.
+double ambiguous_room(const PointRecord& point, std::string_view quantity);
+
+// "the truth of 14.2% of the receivers that face the light is ambiguous: ...", with what to do. Empty if not many are.
+std::string ambiguous_note(const PointRecord& point);
 
 }  // namespace noonmark

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "compare/ladder/law_metrics.h"
 #include "compare/ladder/numbers.h"
 #include "compare/results/metrics.h"
 
@@ -54,22 +55,25 @@ double median_of(Cascades cascades, const char* metric) {
 
 }  // namespace
 
-std::map<std::string, double> join_laws(Cascades cascades) {
-  // Of lookups in maps of moments there is no bias that law 1 requires.
-  const auto measured = [&](const char* metric) { return cascades.front().metrics.contains(metric); };
-  std::map<std::string, double> joined{{"texel_m", median_of(cascades, "texel_m")}};
-  for (const char* metric :
-       {"map_range_m", "depth_quantum_m", "acne_free_bias_scene_law_depth", "acne_free_bias_scene_law_m"}) {
-    if (!measured(metric)) continue;
+std::map<std::string, double> join_laws(Cascades cascades, bool read_moments) {
+  const auto joined_of = [&](const LawMetric& metric) {
+    switch (metric.join) {
+      case LawMetric::median:
+        return median_of(cascades, metric.name);
+      case LawMetric::largest_of_counted:
+        return largest(cascades, metric.name, "counted");
+      case LawMetric::sum_of_counted:
+        return sum_of(cascades, metric.name);
+      case LawMetric::largest:
+        break;
+    }
     double most = -infinity;
-    for (const PointRecord::Cascade& cascade : cascades) raise(most, cascade.metrics.at(metric));
-    joined[metric] = most;
-  }
-  for (const char* metric : {"acne_free_bias_law_depth", "acne_free_bias_law_m"})
-    if (measured(metric)) joined[metric] = largest(cascades, metric, "counted");
-  for (const char* metric : {"counted_area_m2", "filter_area_m2", "displacement_area_m2", "aliasing_area_m2",
-                             "acne_area_m2", "peter_panning_area_m2"})
-    joined[metric] = sum_of(cascades, metric);
+    for (const PointRecord::Cascade& cascade : cascades) raise(most, cascade.metrics.at(metric.name));
+    return most;
+  };
+  std::map<std::string, double> joined;
+  for (const LawMetric& metric : law_metrics)
+    if (!read_moments || !metric.of_comparisons) joined[metric.name] = joined_of(metric);
   return joined;
 }
 

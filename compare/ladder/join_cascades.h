@@ -1,7 +1,7 @@
 // Numbers of a point with several cascades that come from those of each cascade. All other numbers come from the joined
 // ladder (join(), compare/ladder/ladder.h).
 //
-//   metrics.merge(join_laws(record.cascades));
+//   metrics.merge(join_laws(record.cascades, technique.moments.has_value()));
 #pragma once
 #include <map>
 #include <span>
@@ -11,10 +11,9 @@
 
 namespace noonmark {
 
-// The metrics of measure_laws(): areas are sums; texel_m is the median over the counted receivers; what law 1 requires, the
-// depth of the maps and their quantum are the largest of all cascades. A cascade without a counted receiver has no part in
-// areas, texel_m and what receivers require.
-std::map<std::string, double> join_laws(std::span<const PointRecord::Cascade> cascades);
+// The metrics of measure_laws(), as law_metrics says. read_moments: LawInput::reads_moments. Throws std::out_of_range if a cascade
+// lacks one of them.
+std::map<std::string, double> join_laws(std::span<const PointRecord::Cascade> cascades, bool read_moments);
 
 // What was checked of each map (of_one: what of one of them): contract is the share of all facing receivers, the others are the
 // largest of the cascades that have some. NaN if none has.

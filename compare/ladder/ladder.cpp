@@ -62,6 +62,19 @@ Ladder empty_ladder(int width, int height, int causes) {
   return ladder;
 }
 
+void rebook(Ladder& ladder, Cause from, RungCause as, const Image<uint8_t>& mask) {
+  if (!is_free_name(as.name)) throw std::logic_error("a cause cannot have the name " + as.name);
+  Image<float>& step = ladder[from];
+  Image<float> moved(step.width, step.height, 0);
+  for (size_t i = 0; i < moved.size(); ++i) {
+    if (mask.size() != 0 && !mask[i]) continue;
+    std::swap(step[i], moved[i]);
+    if (ladder.cause[i] == static_cast<uint8_t>(from)) ladder.cause[i] = static_cast<uint8_t>(ladder.causes.size());
+  }
+  ladder.causes.push_back({as.name, std::move(moved)});
+  ladder.brought.push_back(std::move(as));
+}
+
 void add_rung(Ladder& ladder, RungOnTop rung) {
   Image<float>& picture = rung.picture;
   if (picture.width != ladder.flags.width || picture.height != ladder.flags.height)

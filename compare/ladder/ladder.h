@@ -97,7 +97,7 @@ struct Ladder {
   };
   std::vector<RungImage> rungs;
   // The first is "none", whose step is 0 everywhere; then those of Cause, of a lookup that compares depths without those of
-  // moments; then those that rungs on top brought.
+  // moments; then those that were brought: rebook(), add_rung().
   std::vector<CauseImage> causes;
   std::vector<RungCause> brought;  // describes the last of `causes`
   size_t built_in() const { return causes.size() - brought.size(); }
@@ -142,6 +142,10 @@ struct RungOnTop {
 // differs, if the ladder already has one of the names, and if the cause's name is that of a metric or cannot be one
 // (is_free_name).
 void add_rung(Ladder& ladder, RungOnTop rung);
+
+// The step of a cause of the ladder becomes that of a new one, which `as` describes, at the pixels in the mask, or everywhere with
+// an empty one; so does the name of the pixel. `from` stays. Before any rung is put on top.
+void rebook(Ladder& ladder, Cause from, RungCause as, const Image<uint8_t>& mask = {});
 
 // For causes that are not built in. Under the common colour-vision deficiencies (Machado et al. 2009) they differ from
 // each other and from all colours of cause_rows by 15 or more in CIELAB.

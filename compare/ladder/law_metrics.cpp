@@ -184,9 +184,8 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
       {"acne_area_m2", area(Cause::acne)},
       {"peter_panning_area_m2", area(Cause::peter_panning)}};
   if (in.reads_moments)
-    for (const char* required : {"acne_free_bias_law_depth", "acne_free_bias_law_m", "acne_free_bias_scene_law_depth",
-                                 "acne_free_bias_scene_law_m"})
-      metrics.erase(required);
+    for (const LawMetric& law_metric : law_metrics)
+      if (law_metric.of_comparisons) metrics.erase(law_metric.name);
   return metrics;
 }
 

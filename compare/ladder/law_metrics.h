@@ -24,6 +24,28 @@ struct LawInput {
   bool reads_moments = false;  // law 1 is of a lookup that compares depths: the bias that it requires is then left out
 };
 
+// What measure_laws() gives, and what the number of several cascades is.
+struct LawMetric {
+  const char* name;
+  // counted: of the cascades with a counted receiver. The median is that of all counted receivers, where the number is the same at
+  // all receivers of a cascade.
+  enum Join { median, largest, largest_of_counted, sum_of_counted } join;
+  bool of_comparisons = false;  // absent of a lookup in a map of moments
+};
+inline constexpr LawMetric law_metrics[] = {{"texel_m", LawMetric::median},
+                                            {"map_range_m", LawMetric::largest},
+                                            {"depth_quantum_m", LawMetric::largest},
+                                            {"acne_free_bias_law_depth", LawMetric::largest_of_counted, true},
+                                            {"acne_free_bias_law_m", LawMetric::largest_of_counted, true},
+                                            {"acne_free_bias_scene_law_depth", LawMetric::largest, true},
+                                            {"acne_free_bias_scene_law_m", LawMetric::largest, true},
+                                            {"counted_area_m2", LawMetric::sum_of_counted},
+                                            {"filter_area_m2", LawMetric::sum_of_counted},
+                                            {"displacement_area_m2", LawMetric::sum_of_counted},
+                                            {"aliasing_area_m2", LawMetric::sum_of_counted},
+                                            {"acne_area_m2", LawMetric::sum_of_counted},
+                                            {"peter_panning_area_m2", LawMetric::sum_of_counted}};
+
 // One step of the map's format in window depth. For 32-bit float it is the largest step in [0,1].
 double depth_quantum(DepthFormat format);
 

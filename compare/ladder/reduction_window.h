@@ -5,7 +5,7 @@
 //   window.add({.pixel = 7, .truth = 0, .chain = {.from = 0, .texels = 0, .bare = 0.1, .bound = 0.1}},  // each receiver once
 //              {.truth = 0, .soft = 0.2f, .bound = 0.1f});
 //   window.sort();
-//   std::optional<Window> usable = window.usable(0.001, 0.01);
+//   std::optional<ReductionWindow::Window> usable = window.usable(0.001, 0.01);
 //   double r = window.best().reduction;
 #pragma once
 #include <cstdint>

@@ -1,7 +1,7 @@
 // HTML as a type of its own, and the builder that makes it. A text becomes markup by a conversion that escapes it, so it is
 // escaped once: markup is no text, and is never escaped again. Without escaping there is only Markup::unescaped().
 //
-//   tr(css(held ? "held" : "broken"), row_head(point_link(4)), td("a < b"), td(17));
+//   tr(css(held ? "held" : "broken"), row_head(point_link(4, "4")), td("a < b"), td(17));
 //   paragraph(css("small"), prose("{} of {} points are in {}.", 3, count, code("results.csv")));
 #pragma once
 #include <fmt/format.h>

@@ -11,6 +11,7 @@
 #include "compare/judge/deliveries.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
+#include "compare/judge/verdict.h"
 #include "compare/report/blocks.h"
 #include "compare/report/broken.h"
 #include "compare/report/findings.h"
@@ -63,6 +64,11 @@ std::string chosen_phrase(const Recommendation& found, const Results& results) {
 size_t bound_count(const Results& results) {
   return static_cast<size_t>(
       std::count_if(results.bounds.begin(), results.bounds.end(), [](const auto& bound) { return !bound.warns; }));
+}
+
+// What is said of a choice that keeps all bounds. Where a value is worse than in the baseline, this is not good enough.
+const char* praise(const Results& results) {
+  return results.baseline && !results.baseline->held() ? "keeps the bounds" : "is good enough";
 }
 
 std::string conditions_text(const Results& results, const Choice& choice) {
@@ -138,8 +144,8 @@ Markup cheapest_of_parts(const Results& results, const ShownPoints& shown) {
                     of = GroupNames(results, shown.groups).of(group);
   const PointRecord* const point = point_on_page(*best, shown.error_first, on_page);
   const std::optional<BiasChoice>& bias = best->good->bias;
-  return prose(" Of the {} choices{} the cheapest that is good enough is {}{}.", group.choices.size(),
-               of.empty() ? "" : " for " + of, point ? recommended_link(*point, name) : name,
+  return prose(" Of the {} choices{} the cheapest that {} is {}{}.", group.choices.size(),
+               of.empty() ? "" : " for " + of, praise(results), point ? recommended_link(*point, name) : name,
                bias ? fmt::format(" with {} {}", bias->parameter, bias_in_unit(bias->value, bias->unit)) : "");
 }
 
@@ -180,15 +186,16 @@ Markup what_to_set(const Results& results, const ShownPoints& shown) {
       found.bias ? fmt::format("{} {}", found.bias->parameter, bias_in_unit(found.bias->value, found.bias->unit)) : "";
   const PointRecord& point = found.choice.first();
   if (found.bias && found.bias->as_set)
-    return prose("What is set is good enough{}: {} with {}. Its error is {}{}.", conditions,
+    return prose("What is set {}{}: {} with {}. Its error is {}{}.", praise(results), conditions,
                  bound_count(results) == 1 ? "the bound holds" : "all bounds hold", recommended_link(point, bias),
                  error, at_worst_placement(found));
   const std::string settings = chosen_phrase(found, results);
-  return prose("Set {}{}: the cheapest setting that is good enough{}. Its error is {}{}.",
+  return prose("Set {}{}: the cheapest setting that {}{}. Its error is {}{}.",
                recommended_link(point, !settings.empty() ? settings
                                        : found.bias      ? bias
                                                          : "this point"),
-               settings.empty() || bias.empty() ? "" : " and " + bias, conditions, error, at_worst_placement(found));
+               settings.empty() || bias.empty() ? "" : " and " + bias, praise(results), conditions, error,
+               at_worst_placement(found));
 }
 
 }  // namespace
@@ -306,7 +313,7 @@ Markup accurate_text(const Recommendation& found, const Recommendation& accurate
   if (&accurate.choice.first() == &found.choice.first()) return "";
   const std::string bias =
       accurate.bias ? fmt::format("{} {}", accurate.bias->parameter, bias_of(accurate, accurate.bias->value)) : "";
-  return paragraph(prose("The most accurate setting that is good enough: {}{}{}, for {} ({}).", phrase,
+  return paragraph(prose("The most accurate setting that {}: {}{}{}, for {} ({}).", praise(results), phrase,
                          phrase.empty() || bias.empty() ? "" : ", ", bias, cost_and_error(accurate, results),
                          point_links(accurate.choice)));
 }
@@ -340,7 +347,7 @@ Markup recommendation_box(const Results& results, const ShownPoints& shown) {
   if (Markup none = box_without_answer(results, found); !none.empty()) return none;
   const bool kept = found.bias && found.bias->as_set;
   const Markup answer =
-      prose("{}{}{} has {}.{}", kept ? "What is set is good enough" : "The cheapest setting that is good enough",
+      prose("{} {}{}{} has {}.{}", kept ? "What is set" : "The cheapest setting that", praise(results),
             conditions_text(results, found.choice), kept ? ". It" : "", cost_and_error(found, results),
             found.bias ? bias_margin_text(*found.bias, free_noun(found)) : "");
   const Markup reasons = prose(
@@ -348,9 +355,8 @@ Markup recommendation_box(const Results& results, const ShownPoints& shown) {
       compares_choices(shown.groups)
           ? prose(" {} compares by other costs and errors.", section_link("cost", "Speed against accuracy"))
           : Markup());
-  // Not green while a bound is broken: a reader would take the colour for the verdict.
-  const bool broken = std::any_of(results.bounds.begin(), results.bounds.end(), breaks);
-  return box(broken ? "none" : "held", kept ? "What is set" : "What to set",
+  // Green only if the verdict is: a reader would take the colour for it.
+  return box(passes(verdict_of(results)) ? "held" : "none", kept ? "What is set" : "What to set",
              paragraph(answer) + element("dl", settings_and_bias(found, results)) + "\n" + causes_text(found) +
                  accurate_text(found, shown.accurate, results) + element("p", css("small"), reasons));
 }

@@ -238,6 +238,11 @@ constexpr Metric measured_with_causes[] = {
     {"reference_error_m", "m", "Largest error of the lookup's reference depth, along the light.", false},
     {"map_error_quanta", "",
      "Median |stored - exact| depth of the texels that receivers fall into, in steps of the map's depth format.", true},
+    {"map_excess", "",
+     "Median distance along the light of the map's depths from an exact map's, over the texels that receivers fall "
+     "into, as "
+     "a multiple of the most that leaves the map the scene's: a fiftieth of the depths' spread, or rounding.",
+     false},
     {"map_bits", "",
      "Bits of the coarsest depth format that could have stored the depths that receivers look up: 16, 24 or 32.",
      false},
@@ -453,6 +458,11 @@ constexpr Metric of_given_frames[] = {
     {"frame_penumbra", "fraction",
      "The part of frame_error where the truth is between lit and shadowed, because the light has a size.", true, false,
      false, true},
+    {"frame_missing", "fraction",
+     "The part of frame_error where the truth is dark, the frame is too light, and only casters that the frame's map "
+     "lacks "
+     "(not_in_map) are in the light's way.",
+     true, false, false, true},
     {"frame_edge", "fraction",
      "The part of frame_error within the edge distance of a true shadow edge, outside penumbrae.", true, false, false,
      true},
@@ -471,6 +481,10 @@ constexpr Metric of_given_frames[] = {
      true, false, false, true},
     {"frame_lookup", "fraction",
      "Of a frame with its own map: mean |frame - R5|, the part that the declared lookup of that map does not show.",
+     true, false, false, true},
+    {"frame_map", "fraction",
+     "Of a frame with its own map: mean |R5 - R4| if that map is not the scene's; 0 if it is, and the mean is "
+     "precision.",
      true, false, false, true},
     {"frame_lookup_differs", "fraction",
      "Of a frame with its own map: share of receivers at which the frame is off from R5 by more than a half.", true,

@@ -117,9 +117,9 @@ bool knows_causes(std::span<const PointRecord> points) {
 
 bool has_cause(const PointRecord& point, std::string_view cause) {
   if (!point.metrics.contains(std::string(cause))) return false;
-  const bool by_place =
-      cause != frame_lookup && std::any_of(metrics_table().begin(), metrics_table().end(),
-                                           [&](const Metric& row) { return row.name == cause && row.of_frames; });
+  const bool by_place = !is_cause_of_own_map(cause) && cause != frame_missing &&
+                        std::any_of(metrics_table().begin(), metrics_table().end(),
+                                    [&](const Metric& row) { return row.name == cause && row.of_frames; });
   return !by_place || !knows_causes({&point, 1});
 }
 

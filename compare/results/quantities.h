@@ -48,6 +48,11 @@ bool is_free_name(std::string_view name);
 inline constexpr std::string_view frame_rung = "the frame";
 // The cause of a frame with its own map that the map does not explain, and its metric.
 inline constexpr std::string_view frame_lookup = "frame_lookup";
+// Of casters that the map lacks: a class by place, and with a map the cause of its receivers' step from an exact map to it.
+inline constexpr std::string_view frame_missing = "frame_missing";
+// Where that map is not the scene's: what an exact one would show otherwise. It is then no precision.
+inline constexpr std::string_view frame_map = "frame_map";
+constexpr bool is_cause_of_own_map(std::string_view cause) { return cause == frame_lookup || cause == frame_map; }
 // The share of its receivers at which the frame is not what its declared lookup gives.
 inline constexpr std::string_view frame_lookup_differs = "frame_lookup_differs";
 // Whether the points are frames of another renderer (frames/judge.h). All points of a store are, or none.

@@ -42,6 +42,14 @@ Image<float> doubled(const Image<float>& map) {
   return out;
 }
 
+// What the map's pass leaves with a viewport of half the map's width and height.
+Image<float> in_a_corner(const Image<float>& map) {
+  Image<float> out(map.width, map.height, 1);
+  for (int y = 0; y < map.height / 2; ++y)
+    for (int x = 0; x < map.width / 2; ++x) out.at(x, y) = map.at(2 * x, 2 * y);
+  return out;
+}
+
 void drop_part(Scene& scene, const std::string& name) {
   const auto part = std::find_if(scene.parts.begin(), scene.parts.end(), [&](const Part& p) { return p.name == name; });
   if (part == scene.parts.end()) throw std::logic_error("the scene has no part " + name);
@@ -265,14 +273,20 @@ std::vector<Planted> defects() {
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.wrap = Wrap::repeat; }},
                  {{"precision", 1e-3, 0.02}, {"contract", 0, 0.02}},
                  {"tap_residual"}});
+  // The map's pass has the window's viewport, which is half as wide and high as the map.
+  all.push_back({"ViewportForgotten",
+                 cubes(),
+                 {.edited_map = in_a_corner},
+                 {{"precision", 1e-3, 0.02}, {"map_excess", 0.1, 2}},
+                 {"contract"}});
   all.push_back({"FlippedYInTheMap",
                  cubes(),
                  {.edited_map = flipped},
-                 {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 10000}}});
+                 {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 10000}, {"map_excess", 0.1, 1.01}}});
   all.push_back({"TransposedMap",
                  cubes(),
                  {.edited_map = transposed},
-                 {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 10000}}});
+                 {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 10000}, {"map_excess", 0.1, 1.01}}});
   all.push_back(
       {"TransposedMatrixOfTheMap",
        cubes(),
@@ -281,7 +295,7 @@ std::vector<Planted> defects() {
   all.push_back({"NearAndFarSwapped",
                  cubes(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { std::swap(frame.near_m, frame.far_m); }},
-                 {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 10000}}});
+                 {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 10000}, {"map_excess", 0.1, 1.01}}});
   // The stored depths are half a metre too near: every lit receiver lies behind its own texel.
   all.push_back({"NearPlaneHalfAMetreOff",
                  cubes(),
@@ -354,6 +368,16 @@ TEST(Workbench, HoldsAVariantToItsContract) {
   EXPECT_EQ(kind(patched("shaders/compare.glsl", "biased > stored_depth", "biased >= stored_depth")),
             ErrorKind::defect);
   EXPECT_EQ(kind(patched(projected, "ndc * 0.5 + 0.5", "ndc * 0.5 + 0.50001")), ErrorKind::defect);
+}
+
+TEST(RequireSound, RefusesAMapThatIsNotTheScenes) {
+  Results results;
+  PointRecord& point = results.points.emplace_back();
+  point.settings = settings_map(cubes());
+  point.metrics = sound_figures(cubes());
+  EXPECT_NO_THROW(require_sound(results));
+  point.metrics = measure(cubes(), {.edited_map = in_a_corner});
+  EXPECT_THROW(require_sound(results), Error);
 }
 
 TEST(RequireSound, NamesEachLimit) {

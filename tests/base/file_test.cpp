@@ -171,7 +171,14 @@ TEST_F(File, MakesFoldersAndSaysWhyNot) {
   make_folder(folder.file("a/b/c/"));
   write_file_atomically(folder.file("file"), "");
   EXPECT_THROW(make_folder(folder.file("file")), Error);
-  EXPECT_THROW(make_folder(folder.file("file/below")), Error);
+  try {
+    make_folder(folder.file("file/below/deeper"));
+    ADD_FAILURE() << "a file has no folders";
+  } catch (const Error& error) {
+    const std::string says = error.what();
+    EXPECT_NE(says.find(folder.file("file") + " is a file"), std::string::npos)
+        << "it names what is in the way: " << says;
+  }
 }
 
 TEST(AtomicWrite, ReplacesAFileWhole) {

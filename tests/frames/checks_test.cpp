@@ -1,6 +1,8 @@
 // Each wrong delivery is made from a good frame, and is named.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
 #include <string>
 
 #include "base/error.h"
@@ -253,6 +255,45 @@ TEST(Checks, WhatTheNearPlaneCutsMayBeMoved) {
   EXPECT_NE(found.says.find("(+0.24, "), std::string::npos) << found.says;
   expect_named(with_moved([](size_t) { return true; }, 0.24), "positions", "(+0.24, ");
   expect_named(with_moved([](size_t i) { return !is_cut(good(), i); }, 0.24), "positions", "(+0.24, ");
+}
+
+// The triangles of one part.
+std::function<bool(uint32_t)> of_part(const std::string& name) {
+  const Part part = *std::find_if(good().scene->parts.begin(), good().scene->parts.end(),
+                                  [&](const Part& one) { return one.name == name; });
+  return [part](uint32_t triangle) { return triangle - part.first_triangle < part.triangle_count; };
+}
+
+TEST(Checks, ASurfaceThatIsMovedInThePictureIsNamed) {
+  const auto on_cube = of_part("standing cube");
+  const GivenFrame frame = with_moved([&](size_t i) { return on_cube(good().receivers.primitive[i]); }, 0.24);
+  expect_named(frame, "positions", "'standing cube' lie (+0.24, ");
+  expect_named(frame, "positions", "other surfaces 0.000 at most");
+}
+
+// The frame of a scene in which one part stands elsewhere. All of its positions are in their own pixels.
+TEST(Checks, AnObjectThatStandsElsewhereIsNamed) {
+  const auto on_cube = of_part("turned cube");
+  for (const glm::vec3 by :
+       {glm::vec3(0.05f, 0, 0), glm::vec3(0, 0.03f, 0), glm::vec3(1, 0, 1), glm::vec3(0, 100, 0)}) {
+    Scene moved = *good().scene;
+    std::set<uint32_t> corners;
+    for (uint32_t t = 0; t < moved.triangles.size(); ++t)
+      if (on_cube(t)) corners.insert({moved.triangles[t].x, moved.triangles[t].y, moved.triangles[t].z});
+    for (const uint32_t corner : corners) moved.positions[corner] += by;
+    const raytrace::Tracer tracer(moved);
+    GivenFrame frame = good().frame;
+    const ReceiverImage receivers =
+        resolve_receivers(moved, frame.view, tracer.seen_primitives(frame.view, width, height));
+    frame.receivers = GivenReceivers::positions;
+    frame.positions = Image<glm::dvec3>(width, height, glm::dvec3(no_surface));
+    for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+      const bool seen = receivers.primitive[i] != no_primitive;
+      if (seen) frame.positions[i] = receivers.position[i];
+      frame.visibility[i] = !seen ? no_surface : std::isnan(frame.visibility[i]) ? 1.0f : frame.visibility[i];
+    }
+    expect_named(frame, "positions", "'turned cube'");
+  }
 }
 
 TEST(Checks, HalfFloatPositionsAreNamed) {

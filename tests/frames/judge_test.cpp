@@ -131,6 +131,57 @@ TEST(Judge, ALeakIsAContactWhereItsOccluderIsNear) {
   EXPECT_GT(above.metrics.at("frame_contact"), 0.98 * far.metrics.at("frame_leak"));
 }
 
+// Two plates, one above the other in a part, over a floor; the light comes from straight above, and the frame has no shadow.
+TEST(Judge, OnlyWhatTheMapLacksIsAMissingCaster) {
+  Scene scene;
+  const auto add = [&](const char* name, double low, double high, double y) {
+    const auto first = static_cast<uint32_t>(scene.positions.size());
+    scene.parts.push_back({name, static_cast<uint32_t>(scene.triangles.size()), 2});
+    for (const glm::dvec2 at : {glm::dvec2(low, -3), {low, 3}, {high, 3}, {high, -3}})
+      scene.positions.emplace_back(at.x, y, at.y);
+    scene.triangles.insert(scene.triangles.end(), {{first, first + 1, first + 2}, {first, first + 2, first + 3}});
+  };
+  add("floor", -6, 6, 0);
+  add("lost", -4, 1, 0.5);
+  add("kept", -1, 4, 1);
+  scene.light.position_m = {0, 10, 0};
+  scene.light.target_m = {0, 0, 0};
+  const raytrace::Tracer tracer(scene);
+  Camera camera{.projection = Projection::orthographic, .eye_m = {0, 0.4, 0}, .target_m = {0, 0, 0}, .up = {0, 0, 1}};
+  camera.height_m = 2;
+  camera.near_m = 0.01;
+  camera.far_m = 5;
+  GivenFrame frame{.name = "frame",
+                   .visibility = Image<float>(240, 40, 1),
+                   .positions = {},
+                   .view = ViewMatrix(make_camera_frame(camera, 240, 40).clip_from_world()),
+                   .light = scene.light};
+  frame.not_in_map = {"lost"};
+  const FrameVerdict verdict = judge_frame(scene, tracer, frame, {.contact_m = 0.1});
+  size_t missing = 0;
+  for (size_t i = 0; i < verdict.classes.size(); ++i) {
+    if (!verdict.counted[i]) continue;
+    const float x = verdict.receivers.position[i].x;
+    if (std::abs(x + 4) < 0.15f || std::abs(x + 1) < 0.15f || std::abs(x - 1) < 0.15f || std::abs(x - 4) < 0.15f)
+      continue;
+    EXPECT_EQ(verdict.classes[i], x < -4 || x > 4 ? FrameClass::none
+                                  : x < -1        ? FrameClass::missing
+                                                  : FrameClass::leak)
+        << x;
+    missing += verdict.classes[i] == FrameClass::missing;
+  }
+  EXPECT_GT(missing, 1000u);
+  EXPECT_NEAR(verdict.metrics.at("frame_missing"), 3. / 12, 0.005);
+  frame.not_in_map = {"lots"};
+  try {
+    judge_frame(scene, tracer, frame, {});
+    ADD_FAILURE() << "there is no such part";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::file);
+    EXPECT_NE(std::string(error.what()).find("did you mean 'lost'"), std::string::npos) << error.what();
+  }
+}
+
 // A filter errs on both sides of an edge.
 TEST(Judge, BothSidesOfAnEdgeAreItsOwn) {
   const FrameVerdict verdict = good_frame("plate", 320, 180, 1).judged();

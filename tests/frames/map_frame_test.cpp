@@ -17,7 +17,7 @@ constexpr double rounding = 1e-9;
 
 std::string fault_of(const LightFrame& light, const glm::dmat4& matrix) {
   try {
-    map_frame("map.npy", light, matrix, 64);
+    map_frame("map.npy", light, matrix, {64, 64});
     return "";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::file);
@@ -47,7 +47,7 @@ TEST(MapFrame, IsTheFrameOfItsMatrix) {
       SCOPED_TRACE(scene);
       const LightFrame light = frame_of(scene);
       const glm::dmat4 matrix = rolled(roll) * light.clip_from_world(0);
-      const MapFrame map = map_frame("map.npy", light, matrix, 64);
+      const MapFrame map = map_frame("map.npy", light, matrix, {64, 64});
       EXPECT_FALSE(map.mirrored);
       EXPECT_EQ(map.frame.resolution, 64);
       for (const glm::dvec3 p : {glm::dvec3(0.3, 0.2, -0.4), {1, 0, 1}, {-2, 0.5, 0.1}}) {
@@ -68,12 +68,29 @@ TEST(MapFrame, OfAMirroredMatrixIsMirrored) {
     glm::dmat4 flip(1);
     flip[1][1] = -1;
     const glm::dmat4 matrix = flip * light.clip_from_world(0);
-    const MapFrame map = map_frame("map.npy", light, matrix, 64);
+    const MapFrame map = map_frame("map.npy", light, matrix, {64, 64});
     EXPECT_TRUE(map.mirrored);
     const glm::dvec3 p(0.3, 0.2, -0.4);
     const glm::dvec4 clip = matrix * glm::dvec4(p, 1);
     EXPECT_NEAR(map.frame.map_texels(map.frame.to_light(p)).y, 32 * (1 - clip.y / clip.w), rounding * 64);
   }
+}
+
+// Twice as wide as high, in texels and in the world.
+TEST(MapFrame, OfSquareTexelsMayBeOfAnyShape) {
+  const LightFrame sun = frame_of("cube-room"), spot = frame_of("spot-room");
+  glm::dmat4 flat(1);
+  flat[1][1] = 2;
+  const glm::dmat4 matrix = flat * sun.clip_from_world(0);
+  const MapFrame map = map_frame("map.npy", sun, matrix, {64, 32});
+  EXPECT_EQ(map.frame.map_size(), glm::ivec2(64, 32));
+  const glm::dvec3 p(0.3, 0.2, -0.4);
+  const glm::dvec4 clip = matrix * glm::dvec4(p, 1);
+  const glm::dvec2 texels = map.frame.map_texels(map.frame.to_light(p));
+  EXPECT_NEAR(texels.x, 32 * (clip.x + 1), rounding * 64);
+  EXPECT_NEAR(texels.y, 16 * (clip.y + 1), rounding * 64);
+  EXPECT_NE(fault_of(sun, matrix).find("0.5 times as high as wide"), std::string::npos) << fault_of(sun, matrix);
+  EXPECT_THROW(map_frame("map.npy", spot, flat * spot.clip_from_world(0), {64, 32}), Error);
 }
 
 TEST(MapFrame, OfAnotherLightIsNamed) {

@@ -16,6 +16,9 @@ class ProgramBaseline : public Program {
     Program::SetUp();
     write("x.toml", "scene = \"plate\"\n" + small_view +
                         "[sweep]\nmap.resolution = [64, 128]\n[[bound]]\nmetric = \"error\"\nmax = 1\n");
+    write("curve.toml", "scene = \"plate\"\n" + small_view +
+                            "[bias]\nconstant = 1\nunit = \"texel\"\n[curve]\nacne_bound = 1\npeter_panning_bound = 1\n"
+                            "[[bound]]\nmetric = \"error\"\nmax = 1\n");
   }
   int check(const std::vector<std::string>& more) {
     std::vector<std::string> words = {"check", "x.toml", "--out", "out", "--overwrite", "--baseline", "b.json"};
@@ -89,6 +92,44 @@ TEST_F(ProgramBaseline, EveryFileHasTheOneVerdict) {
   files_are("held", true);
   EXPECT_EQ(run({"report", "out"}), 0) << output_;
   files_are("held", true);
+}
+
+// All bounds hold at the bias as set, and the page says so; but not where a value is worse than in the baseline.
+TEST_F(ProgramBaseline, WhatIsWorseIsNotGoodEnough) {
+  const std::vector<std::string> words = {"check", "curve.toml", "--out", "out", "--quiet", "--baseline", "b.json"};
+  std::vector<std::string> update = words;
+  update.push_back("--update-baseline");
+  ASSERT_EQ(run(update), 0) << output_;
+  const auto box_is = [&](const std::string& kind, bool good) {
+    const std::string report = text("out/report.html");
+    EXPECT_NE(report.find("<div class=\"recommend " + kind + "\""), std::string::npos);
+    EXPECT_EQ(report.find("What is set is good enough") != std::string::npos, good);
+    EXPECT_EQ(report.find("What is set keeps the bounds") != std::string::npos, !good);
+  };
+  EXPECT_EQ(run(words), 0) << output_;
+  box_is("held", true);
+  const std::string first = text("b.json");
+  const size_t value = first.find("\"error\": ") + 9;
+  write("b.json", first.substr(0, value) + "0.000001" + first.substr(first.find('\n', value)));
+  EXPECT_EQ(run(words), 1) << output_;
+  box_is("none", false);
+}
+
+// The page shows the verdict of the run before, and the store can make it again.
+TEST_F(ProgramBaseline, AFailedCheckLeavesNoPageOfTheRunBefore) {
+  ASSERT_EQ(check({"--update-baseline"}), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/report.html"));
+  write("b.json", "no baseline");
+  EXPECT_EQ(run({"check", "x.toml", "--out", "out", "--baseline", "b.json"}), 2) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out/report.html"));
+  EXPECT_NE(text("out/summary.md").find("Not judged"), std::string::npos) << text("out/summary.md");
+  EXPECT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/report.html"));
+  // A folder whose page no list names and that has no store is not a results' folder.
+  fs::create_directory(folder_ / "mine");
+  write("mine/report.html", "mine");
+  EXPECT_EQ(run({"check", "x.toml", "--out", "mine", "--baseline", "b.json"}), 2) << output_;
+  EXPECT_EQ(text("mine/report.html"), "mine");
 }
 
 TEST_F(ProgramBaseline, JUnitHasTheSecondsThatWereMeasured) {

@@ -73,6 +73,81 @@ TEST_F(EmptyView, RenderSaysWhy) {
   }
 }
 
+// Floats are 1 m apart at the light, or in the scene: rounding decides the truth of everything in shadow, and leaves it out.
+TEST_F(EmptyView, WhatRoundingDecidesDoesNotHold) {
+  write("far.toml", R"(
+scene = "cube-room"
+view = {width_px = 64, height_px = 36}
+map.resolution = 256
+[bias]
+constant = 0.01
+[[bound]]
+metric = "error"
+max = 0.5
+[[bound]]
+metric = "contract"
+max = 0
+[[bound]]
+metric = "error"
+max = 0.01
+)");
+  struct {
+    std::vector<std::string> sets;
+    bool known;
+  } const cases[] = {
+      {{"light.kind=spot", "light.position_m=0,1e3,0", "light.target_m=0,0,0"}, true},
+      {{"light.kind=spot", "light.position_m=0,1e6,0", "light.target_m=0,0,0"}, false},
+      {{"light.kind=spot", "light.position_m=0,1e7,0", "light.target_m=0,0,0"}, false},
+      {{"light.kind=spot", "light.position_m=0,1e9,0", "light.target_m=0,0,0"}, false},
+      {{"light.kind=point", "light.position_m=0,1e7,0"}, false},
+      {{"light.kind=directional", "light.position_m=1e9,1e9,0", "light.target_m=0,0,0"}, true},
+      {{"scene.move_m=1e6,0,0"}, false},
+  };
+  for (const auto& [sets, known] : cases) {
+    SCOPED_TRACE(testing::PrintToString(sets));
+    std::vector<std::string> words = {"check", "far.toml", "--out", "out", "--overwrite", "--quiet", "--json"};
+    for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+    run(words);
+    const nlohmann::json all = nlohmann::json::parse(output_.substr(output_.find("{\n"))), one = all["experiments"][0],
+                         &bounds = one["bounds"];
+    EXPECT_EQ(bounds[1]["verdict"], "held") << "the lookup does not depend on the truth: " << bounds[1];
+    if (known) {
+      EXPECT_EQ(bounds[0]["verdict"], "held") << bounds[0];
+      EXPECT_TRUE(bounds[2]["found"].is_number()) << bounds[2];
+      continue;
+    }
+    EXPECT_EQ(bounds[2]["verdict"], "broken") << bounds[2];
+    EXPECT_FALSE(bounds[2]["found"].is_number()) << bounds[2];
+    EXPECT_EQ(one["exit_code"], 1);
+    EXPECT_TRUE(says("is ambiguous")) << "the note: " << output_;
+    EXPECT_NE(text("out/summary.md").find("is ambiguous"), std::string::npos);
+  }
+  EXPECT_EQ(run({"recommend", "cube-room", "--set", "light.kind=spot", "--set", "light.position_m=0,1e7,0", "--set",
+                 "light.target_m=0,0,0", "--set", "view.width_px=64", "--set", "view.height_px=36", "--out", "advice"}),
+            2)
+      << output_;
+  EXPECT_TRUE(says("is ambiguous")) << output_;
+}
+
+// Of what is all in shadow no bias can be too small, so that the bounds hold says little.
+TEST_F(EmptyView, TheVerdictSaysThatThePictureIsPoor) {
+  write("dark.toml", R"(
+scene = "point-room"
+view = {width_px = 64, height_px = 36}
+map.resolution = 128
+[[bound]]
+metric = "acne"
+max = 1
+)");
+  EXPECT_EQ(run({"check", "dark.toml", "--out", "out", "--quiet"}), 0) << output_;
+  EXPECT_FALSE(says("poor")) << output_;
+  EXPECT_EQ(run({"check", "dark.toml", "--out", "dark", "--quiet", "--set", "light.kind=directional", "--set",
+                 "light.position_m=9,20,3", "--set", "light.target_m=0,0,0"}),
+            0)
+      << output_;
+  EXPECT_TRUE(says("1 of 1 bound held in a poor picture, see its note; 1 point measured")) << output_;
+}
+
 TEST_F(EmptyView, ABoundOverNothingFailsAndEveryPageSaysWhy) {
   write("empty.toml", R"(
 scene = "cube-room"

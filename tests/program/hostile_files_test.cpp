@@ -156,6 +156,9 @@ TEST_F(HostileFiles, AHeaderOfNumpyIsReadInConstantStack) {
     write("v.npy", npy(header));
     EXPECT_EQ(judge("v.npy").code, code) << output_;
   }
+  write("v.npy", npy("{'descr': '<f4', 'fortran_order': False, 'shape': (9, 16), }" + std::string(3 << 20, ' ')));
+  EXPECT_EQ(judge("v.npy").code, 3) << output_;
+  EXPECT_FALSE(says("cut off")) << "it is whole: " << output_;
 }
 
 // Nothing that is read as a file may be a pipe, which would wait, or a device, which would never end.

@@ -18,6 +18,23 @@
 namespace noonmark::acceptance {
 namespace {
 
+// Draws the map without one part of the scene.
+class MapWithout : public Pipeline {
+ public:
+  explicit MapWithout(std::string part) : part_(std::move(part)) {}
+  MapStage draw_maps(gl::Renderer& renderer, const Scene& scene, std::span<const Technique> techniques) override {
+    Scene drawn = scene;
+    for (const Part& one : scene.parts)
+      for (uint32_t t = one.first_triangle; one.name == part_ && t < one.first_triangle + one.triangle_count; ++t)
+        drawn.triangles[t] = glm::uvec3(drawn.triangles[t].x);
+    renderer.load_scene(drawn);
+    return Pipeline::draw_maps(renderer, drawn, techniques);
+  }
+
+ private:
+  std::string part_;
+};
+
 // A frame whose own shadow map is handed over: what `render` wrote of a point, as another renderer would deliver it.
 class JudgeWithMap : public Program {
  protected:
@@ -26,8 +43,9 @@ class JudgeWithMap : public Program {
   struct Convention {
     bool top_row_first = false, zero_to_one = false, reversed = false, mirrored = false;
   };
-  void measure(const std::map<std::string, std::string>& settings) {
-    Workbench bench(gl::DebugMode::fatal);
+  void measure(const std::map<std::string, std::string>& settings,
+               std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>()) {
+    Workbench bench(gl::DebugMode::fatal, {}, std::move(stages));
     Settings all;
     all.view.width_px = width;
     all.view.height_px = height;
@@ -40,7 +58,7 @@ class JudgeWithMap : public Program {
     positions_ = m.receivers.position;
     for (size_t i = 0; i < visibility_.size(); ++i)
       if (m.receivers.primitive[i] == no_primitive) visibility_[i] = -1;
-    stored_ = m.map().stored_rows(0, all.map.resolution);
+    stored_ = m.map().stored_rows(0, all.map.rows());
     map_from_world_ = m.technique.frame.clip_from_world(0);
     settings_ = settings;
     const Light light = effective_light(m.scene, all);
@@ -56,7 +74,7 @@ class JudgeWithMap : public Program {
     for (int axis = 0; axis < 3; ++axis) {
       Image<float> values(width, height, std::numeric_limits<float>::quiet_NaN());
       for (size_t i = 0; i < values.size(); ++i)
-        if (visibility_[i] >= 0) values[i] = positions_[i][axis];
+        if (visibility_[i] != -1) values[i] = positions_[i][axis];
       channels.push_back({std::string(1, static_cast<char>('X' + axis)), values});
     }
     write_exr((folder_ / "P.exr").string(), channels);
@@ -135,6 +153,15 @@ TEST_F(JudgeWithMap, FindsTheCausesOfThePoint) {
   EXPECT_TRUE(fs::exists(folder_ / "out/frame-causes.png"));
 }
 
+TEST_F(JudgeWithMap, ReadsAMapThatIsNotSquare) {
+  for (const char* const aspect : {"2", "0.5"}) {
+    measure({{"bias.constant", "0.002"}, {"map.format", "32f"}, {"map.fit", "tight"}, {"map.aspect", aspect}});
+    ASSERT_NE(stored_.width, stored_.height);
+    for (const char* const follows : {"map.format", "map.fit", "map.aspect"}) settings_.erase(follows);
+    for (const bool top : {false, true}) expect_causes(judged(deliver({.top_row_first = top})));
+  }
+}
+
 TEST_F(JudgeWithMap, ReadsTheMapsOfOtherConventions) {
   measure({{"scene.name", "spot-room"}, {"bias.constant", "0.0005"}, {"map.format", "32f"}});
   settings_.erase("map.format");
@@ -197,9 +224,32 @@ TEST_F(JudgeWithMap, AMapOfAnotherSceneOrUpsideDownIsNamed) {
   refused("technique", {{"bias.constant", -1}}, "it takes 0");
   refused("technique", {{"filter.kind", "cube_grid"}}, "the technique of this map");
   refused("reversed", true, "180 degrees");
-  refused("file", "V.exr", "only square maps are read");
   stored_.at(5, 7) = 1.5f;
   refused("first_row", "bottom", "the texel x = 5, y = 7 of the file is 1.5");
+}
+
+// The map's pass has the window's viewport: the scene fills a corner of the map, and the lookup reads all of it.
+TEST_F(JudgeWithMap, AMapThatIsNotTheScenesIsACauseOfItsOwn) {
+  measure({{"bias.constant", "0.002"}});
+  const nlohmann::json right = judged(deliver({}));
+  EXPECT_EQ(right["metrics"]["frame_map"], 0);
+  EXPECT_FALSE(right["causes"].contains("frame_map"));
+  const Image<float> drawn = stored_;
+  for (int y = 0; y < drawn.height; ++y)
+    for (int x = 0; x < drawn.width; ++x)
+      stored_.at(x, y) = 2 * x < drawn.width && 2 * y < drawn.height ? drawn.at(2 * x, 2 * y) : 1.0f;
+  write("frame.json", deliver({}).dump());
+  ASSERT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "map"}), 0) << output_;
+  EXPECT_TRUE(says("fills only a part of its texels")) << output_;
+  const nlohmann::json said = nlohmann::json::parse(read_file((folder_ / "out/judge.json").string()));
+  EXPECT_EQ(said["metrics"]["precision"], 0);
+  EXPECT_GT(said["metrics"]["frame_map"], 0.01);
+  EXPECT_TRUE(says("Map (it is not the scene's)")) << output_;
+  double parts = 0;
+  for (const auto& [name, cause] : said["causes"].items()) parts += cause["part"].get<double>();
+  EXPECT_NEAR(parts, said["metrics"]["frame_error"], 1e-7);
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "map", "--max", "frame_map=0.1%"}), 1) << output_;
+  judged(deliver({}), 3);
 }
 
 TEST_F(JudgeWithMap, AMapOfAPointLightIsRefused) {
@@ -243,6 +293,50 @@ TEST(GivenLookupOfNaN, Fails) {
     EXPECT_EQ(error.kind(), ErrorKind::defect);
     EXPECT_NE(std::string(error.what()).find("residual = nan"), std::string::npos) << error.what();
   }
+}
+
+// A caster that is not in the map: its shadow is missing, and that is no precision of the map's.
+TEST_F(JudgeWithMap, ACasterThatTheMapLacksIsACause) {
+  measure({{"bias.constant", "0.01"}, {"map.format", "32f"}}, std::make_unique<MapWithout>("standing cube"));
+  settings_.erase("map.format");
+  nlohmann::json frame = deliver({});
+  const nlohmann::json unnamed = judged(frame);
+  EXPECT_EQ(unnamed["metrics"]["frame_missing"], 0);
+  EXPECT_FALSE(says("frame_missing")) << output_;
+  const double lost = unnamed["causes"]["precision"]["part"];
+  ASSERT_GT(lost, 0.003);
+  frame["not_in_map"] = {"standing cube"};
+  const nlohmann::json named = judged(frame);
+  EXPECT_GT(named["metrics"]["frame_missing"], 0.95 * lost);
+  EXPECT_NEAR(
+      named["causes"]["frame_missing"]["part"].get<double>() + named["causes"]["precision"]["part"].get<double>(), lost,
+      1e-9);
+  EXPECT_LT(named["causes"]["precision"]["part"], 0.05 * lost);
+  EXPECT_TRUE(says("frame_missing")) << output_;
+  EXPECT_EQ(named["metrics"]["frame_error"], unnamed["metrics"]["frame_error"]);
+  frame["not_in_map"] = {"floating cube"};  // it is in the map
+  EXPECT_LT(judged(frame)["metrics"]["frame_missing"], 0.1 * lost);
+}
+
+// A square map sees beyond the cone of its spot light. Of a light whose cone is declared wider than that map, the same pixels
+// are judged alike, if those that the map does not reach are marked.
+TEST_F(JudgeWithMap, AWiderConeThanTheMapsIsNoCoverage) {
+  measure({{"scene.name", "spot-room"}, {"bias.constant", "0.0005"}, {"map.format", "32f"}});
+  settings_.erase("map.format");
+  const double cone_deg = light_["cone_deg"];
+  const glm::dvec3 at(light_["position"][0], light_["position"][1], light_["position"][2]),
+      along(light_["direction"][0], light_["direction"][1], light_["direction"][2]);
+  size_t marked = 0;
+  for (size_t i = 0; i < visibility_.size(); ++i) {
+    if (visibility_[i] < 0) continue;
+    const glm::dvec3 way = glm::dvec3(positions_[i]) - at;
+    if (glm::degrees(std::acos(glm::dot(glm::normalize(way), glm::normalize(along)))) < cone_deg / 2) continue;
+    visibility_[i] = -2;
+    ++marked;
+  }
+  ASSERT_GT(marked, 1000u);
+  light_["cone_deg"] = 170;
+  expect_causes(judged(deliver({})));
 }
 
 TEST_F(JudgeWithMap, ALookupThatIsNotTheFramesIsNamed) {
@@ -292,6 +386,15 @@ TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamed) {
       EXPECT_NEAR(with["metrics"][cause], metrics_.at(cause), with["metrics"]["frame_error"].get<double>() / 10)
           << cause;
   }
+}
+
+// Of depths that do not tell their format, where most of the map is empty: the floor's front is not drawn.
+TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamedInItsOwnFormat) {
+  measure({{"bias.polygon_units", "-20000"}, {"map.cull", "front"}, {"map.format", "24"}, {"filter.kind", "hardware"}});
+  nlohmann::json frame = deliver({});
+  for (const char* key : {"bias.polygon_units", "map.format"}) frame["map"]["technique"].erase(key);
+  judged(frame, 3);
+  EXPECT_TRUE(says("\"bias.polygon_units\": -2e+04, \"map.format\": \"24\"")) << output_;
 }
 
 // Also where the frame is full of acne, so that the declared lookup is nearer to it than to the truth.

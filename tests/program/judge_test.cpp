@@ -9,6 +9,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "raytrace/tracer.h"
+#include "scenes/library.h"
 #include "tests/program/own_frame.h"
 
 namespace noonmark::acceptance {
@@ -127,6 +129,34 @@ TEST_F(JudgeVerb, AWrongDeliveryIsExitCodeThree) {
   EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "inverted"}), 0) << output_;
   EXPECT_TRUE(says("accepted")) << output_;
   EXPECT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "invertd"}), 2) << output_;
+}
+
+// Beside positions, the surfaces of the picture say that its samples lie elsewhere.
+TEST_F(JudgeVerb, SamplesBesideThePositionsAreNamed) {
+  const Scene scene = make_scene({.name = "cube-room"});
+  const raytrace::Tracer tracer(scene);
+  const Image<float> own = visibility_;
+  // Of a picture whose pixels see a surface if any of these samples does; x to the right, y down, from the centre.
+  const auto sampled_at = [&](std::initializer_list<glm::dvec2> samples) {
+    Image<uint8_t> seen(frame_width, frame_height, 0);
+    for (const glm::dvec2& at : samples) {
+      glm::dmat4 moved(1);
+      moved[3] = {-2 * at.x / frame_width, 2 * at.y / frame_height, 0, 1};
+      const ViewMatrix view(moved * make_camera_frame(camera_, frame_width, frame_height).clip_from_world());
+      const Image<uint32_t> first = tracer.seen_primitives(view, frame_width, frame_height);
+      for (size_t i = 0; i < seen.size(); ++i) seen[i] |= first[i] != no_primitive;
+    }
+    for (size_t i = 0; i < seen.size(); ++i) visibility_[i] = !seen[i] ? -1 : own[i] < 0 ? 1 : own[i];
+    write("frame.json", frame(true).dump());
+  };
+  sampled_at({{0, 0}});
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 0) << output_;
+  sampled_at({{0.5, 0.5}});
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
+  EXPECT_TRUE(says("alignment   FAILED") && says("(+0.5, +0.5)")) << output_;
+  sampled_at({{-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}});
+  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
+  EXPECT_TRUE(says("alignment   FAILED") && says("multisampling was resolved")) << output_;
 }
 
 // A target of four channels: alpha says where there is a surface, and nothing else is taken for three numbers.

@@ -7,7 +7,7 @@ program=$1 completion=$2 work=$3
 rm -rf "$work"
 mkdir -p "$work/sweeps" "$work/models"
 cd "$work"
-touch one.toml TWO.TOML notes.txt tree.glb figure.vrm shadow.exr SHADOW.PNG base.json lit.npy page.html acne.svg models/street.gltf models/readme.md sweeps/three.toml
+touch one.toml TWO.TOML notes.txt tree.glb figure.vrm shadow.exr SHADOW.PNG base.json lit.npy page.html acne.svg shot.rdc models/street.gltf models/readme.md sweeps/three.toml
 printf '[[part]]\nname = "sun"\n[[part]]\nname = "spot light"\n' >sweeps/parts.toml
 ln -s "$program" noonmark
 # shellcheck source=/dev/null
@@ -71,6 +71,7 @@ sample() {
     FILE.npy) echo lit.npy ;;
     FILE.html) echo page.html ;;
     FILE.svg) echo acne.svg ;;
+    FILE.rdc) echo shot.rdc ;;
     METRIC=VALUE) echo frame_acne= ;;
     METRIC) echo peter_panning ;;
     [a-z]*) echo "$1" ;;

@@ -86,17 +86,18 @@ def contents():
     expect(re.fullmatch(r"\S.* <\S+@\S+>", fields["Maintainer"]), f"the maintainer has an address: {fields['Maintainer']}")
 
     files = {str(path.relative_to(root)): path for path in root.rglob("*") if not path.is_dir()}
-    examples, adapters = "usr/share/doc/noonmark/examples/", "usr/share/noonmark/engines/"
-    # All but the examples and the engines' adapters, so that no header, archive or file of the build comes in unseen.
+    examples, adapters, reader = "usr/share/doc/noonmark/examples/", "usr/share/noonmark/engines/", "usr/share/noonmark/captures/"
+    # All but the examples, the engines' adapters and the reader of captures, so that no header, archive or file of the build comes in unseen.
     modules = [name for name in files if name.endswith("/noonmark/noonmark_images.so") and name.startswith("usr/lib/")]
     wanted = {"usr/bin/noonmark", "usr/share/man/man1/noonmark.1.gz", "usr/share/bash-completion/completions/noonmark",
               "usr/share/lintian/overrides/noonmark",
               *("usr/share/doc/noonmark/" + name for name in ("copyright", "changelog.gz", "changelog.Debian.gz")), *modules}
-    others = {name for name in files if not name.startswith((examples, adapters))}
+    others = {name for name in files if not name.startswith((examples, adapters, reader))}
     expect(len(modules) == 1 and others == wanted, f"missing: {wanted - others}; too many: {others - wanted}")
-    for folder, installed, what in (("experiments", examples, "experiments"), ("examples/engines", adapters, "adapters")):
+    for folder, installed, what in (("experiments", examples, "experiments"), ("examples/engines", adapters, "adapters"),
+                                    ("captures", reader, "files of the reader")):
         in_source = {str(path.relative_to(source / folder)) for path in (source / folder).rglob("*")
-                     if path.is_file() and "node_modules" not in path.parts and path.name != "package-lock.json"}
+                     if path.is_file() and not {"node_modules", "__pycache__"} & set(path.parts) and path.name != "package-lock.json"}
         expect({name.removeprefix(installed) for name in files if name.startswith(installed)} == in_source, f"all {what} are there")
     if failures:
         return

@@ -77,6 +77,54 @@ TEST(Bounds, WorstIsTheLargestForAMaxAndTheSmallestForAMin) {
   expect(ask({0.4, 0.5, 0.3}, at_least(0.31)), false, 0.3, 2);
 }
 
+// Receivers whose truth is ambiguous are left out: so many of them that could break the bound, and it is not known to hold.
+TEST(Bounds, WhatIsAmbiguousCanBreakIt) {
+  std::vector<PointRecord> points = points_with({0.001, 0.3});
+  const auto at = [&](const Bound& bound, double ambiguous) {
+    points[0].metrics["ambiguous"] = ambiguous;
+    points[1].metrics["ambiguous"] = 0;
+    for (PointRecord& point : points) point.metrics["facing"] = 1e6;
+    return evaluate_bounds(points, std::span(&bound, 1), command_of).at(0);
+  };
+  Bound first = at_most(0.1);
+  first.where = {{"map.resolution", {"256"}}};
+  EXPECT_TRUE(at(first, 0.09).held) << "0.001 and all that is ambiguous are less than 0.1";
+  expect(at(first, 0.11), false, std::nan(""), 0);
+  first.max = 0.001;
+  EXPECT_TRUE(at(first, 0.0009).held) << "as few as in scenes of ordinary size";
+  EXPECT_FALSE(at(first, 0.0012).held);
+  EXPECT_TRUE(at(at_most(0.3), 0.2).held) << "another point is the worst";
+  EXPECT_FALSE(at(at_most(0.3), 0.31).held);
+  EXPECT_TRUE(at(at_most(0.2, "mean"), 0.09).held) << "(0.001 + 0.09 + 0.3) / 2";
+  EXPECT_FALSE(at(at_most(0.2, "mean"), 0.11).held);
+  Bound least = at_least(0.25);
+  least.where = {{"map.resolution", {"512"}}};
+  points[1].metrics["ambiguous"] = 0.1;
+  EXPECT_FALSE(evaluate_bounds(points, std::span(&least, 1), command_of).at(0).held);
+  points[0].metrics["facing"] = 800;
+  first.max = 0.001;
+  points[0].metrics["ambiguous"] = 3.0 / 800;
+  EXPECT_TRUE(evaluate_bounds(points, std::span(&first, 1), command_of).at(0).held) << "three receivers at an edge";
+  points[0].metrics["ambiguous"] = 5.0 / 800;
+  EXPECT_FALSE(evaluate_bounds(points, std::span(&first, 1), command_of).at(0).held);
+  EXPECT_EQ(at(at_most(0.0001), 0.11).found, 0.3) << "a bound that is broken anyway has its value";
+}
+
+TEST(Bounds, WhatIsAmbiguousHasNoSayInWhatDoesNotDependOnTheTruth) {
+  std::vector<PointRecord> points = points_with({0.001});
+  for (const auto& [metric, value] : std::map<std::string, double>{
+           {"contract", 0}, {"map_used", 0.9}, {"shadow_ms", 1}, {"edge_displacement_pixels", 1}, {"wrong", 0}}) {
+    points[0].metrics[metric] = value;
+    points[0].metrics["ambiguous"] = 0.2;
+    points[0].metrics["facing"] = 1e6;
+    Bound bound = at_most(value);
+    bound.metric = metric;
+    EXPECT_EQ(evaluate_bounds(points, std::span(&bound, 1), command_of).at(0).held,
+              metric != "wrong" && metric != "edge_displacement_pixels")
+        << metric;
+  }
+}
+
 TEST(Bounds, WithBothLimitsTheBrokenSideIsReported) {
   Bound both = at_most(0.4);
   both.min = 0.2;

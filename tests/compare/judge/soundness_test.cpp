@@ -160,7 +160,7 @@ TEST(Soundness, IsNotMeasuredWithoutAFacingReceiver) {
     names.insert(name);
   }
   EXPECT_EQ(names, (std::set<std::string>{"contract", "rounding_excess", "address_error_texels", "reference_error_m",
-                                          "map_error_quanta", "map_bits"}));
+                                          "map_error_quanta", "map_excess", "map_bits"}));
 }
 
 // What a sound program measures and a point does not have is no sign of soundness.

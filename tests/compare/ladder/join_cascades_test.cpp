@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
+#include "compare/ladder/law_metrics.h"
 #include "compare/ladder/numbers.h"
 #include "compare/results/metrics.h"
 
@@ -43,7 +45,7 @@ Cascades with_laws() {
 }
 
 TEST(JoinCascades, LawsAreTheLargestAndAreasAreSums) {
-  const std::map<std::string, double> joined = join_laws(with_laws());
+  const std::map<std::string, double> joined = join_laws(with_laws(), false);
   const std::map<std::string, double> expected = {{"texel_m", 0.02},  // of the 200th of 400 receivers
                                                   {"map_range_m", 30},
                                                   {"depth_quantum_m", 3e-7},
@@ -60,20 +62,32 @@ TEST(JoinCascades, LawsAreTheLargestAndAreasAreSums) {
   EXPECT_EQ(joined, expected);
 }
 
+// Absence fails: a metric that one cascade does not have is not taken from the others.
+TEST(JoinCascades, EveryCascadeHasEveryLawMetric) {
+  for (const LawMetric& metric : law_metrics) {
+    Cascades all = with_laws();
+    all[1].metrics.erase(metric.name);
+    EXPECT_THROW(join_laws(all, false), std::out_of_range) << metric.name;
+    if (metric.of_comparisons) {
+      EXPECT_FALSE(join_laws(all, true).contains(metric.name));
+    }
+  }
+}
+
 TEST(JoinCascades, TexelIsThatOfTheMedianReceiver) {
   Cascades all = with_laws();
   all[1].metrics["counted"] = 301;
-  EXPECT_EQ(join_laws(all).at("texel_m"), 0.05);
+  EXPECT_EQ(join_laws(all, false).at("texel_m"), 0.05);
   std::swap(all[0], all[1]);  // the median is by size, whatever the order
-  EXPECT_EQ(join_laws(all).at("texel_m"), 0.05);
+  EXPECT_EQ(join_laws(all, false).at("texel_m"), 0.05);
   all[0].metrics["counted"] = 299;
-  EXPECT_EQ(join_laws(all).at("texel_m"), 0.02);
+  EXPECT_EQ(join_laws(all, false).at("texel_m"), 0.02);
 }
 
 TEST(JoinCascades, WithoutAReceiverNothingIsMeasured) {
   Cascades all = with_laws();
   for (PointRecord::Cascade& cascade : all) cascade.metrics["counted"] = cascade.metrics["facing"] = 0;
-  const std::map<std::string, double> joined = join_laws(all);
+  const std::map<std::string, double> joined = join_laws(all, false);
   for (const char* metric : {"texel_m", "acne_free_bias_law_depth", "acne_free_bias_law_m", "counted_area_m2",
                              "filter_area_m2", "aliasing_area_m2"})
     EXPECT_TRUE(std::isnan(joined.at(metric))) << metric;
@@ -86,7 +100,7 @@ TEST(JoinCascades, WhatIsNotFiniteStays) {
     for (const size_t k : {0, 1}) {
       Cascades all = with_laws();
       all[k].metrics[metric] = not_a_number;
-      EXPECT_TRUE(std::isnan(join_laws(all).at(metric))) << metric << " of cascade " << k;
+      EXPECT_TRUE(std::isnan(join_laws(all, false).at(metric))) << metric << " of cascade " << k;
     }
 }
 

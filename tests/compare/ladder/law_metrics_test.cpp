@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <limits>
+#include <set>
+#include <string>
 
 #include "scenes/camera_frame.h"
 
@@ -125,6 +127,13 @@ TEST(LawMetrics, NameTheMapsLengths) {
   EXPECT_DOUBLE_EQ(s.metrics(DepthFormat::d24).at("depth_quantum_m"), 10 / 16777215.0);
   // The largest step between neighbouring floats in [0,1] is the last one.
   EXPECT_DOUBLE_EQ(s.metrics(DepthFormat::d32f).at("depth_quantum_m"), 10 * (1.0 - std::nextafter(1.0f, 0.0f)));
+}
+
+TEST(LawMetrics, AreThoseOfTheTable) {
+  std::set<std::string> named, given;
+  for (const LawMetric& metric : law_metrics) named.insert(metric.name);
+  for (const auto& [name, value] : Sight(perspective, tilted, 4, 4).metrics()) given.insert(name);
+  EXPECT_EQ(named, given);
 }
 
 // The plane 0.4 x + y - 0.3 z = 0 falls by 0.4 along u = x and by 0.3 along v = -z.

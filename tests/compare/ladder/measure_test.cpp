@@ -331,8 +331,8 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
            {picture.ladder, nothing, picture.receivers, camera, picture.frame, DepthFormat::d24, picture.probe}))
     measured.insert(name);
   // Metrics of compare/judge/soundness.h, which has its own test.
-  for (const char* name :
-       {"contract", "rounding_excess", "address_error_texels", "reference_error_m", "map_error_quanta", "map_bits"})
+  for (const char* name : {"contract", "rounding_excess", "address_error_texels", "reference_error_m",
+                           "map_error_quanta", "map_excess", "map_bits"})
     measured.insert(name);
   EXPECT_EQ(names, measured);
   EXPECT_EQ(find_metric("residual").unit, "");

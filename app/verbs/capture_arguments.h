@@ -1,0 +1,24 @@
+// The options of the verbs that read a capture: `capture`, and `judge` of a capture.
+//
+//   add_capture_options(verb, options->capture);
+//   const ReadCapture read = read_capture(file, folder, options.capture.words(), options.capture.reader);
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace noonmark {
+
+struct CaptureArguments {
+  std::optional<int> light;  // its number, from 1 on
+  std::string casters;
+  std::string reader;  // the folder of the reader; empty: the program's own
+
+  bool any() const;                        // one was given
+  std::vector<std::string> words() const;  // of the reader's command line
+};
+
+void add_capture_options(CLI::App& verb, CaptureArguments& arguments);
+
+}  // namespace noonmark
