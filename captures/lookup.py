@@ -146,7 +146,7 @@ def explain(depths, m, place, normal, visibility):
 
 # ---- the matrix of the lookup
 def own_matrix(matrices, camera, m):
-    """[(rest, name, rows, matrix)]: matrices among the constants that look the map up, from the camera's axes.
+    """[(rest, name, rows, matrix, constant)]: matrices among the constants that look the map up, from the camera's axes.
 
     Row i of such a matrix is rows[i][0] times row i of the map's and rows[i][1] times its w; rest says how far it is from that.
     A constant can start from the camera's axes or from any others; the constants that lead from these to the camera are tried.
@@ -174,5 +174,25 @@ def own_matrix(matrices, camera, m):
                 if i < 2:
                     rest = max(rest, np.abs(base @ factors - one[i]).max() / np.linalg.norm(m.clip[i]))
             if rest < 0.2 and min(abs(r[0]) for r in rows[:2]) > 1e-3:
-                found.append((rest, names[k], np.array(rows), one))
+                found.append((rest, names[k], np.array(rows), one, all_matrices[k]))
+    return found
+
+
+def without_model(capture, camera, draws, matrix, constant):
+    """Of draws those whose lookup takes their own vertices for places in the world: the vertex shader hands over `constant` times the
+    vertices, which is not `matrix` (the same from the camera's axes) times their places."""
+    matrix = matrix @ np.linalg.inv(camera.clip)
+    found = []
+    for draw in draws:
+        clip, outputs = capture.after_vertex_shader(draw, whole=True) or (np.zeros((0, 4)), None)
+        right = clip @ matrix.T
+        for place in capture.vertex_inputs(draw):
+            if not len(clip) or len(place) != len(clip):
+                continue
+            local = np.c_[place, np.ones(len(place))] @ constant.T
+            size = np.abs(local).max()
+            stands = np.abs(local * right[:, 3:] - right * local[:, 3:]).max() < 1e-3 * size * np.abs(right).max()
+            if not stands and any(np.abs(outputs[:, k:k + 4] - local).max() < 1e-5 * size for k in range(outputs.shape[1] - 3)):
+                found.append(draw)
+                break
     return found
