@@ -146,7 +146,7 @@ def explain(depths, m, place, normal, visibility):
 
 # ---- the matrix of the lookup
 def own_matrix(matrices, camera, m):
-    """[(rest, name, rows, matrix, constant)]: matrices among the constants that look the map up, from the camera's axes.
+    """[(rest, name, rows, matrix)]: matrices among the constants that look the map up, from the camera's axes.
 
     Row i of such a matrix is rows[i][0] times row i of the map's and rows[i][1] times its w; rest says how far it is from that.
     A constant can start from the camera's axes or from any others; the constants that lead from these to the camera are tried.
@@ -174,25 +174,36 @@ def own_matrix(matrices, camera, m):
                 if i < 2:
                     rest = max(rest, np.abs(base @ factors - one[i]).max() / np.linalg.norm(m.clip[i]))
             if rest < 0.2 and min(abs(r[0]) for r in rows[:2]) > 1e-3:
-                found.append((rest, names[k], np.array(rows), one, all_matrices[k]))
+                found.append((rest, names[k], np.array(rows), one))
     return found
 
 
-def without_model(capture, camera, draws, matrix, constant):
-    """Of draws those whose lookup takes their own vertices for places in the world: the vertex shader hands over `constant` times the
-    vertices, which is not `matrix` (the same from the camera's axes) times their places."""
-    matrix = matrix @ np.linalg.inv(camera.clip)
-    found = []
+def aperture(matrix):
+    """Of a light's clip matrix: the lengths of x and y across its axis, which neither a pose nor an added w changes."""
+    across, w = matrix[:2, :3], matrix[3, :3]
+    size = np.linalg.norm(w)
+    if size < 1e-4 * np.linalg.norm(across):
+        return np.linalg.norm(across, axis=1) / max(1e-30, abs(matrix[3, 3]))
+    return np.linalg.norm(across - np.outer(across @ w, w) / size ** 2, axis=1) / size
+
+
+def without_model(capture, camera, m, draws):
+    """[(draw, name)]: whose vertex shader hands over a constant with the map's aperture times the draw's own vertices, although these
+    lie elsewhere in the map."""
+    matrix, found = m.clip @ np.linalg.inv(camera.clip), []
     for draw in draws:
         clip, outputs = capture.after_vertex_shader(draw, whole=True) or (np.zeros((0, 4)), None)
-        right = clip @ matrix.T
-        for place in capture.vertex_inputs(draw):
-            if not len(clip) or len(place) != len(clip):
+        places = [np.c_[p, np.ones(len(p))] for p in capture.vertex_inputs(draw) if len(p) == len(clip)]
+        for name, constant in capture.matrices(draw) if len(clip) else []:
+            factor = aperture(constant) / aperture(m.clip)
+            scale = 1 if abs(factor[0] - 1) < 0.1 else 0.5  # 0.5 where clip space is brought to 0 ... 1
+            if np.abs(factor - scale).max() > 1e-4:
                 continue
-            local = np.c_[place, np.ones(len(place))] @ constant.T
-            size = np.abs(local).max()
-            stands = np.abs(local * right[:, 3:] - right * local[:, 3:]).max() < 1e-3 * size * np.abs(right).max()
-            if not stands and any(np.abs(outputs[:, k:k + 4] - local).max() < 1e-5 * size for k in range(outputs.shape[1] - 3)):
-                found.append(draw)
-                break
+            right = clip @ matrix.T
+            right[:, :2] = right[:, :2] * scale + right[:, 3:] * (1 - scale)
+            for local in (p @ constant.T for p in places):
+                size = np.abs(local).max()
+                stands = np.abs((local * right[:, 3:] - right * local[:, 3:])[:, :2]).max() < 1e-3 * size * np.abs(right).max()
+                if not stands and any(np.abs(outputs[:, k:k + 4] - local).max() < 1e-5 * size for k in range(outputs.shape[1] - 3)):
+                    found.append((draw, name))
     return found

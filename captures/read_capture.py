@@ -137,7 +137,7 @@ class Reader:
             notes.append(f'map {c.describe(m.drawn.target)}, {m.drawn.name}: {self.words(m, found)}')
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
-        light = self.true_light(m, light, notes, target, any(f and f.misses > UNEXPLAINED for *_, f in lookups))
+        light = self.true_light(m, light, notes, target, [f.misses if f else None for *_, f in lookups])
         if light.get('position') != group[0].light.get('position'):
             lookups = [(m, depths, mine, None) for m, depths, mine, _ in lookups]
         base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'light': light,
@@ -207,10 +207,11 @@ class Reader:
             if np.percentile(beyond, 90 if m.drawn.draws[0].cull == 'front' else 50) < -slack:
                 yield part.name
 
-    def true_light(self, m, light, notes, target, is_unexplained):
+    def true_light(self, m, light, notes, target, misses):
         """The light of the lookup's own matrix, where the map's vertices are moved and the constants hold it; and what the lookup does
-        with another matrix."""
-        lit = [d for d in self.draws if target in d.outputs and m.drawn.target[0] in d.reads]
+        with another matrix. misses: what the lookup of each map leaves unexplained, None where that is not known."""
+        maps = {o[0] for o in (m.drawn.depth, *m.drawn.outputs) if o}
+        lit = [d for d in self.draws if target in d.outputs and maps & set(d.reads)]
         if not lit:
             return light
         t, (x, y, w, h) = self.capture.textures[m.drawn.target[0]], m.drawn.viewport
@@ -220,7 +221,7 @@ class Reader:
         found = lookup.own_matrix(self.capture.matrices(lit[-1]), self.camera.camera, m)
         exact = [(miss(rows), name, rows) for rest, name, rows, *_ in found if rest < 1e-3]
         if light['kind'] == 'spot' and found:
-            _, name, _, matrix, _ = min(found, key=lambda e: e[0])
+            _, name, _, matrix = min(found, key=lambda e: e[0])
             centre = np.linalg.svd(matrix[[0, 1, 3]])[2][3]
             centre = centre[:3] / centre[3]
             moved = np.linalg.norm(centre - light['position'])
@@ -233,16 +234,15 @@ class Reader:
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        elif exact and is_unexplained:
-            _, name, _, matrix, constant = min(found, key=lambda e: e[0])
-            astray = lookup.without_model(self.capture, self.camera.camera, lit, matrix, constant)
-            if astray:
-                notes.append(f'MAP AND LOOKUP DIFFER: {", ".join(f"draw {d.event}" for d in astray)} look up {name} times their own vertices: '
-                             'the lookup lacks their model matrix')
-        elif found and not exact and is_unexplained and not self.camera.camera.orthographic:  # its scale is not known, and so not what leads to the world
+        elif found and not exact and any(x and x > UNEXPLAINED for x in misses) and not self.camera.camera.orthographic:  # its scale is not known, and so not what leads to the world
             rest, name, *_ = min(found, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
                          'another light?), and no constant of the lit draw is nearer')
+        elif any(x is None or x > UNEXPLAINED for x in misses):
+            astray = lookup.without_model(self.capture, self.camera.camera, m, lit)
+            if astray:
+                notes.append(f'MAP AND LOOKUP DIFFER: {", ".join(f"draw {d.event}" for d, _ in astray)}: {astray[0][1]} times their own vertices is '
+                             'not where the map has them: the lookup lacks their model matrix')
         return light
 
     def map(self, name, m, depths, mine, found):
