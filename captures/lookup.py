@@ -176,3 +176,34 @@ def own_matrix(matrices, camera, m):
             if rest < 0.2 and min(abs(r[0]) for r in rows[:2]) > 1e-3:
                 found.append((rest, names[k], np.array(rows), one))
     return found
+
+
+def aperture(matrix):
+    """Of a light's clip matrix: the lengths of x and y across its axis, which neither a pose nor an added w changes."""
+    across, w = matrix[:2, :3], matrix[3, :3]
+    size = np.linalg.norm(w)
+    if size < 1e-4 * np.linalg.norm(across):
+        return np.linalg.norm(across, axis=1) / max(1e-30, abs(matrix[3, 3]))
+    return np.linalg.norm(across - np.outer(across @ w, w) / size ** 2, axis=1) / size
+
+
+def without_model(capture, camera, m, draws):
+    """[(draw, name)]: whose vertex shader hands over a constant with the map's aperture times the draw's own vertices, although these
+    lie elsewhere in the map."""
+    matrix, found = m.clip @ np.linalg.inv(camera.clip), []
+    for draw in draws:
+        clip, outputs = capture.after_vertex_shader(draw, whole=True) or (np.zeros((0, 4)), None)
+        places = [np.c_[p, np.ones(len(p))] for p in capture.vertex_inputs(draw) if len(p) == len(clip)]
+        for name, constant in capture.matrices(draw) if len(clip) else []:
+            factor = aperture(constant) / aperture(m.clip)
+            scale = 1 if abs(factor[0] - 1) < 0.1 else 0.5  # 0.5 where clip space is brought to 0 ... 1
+            if np.abs(factor - scale).max() > 1e-4:
+                continue
+            right = clip @ matrix.T
+            right[:, :2] = right[:, :2] * scale + right[:, 3:] * (1 - scale)
+            for local in (p @ constant.T for p in places):
+                size = np.abs(local).max()
+                stands = np.abs((local * right[:, 3:] - right * local[:, 3:])[:, :2]).max() < 1e-3 * size * np.abs(right).max()
+                if not stands and any(np.abs(outputs[:, k:k + 4] - local).max() < 1e-5 * size for k in range(outputs.shape[1] - 3)):
+                    found.append((draw, name))
+    return found

@@ -17,6 +17,7 @@ from replay import Capture, Refusal
 SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's and OpenGL's standard places; others: the centre
 
 MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
+UNEXPLAINED = 0.02  # of the receivers: a tenth of that is left where the lookup is one of those that are known
 
 
 def top_first(image):
@@ -136,7 +137,7 @@ class Reader:
             notes.append(f'map {c.describe(m.drawn.target)}, {m.drawn.name}: {self.words(m, found)}')
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
-        light = self.true_light(m, light, notes, target)
+        light = self.true_light(m, light, notes, target, [f.misses if f else None for *_, f in lookups])
         if light.get('position') != group[0].light.get('position'):
             lookups = [(m, depths, mine, None) for m, depths, mine, _ in lookups]
         base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'light': light,
@@ -185,9 +186,10 @@ class Reader:
         per_unit = np.linalg.norm(m.clip[2, :3]) / (1 if m.drawn.draws[0].zero_to_one else 2)
         length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' and not self.camera.camera.orthographic else ''
         return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}'
-                + (f' and {found.tan:.3g} tan' if found.tan else '') + f', which leaves {100 * found.misses:.2f}% unexplained'
-                + (', after sRGB is decoded' if found.decoded else '')
-                + ('; a bias below 0 cannot be handed over, so its causes are not known' if found.constant < 0 else ''))
+                + (f' and {found.tan:.3g} tan' if found.tan else '')
+                + f', {"WHICH LEAVES" if found.misses > UNEXPLAINED else "which leaves"} {100 * found.misses:.2f}% '
+                + ('UNEXPLAINED by the map at the receivers\' own places' if found.misses > UNEXPLAINED else 'unexplained')
+                + (', after sRGB is decoded' if found.decoded else ''))
 
     def not_in(self, m, depths, parts):
         """Draws of the picture that the map's pass does not draw, and at whose places the map holds nothing."""
@@ -205,9 +207,11 @@ class Reader:
             if np.percentile(beyond, 90 if m.drawn.draws[0].cull == 'front' else 50) < -slack:
                 yield part.name
 
-    def true_light(self, m, light, notes, target):
-        """The light of the lookup's own matrix, where the map's vertices are moved and the constants hold it."""
-        lit = [d for d in self.draws if target in d.outputs and m.drawn.target[0] in d.reads]
+    def true_light(self, m, light, notes, target, misses):
+        """The light of the lookup's own matrix, where the map's vertices are moved and the constants hold it; and what the lookup does
+        with another matrix. misses: what the lookup of each map leaves unexplained, None where that is not known."""
+        maps = {o[0] for o in (m.drawn.depth, *m.drawn.outputs) if o}
+        lit = [d for d in self.draws if target in d.outputs and maps & set(d.reads)]
         if not lit:
             return light
         t, (x, y, w, h) = self.capture.textures[m.drawn.target[0]], m.drawn.viewport
@@ -215,7 +219,7 @@ class Reader:
         miss = lambda rows: min(np.abs([rows[0][0], rows[0][1], abs(rows[1][0]), rows[1][1]] - np.array(want)).max()
                                 for want in ([1, 0, 1, 0], [0.5, 0.5, 0.5, 0.5], part))
         found = lookup.own_matrix(self.capture.matrices(lit[-1]), self.camera.camera, m)
-        exact = [(miss(rows), name, rows) for rest, name, rows, _ in found if rest < 1e-3]
+        exact = [(miss(rows), name, rows) for rest, name, rows, *_ in found if rest < 1e-3]
         if light['kind'] == 'spot' and found:
             _, name, _, matrix = min(found, key=lambda e: e[0])
             centre = np.linalg.svd(matrix[[0, 1, 3]])[2][3]
@@ -230,10 +234,15 @@ class Reader:
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        elif found and not exact:
-            rest, name, _, _ = min(found, key=lambda e: e[0])
+        elif found and not exact and any(x and x > UNEXPLAINED for x in misses) and not self.camera.camera.orthographic:  # its scale is not known, and so not what leads to the world
+            rest, name, *_ = min(found, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
                          'another light?), and no constant of the lit draw is nearer')
+        elif any(x is None or x > UNEXPLAINED for x in misses):
+            astray = lookup.without_model(self.capture, self.camera.camera, m, lit)
+            if astray:
+                notes.append(f'MAP AND LOOKUP DIFFER: {", ".join(f"draw {d.event}" for d, _ in astray)}: {astray[0][1]} times their own vertices is '
+                             'not where the map has them: the lookup lacks their model matrix')
         return light
 
     def map(self, name, m, depths, mine, found):

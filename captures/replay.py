@@ -180,8 +180,11 @@ class Capture:
         raw = self.control.GetBufferData(resource, offset, count * stride)
         return np.frombuffer(raw, INDEX_TYPES[stride])[:count].astype('i8')
 
-    def after_vertex_shader(self, draw):
-        """(clip positions, texture coordinates or None), a row for each index of each instance; None without positions."""
+    def after_vertex_shader(self, draw, whole=False):
+        """(clip positions, texture coordinates or None), a row for each index of each instance; None without positions.
+
+        whole: all that the shader writes behind the position, in place of the coordinates.
+        """
         self.at(draw.event)
         if draw.topology == rd.Topology.PatchList_1CPs or draw.instances > MOST_INSTANCES:
             raise Refusal(f'draw {draw.event} has {draw.instances} instances or patches; {MOST_INSTANCES} instances are read')
@@ -211,6 +214,8 @@ class Capture:
             clip[:, 1] *= -1
         at = self._texture_coordinate()
         varyings = np.concatenate(coordinates)
+        if whole:
+            return clip, varyings
         return clip, varyings[:, at:at + 2] if at is not None and varyings.shape[1] >= at + 2 else None
 
     def _texture_coordinate(self):

@@ -130,13 +130,19 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   MapStage map;
   map.map.emplace(renderer.upload_map(point.depth, technique.settings.map));
   const ShownStage shown = impl_->stages.show(renderer, map, lookup, truth, technique);
-  Climbed climbed = impl_->stages.climb_strips(renderer, lookup, view, truth, shown, technique, nullptr);
+  Climbed climbed =
+      impl_->stages.climb_strips(renderer, lookup, view, truth, shown, technique, curve_part(technique.settings));
   GivenClimb made;
   MapDistance apart(technique.frame, technique.settings.map.format);
   for (int y = 0; y < point.depth.height; ++y)
     lookup.exact_depth.texels->each_in_row(y, [&](int x, size_t index) {
       apart.add({x, y}, lookup.exact_depth[index], shown.stored[index]);
     });
+  if (climbed.counts) {
+    const BiasScale scale = bias_scale(technique.frame, view.receivers, truth.receivers, technique.settings.bias.unit);
+    made.curve = summarise(*climbed.counts, scale, {});
+    made.depth_per_unit = scale.depth_per_unit;
+  }
   made.map_off_m = apart.off_m(), made.depth_spread_m = apart.spread_m();
   made.is_scenes_map = apart.excess() <= 1;
   if (point.missing.size() > 0)

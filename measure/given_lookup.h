@@ -9,6 +9,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -46,6 +47,9 @@ struct GivenClimb {
   double map_off_m = 0, depth_spread_m = 0;
   // By compare/judge/map_distance.h. If it is not, R5 - R4 is the ladder's cause frame_map, and its precision is 0.
   bool is_scenes_map = true;
+  // Of the bias over the declared lookup of this map; empty where it has no bias to vary. One unit of its parameter in window depth.
+  std::optional<BiasCurve> curve;
+  double depth_per_unit = 1;
   double maps_differ = 0;  // the mean |R5 - R4| over the counted receivers
   // The share of the counted receivers whose picture on top is none that the lookup of the map gives within the rounding of
   // the receivers, of both renderers' arithmetic and of the map's format. Where the bias reads a normal, receivers on

@@ -80,6 +80,19 @@ std::string undeclared_text(const GivenClimb& climbed, const Settings& declared,
   return "";
 }
 
+// "bias.constant is 0.0011 depth; from 0.0019 to 0.0042 acne and Peter Panning are below 0.1% each"
+std::string bias_text(const GivenClimb& climbed, const Settings& declared) {
+  if (!climbed.curve) return "";
+  const BiasCurve& curve = *climbed.curve;
+  const auto in_unit = [&](double depth) { return fmt::format("{:.3g}", depth / climbed.depth_per_unit); };
+  std::string says = fmt::format("{} is {} {}; ", curve.parameter, find_setting(curve.parameter).get(declared),
+                                 find_setting("bias.unit").get(declared));
+  if (!curve.window_min_depth) return says + "no value of it keeps both acne and Peter Panning below 0.1%";
+  says += "from " + in_unit(*curve.window_min_depth);
+  if (curve.window_max_depth) says += " to " + in_unit(*curve.window_max_depth);
+  return says + " acne and Peter Panning are below 0.1% each";
+}
+
 // The technique of a file that cannot be is a mistake in the file.
 Technique technique_of(const GivenMap& given, const Light& light, const Image<float>& picture,
                        const LightFrame& frame) {
@@ -167,6 +180,7 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
   for (const Ladder::CauseImage& cause : climbed.ladder.causes)
     if (const auto found = climbed.metrics.find(cause.name); found != climbed.metrics.end())
       verdict.metrics.insert(*found);
+  verdict.bias = bias_text(climbed, technique.settings);
   verdict.metrics.try_emplace(std::string(frame_map), 0);
   const Image<float>& looked_up = climbed.ladder[Rung::shown];
   double counted = 0, differ = 0;

@@ -92,6 +92,19 @@ void print_verdict(const Subject& subject, const FrameVerdict& verdict) {
                verdict.error.at(verdict.worst.x, verdict.worst.y), verdict.worst.x, verdict.worst.y);
 }
 
+// Of a light of a capture: the answer, what was found, and the checks that are not held. The frame.json has the rest.
+void print_capture(const Subject& subject, const FrameVerdict& verdict, const std::string& summary) {
+  fmt::print("{}\n", printable(summary));
+  for (const std::string& note : subject.frame.notes) fmt::print("  {}\n", printable(note));
+  for (const CheckResult& check : verdict.checks)
+    if (check.state == CheckState::failed)
+      fmt::print("  check {} ({}): {}\n", check.name, state_text(check), printable(check.says));
+  if (verdict.worst.x >= 0 && !verdict.refused())
+    fmt::print("  the largest error is {:.3f}, at x = {}, y = {} (row 0 on top), of {:.0f} receivers\n",
+               verdict.error.at(verdict.worst.x, verdict.worst.y), verdict.worst.x, verdict.worst.y,
+               verdict.metrics.at("counted"));
+}
+
 // A cause of a frame with its own map, as it is printed and written.
 struct FrameCause {
   std::string name, label;
@@ -128,6 +141,7 @@ void print_causes(const FrameVerdict& verdict, const Ladder& ladder) {
       "  acne here is what map and bias make dark; frame_acne above is a place, whatever made it dark\n"
       "  at {:.5f}% of the receivers the frame is not what that lookup gives\n",
       100 * verdict.metrics.at(std::string(frame_lookup_differs)));
+  if (!verdict.bias.empty()) fmt::print("  {}\n", verdict.bias);
 }
 
 nlohmann::ordered_json frame_json(const Subject& subject, const FrameVerdict& verdict,
@@ -149,6 +163,7 @@ nlohmann::ordered_json frame_json(const Subject& subject, const FrameVerdict& ve
            {"contact_m", number_json(verdict.contact_m)},
            {"worst", {{"x", verdict.worst.x}, {"y", verdict.worst.y}}},
            {"bounds", std::move(judged)}};
+  if (!verdict.bias.empty()) all["bias"] = verdict.bias;
   if (!subject.frame.notes.empty()) all["notes"] = subject.frame.notes;
   if (ladder)
     for (const FrameCause& cause : causes_of_frame(verdict, *ladder))
@@ -181,6 +196,7 @@ std::string summary_of(const Subject& subject, const FrameVerdict& verdict, cons
   text += fmt::format("error {}", quantity_text(verdict.metrics.at("frame_error"), "fraction", 3));
   for (const FrameCause& one : parts)
     if (one.part != 0) text += fmt::format(", {} {}", one.name, quantity_text(one.part, "fraction", 3));
+  if (!verdict.bias.empty()) text += "; " + verdict.bias;
   return text;
 }
 
@@ -232,8 +248,12 @@ JudgedFrame judge_frame_file(const JudgeOptions& options, const std::vector<Boun
   JudgedFrame frame{verdict_of(results), frame_json(subject, verdict, judged, ladder),
                     summary_of(subject, verdict, ladder)};
   if (options.arguments.json) return frame;
-  print_verdict(subject, verdict);
-  if (ladder) print_causes(verdict, *ladder);
+  if (options.map_may_fail) {
+    print_capture(subject, verdict, stem + frame.summary);
+  } else {
+    print_verdict(subject, verdict);
+    if (ladder) print_causes(verdict, *ladder);
+  }
   for (const BoundResult& bound : judged)
     fmt::print("{}  {}: {}, found {}\n", &bound == &judged.front() ? "\n" : "", bound.held ? "held" : "BROKEN",
                bound_text(bound), found_text(bound));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -137,11 +138,12 @@ int judge_capture(const JudgeOptions& options, const std::vector<Bound>& bounds,
   const std::string frames = outputs.folder + "/" + outputs.inner;
   const ReadCapture read = read_capture(command, frames, options.capture.words());
   if (!options.arguments.json)
-    for (const std::string& line : read.said) fmt::print("{}\n", printable(line));
+    for (const std::string& line : read.said)
+      if (int light = 0, end = 0; std::sscanf(line.c_str(), "light %d:%n", &light, &end) < 1 || end == 0)
+        fmt::print("{}\n", printable(line));  // what it says of a light stands beside the verdict of the light
   const auto has_map = [&](const std::string& frame) { return names_map(options, frame); };
   bounds_for(options, bounds, std::any_of(read.frames.begin(), read.frames.end(), has_map), true);
   auto lights = nlohmann::ordered_json::array();
-  std::vector<std::string> summaries;
   Verdict worst = bounds.empty() ? Verdict::measured : Verdict::held;
   for (const std::string& path : read.frames) {
     const std::string stem = std::filesystem::path(path).stem().string();
@@ -156,11 +158,11 @@ int judge_capture(const JudgeOptions& options, const std::vector<Bound>& bounds,
       if (error.kind() != ErrorKind::file) throw;
       frame.json["error"] = error.what();
       frame.summary = fmt::format(": {}", error.what());
+      if (!options.arguments.json) fmt::print("{}{}\n", stem, printable(frame.summary));
     }
     frame.json["verdict"] = word_of(frame.verdict);
     worst = std::min(worst, frame.verdict);
-    summaries.push_back(stem + frame.summary);
-    frame.json["summary"] = summaries.back();
+    frame.json["summary"] = stem + frame.summary;
     lights.push_back(std::move(frame.json));
   }
   nlohmann::ordered_json json = head_json(options, worst);
@@ -169,10 +171,9 @@ int judge_capture(const JudgeOptions& options, const std::vector<Bound>& bounds,
   json["folder"] = outputs.folder;
   write_judge_json(options, outputs.folder, json);
   if (options.arguments.json) return exit_code_of(worst);
-  fmt::print("\n");
-  for (const std::string& line : summaries) fmt::print("{}\n", printable(line));
-  fmt::print("{0}/judge.json and, in {1}, the frames and their pictures are written\n", printable(outputs.folder),
-             printable(frames));
+  fmt::print(
+      "\n{0}/judge.json and, in {1}, the frames and their pictures are written; noonmark judge {2} prints all of one\n",
+      printable(outputs.folder), printable(frames), printable(read.frames.front()));
   return exit_code_of(worst);
 }
 
