@@ -177,6 +177,8 @@ def camera_of(capture, drawn, vertices):
     found = square if len(square) else found
     middle = np.median(found, axis=0)
     agree = found[np.abs(found[:, 0] / middle[0] - 1) < 1e-3]
+    if not len(agree):  # each draw is scaled along one axis, in its own way
+        return None
     fx, fy, cx, cy = np.median(agree, axis=0)
     cx, cy = (0.0 if abs(v) < 1e-6 else v for v in (cx, cy))
     if flat_w:
