@@ -204,7 +204,7 @@ class Reader:
             beyond = taps.read('none')[0][0][taps.inside]
             slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
             # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-            if np.percentile(beyond, 90 if m.drawn.draws[0].cull == 'front' else 50) < -slack:
+            if np.percentile(beyond, 90 if m.cull == 'front' else 50) < -slack:
                 yield part.name
 
     def true_light(self, m, light, notes, target, misses):
