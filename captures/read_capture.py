@@ -112,7 +112,7 @@ class Reader:
         with open(os.path.join(self.folder, 'capture.json'), 'w') as f:
             json.dump(self.found, f, indent=1)
         if not any('frames' in l for l in self.found['lights']):
-            raise Refusal('no light of this capture can be judged')
+            raise Refusal('no light of this capture can be judged: ' + '; '.join(sorted({l['refused'] for l in self.found['lights']})))
 
     def light(self, n, group, pictures, parts, depth, place, normal, surface):
         c = self.capture
@@ -234,7 +234,8 @@ class Reader:
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        elif found and not exact and any(x and x > UNEXPLAINED for x in misses) and not self.camera.camera.orthographic:  # its scale is not known, and so not what leads to the world
+        elif (found and not exact and any(x and x > UNEXPLAINED for x in misses)
+              and not self.camera.camera.orthographic):  # whose scale is not known, and so neither what leads to the world
             rest, name, *_ = min(found, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
                          'another light?), and no constant of the lit draw is nearer')
