@@ -15,6 +15,7 @@ FILTERS = {  # settings of Noonmark: taps in texels and whether each blends four
     'box 5': ({'filter.kind': 'box', 'filter.size': '5'}, [(i, j) for i in range(-2, 3) for j in range(-2, 3)], False),
     'box 7': ({'filter.kind': 'box', 'filter.size': '7'}, [(i, j) for i in range(-3, 4) for j in range(-3, 4)], False),
 }
+ROUNDING = 1e-5  # of window depth: a smaller bias is what a shader's floats and the map's steps do by themselves
 MOST_RECEIVERS = 10000  # for the fit; evenly over the picture
 
 
@@ -123,7 +124,7 @@ def explain(depths, m, place, normal, visibility):
             best = scores[k], float(tries[k])
             tries = np.linspace(tries[max(0, k - 1)], tries[min(len(tries) - 1, k + 1)], 17)
         none = misses(beyond, weights, slope, goal)
-        return (none, 0.0) if none < best[0] + 1e-3 else best  # a thousandth of the receivers is what edges and rounding decide
+        return (none, 0.0) if none < best[0] + 1e-3 and abs(best[1]) < ROUNDING else best
 
     partly = ((v > 0.02) & (v < 0.98)).mean() > 1e-3
     for name in FILTERS if partly else ['none']:

@@ -112,7 +112,7 @@ class Reader:
         with open(os.path.join(self.folder, 'capture.json'), 'w') as f:
             json.dump(self.found, f, indent=1)
         if not any('frames' in l for l in self.found['lights']):
-            raise Refusal('no light of this capture can be judged')
+            raise Refusal('no light of this capture can be judged: ' + '; '.join(sorted({l['refused'] for l in self.found['lights']})))
 
     def light(self, n, group, pictures, parts, depth, place, normal, surface):
         c = self.capture
@@ -204,7 +204,7 @@ class Reader:
             beyond = taps.read('none')[0][0][taps.inside]
             slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
             # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-            if np.percentile(beyond, 90 if m.drawn.draws[0].cull == 'front' else 50) < -slack:
+            if np.percentile(beyond, 90 if m.cull == 'front' else 50) < -slack:
                 yield part.name
 
     def true_light(self, m, light, notes, target, misses):
@@ -234,7 +234,8 @@ class Reader:
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        elif found and not exact and any(x and x > UNEXPLAINED for x in misses) and not self.camera.camera.orthographic:  # its scale is not known, and so not what leads to the world
+        elif (found and not exact and any(x and x > UNEXPLAINED for x in misses)
+              and not self.camera.camera.orthographic):  # whose scale is not known, and so neither what leads to the world
             rest, name, *_ = min(found, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
                          'another light?), and no constant of the lit draw is nearer')
