@@ -17,7 +17,8 @@ from replay import Capture, Refusal
 SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's and OpenGL's standard places; others: the centre
 
 MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
-UNEXPLAINED = 0.02  # of the receivers: a tenth of that is left where the lookup is one of those that are known
+UNEXPLAINED = 0.01  # of the receivers: a tenth of that is left where the lookup is one of those that are known
+TEXELS_BEFORE = 4  # how far before the map's depths a caster lies that the map lacks: more than a slope does within a texel
 
 
 def top_first(image):
@@ -126,17 +127,15 @@ class Reader:
         if mute.any():
             notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
         shares = visibility.shares(pictures, group, target, lit, dark)
-        lookups, held, frames = [], {}, []
+        lookups, frames = [], []
         for k, m in enumerate(group):
             depths = visibility.crop(c.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
             mine = surface & reacts & facing & (shares[k] > 0.99 if shares else self.first_inside(group, k, place))
             found = self.of_map(m, depths, mine, v, place, normal, pictures.colour[id(m)])
             lookups.append((m, depths, mine, found))
-            for name, lacks in self.not_in(m, depths, parts).items():
-                held[name] = held.get(name, False) or not lacks
         for m, _, mine, found in lookups:
             notes.append(f'map {c.describe(m.drawn.target)}, {m.drawn.name}: {self.words(m, found)}')
-        missing = {name for name in held if not held[name]}
+        missing = set(self.not_in(lookups, parts))
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
         light = self.true_light(m, light, notes, target, [f.misses if f else None for *_, f in lookups])
@@ -193,19 +192,19 @@ class Reader:
                 + ('UNEXPLAINED by the map at the receivers\' own places' if found.misses > UNEXPLAINED else 'unexplained')
                 + (', after sRGB is decoded' if found.decoded else ''))
 
-    def not_in(self, m, depths, parts):
-        """Of the draws of the picture {name: whether the map lacks it}, where it sees enough of them."""
-        drawn, found = {d.event for d in m.pairs.values()}, {}
+    def not_in(self, lookups, parts):
+        """Names of the draws of the picture that no map's pass draws, and whose places lie behind nothing in the maps that see them."""
+        drawn = {d.event for m, *_ in lookups for d in m.pairs.values()}
         weights = np.random.default_rng(0).dirichlet((1, 1, 1), 8)
         for part in parts:
-            if part.role != 'camera':
+            if part.role != 'camera' or part.draw.event in drawn:
                 continue
             places = np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3)
-            taps = lookup.Taps(depths, m, places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)])
-            if taps.inside.sum() >= 12 or part.draw.event in drawn:
-                # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-                found[part.name] = part.draw.event not in drawn and np.percentile(taps.farther(), 90 if m.cull == 'front' else 50) < -4
-        return found
+            places = places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)]
+            farther = np.concatenate([lookup.Taps(depths, m, places).farther() for m, depths, *_ in lookups])
+            # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
+            if len(farther) >= 12 and np.percentile(farther, 90 if lookups[0][0].cull == 'front' else 50) < -TEXELS_BEFORE:
+                yield part.name
 
     def true_light(self, m, light, notes, target, misses):
         """The light of the lookup's own matrix, where the map's vertices are moved and the constants hold it; and what the lookup does
