@@ -126,15 +126,17 @@ class Reader:
         if mute.any():
             notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
         shares = visibility.shares(pictures, group, target, lit, dark)
-        lookups, missing, frames = [], {}, []
+        lookups, held, frames = [], {}, []
         for k, m in enumerate(group):
             depths = visibility.crop(c.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
             mine = surface & reacts & facing & (shares[k] > 0.99 if shares else self.first_inside(group, k, place))
             found = self.of_map(m, depths, mine, v, place, normal, pictures.colour[id(m)])
             lookups.append((m, depths, mine, found))
-            missing = {d for d in self.not_in(m, depths, parts)} if k == 0 else missing & set(self.not_in(m, depths, parts))
+            for name, lacks in self.not_in(m, depths, parts).items():
+                held[name] = held.get(name, False) or not lacks
         for m, _, mine, found in lookups:
             notes.append(f'map {c.describe(m.drawn.target)}, {m.drawn.name}: {self.words(m, found)}')
+        missing = {name for name in held if not held[name]}
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
         light = self.true_light(m, light, notes, target, [f.misses if f else None for *_, f in lookups])
@@ -192,20 +194,18 @@ class Reader:
                 + (', after sRGB is decoded' if found.decoded else ''))
 
     def not_in(self, m, depths, parts):
-        """Draws of the picture that the map's pass does not draw, and at whose places the map holds nothing."""
-        drawn = {d.event for d in m.pairs.values()}
+        """Of the draws of the picture {name: whether the map lacks it}, where it sees enough of them."""
+        drawn, found = {d.event for d in m.pairs.values()}, {}
+        weights = np.random.default_rng(0).dirichlet((1, 1, 1), 8)
         for part in parts:
-            if part.role != 'camera' or part.draw.event in drawn:
+            if part.role != 'camera':
                 continue
-            centres = part.triangles.mean(1)
-            taps = lookup.Taps(depths, m, centres[np.linspace(0, len(centres) - 1, min(len(centres), 2000)).astype(int)])
-            if taps.inside.sum() < 12:
-                continue
-            beyond = taps.read('none')[0][0][taps.inside]
-            slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
-            # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-            if np.percentile(beyond, 90 if m.cull == 'front' else 50) < -slack:
-                yield part.name
+            places = np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3)
+            taps = lookup.Taps(depths, m, places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)])
+            if taps.inside.sum() >= 12 or part.draw.event in drawn:
+                # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
+                found[part.name] = part.draw.event not in drawn and np.percentile(taps.farther(), 90 if m.cull == 'front' else 50) < -4
+        return found
 
     def true_light(self, m, light, notes, target, misses):
         """The light of the lookup's own matrix, where the map's vertices are moved and the constants hold it; and what the lookup does
@@ -224,8 +224,10 @@ class Reader:
             _, name, _, matrix = min(found, key=lambda e: e[0])
             centre = np.linalg.svd(matrix[[0, 1, 3]])[2][3]
             centre = centre[:3] / centre[3]
-            moved = np.linalg.norm(centre - light['position'])
-            if 1e-4 < moved / max(1, np.linalg.norm(centre)) < 0.1:
+            way = centre - light['position']
+            moved, axis = np.linalg.norm(way), m.clip[3, :3]
+            is_along = abs(way @ axis) > 0.999 * moved * np.linalg.norm(axis)  # aside it would be another light, or another frame's
+            if is_along and 1e-4 < moved / max(1, np.linalg.norm(centre)) < 0.1:
                 notes.append(f'the map\'s vertices are moved by {moved:.4g} along the light (a bias in the map\'s shader); the truth is of '
                              f'the light that {name} looks up from')
                 return light | {'position': centre.tolist()}
