@@ -58,6 +58,7 @@ class Lookup:
     tan: float  # window depth per tangent of the angle to the light
     misses: float  # mean difference from the frame's visibility
     decoded: bool  # the frame's values explain better after sRGB is decoded
+    wrong: float = 0.0  # share of the receivers where it differs by more than a half: an unknown filter differs by less
 
     @property
     def technique(self):
@@ -157,7 +158,8 @@ def explain(depths, m, place, normal, visibility):
         score, constant = best_constant(beyond, weights, best.tan * tangent, curve)
         if score < 0.5 * best.misses - 1e-4:
             best = dataclasses.replace(best, misses=score, constant=constant, decoded=True)
-    return best
+    model = ((beyond <= best.tan * tangent + best.constant) * weights).sum(0)
+    return dataclasses.replace(best, wrong=float((np.abs(model - (curve if best.decoded else v)) > 0.5).mean()))
 
 
 # ---- the matrix of the lookup

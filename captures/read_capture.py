@@ -138,7 +138,7 @@ class Reader:
         missing = set(self.not_in(lookups, parts))
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
-        light = self.true_light(m, light, notes, target, [f.misses if f else None for *_, f in lookups])
+        light = self.true_light(m, light, notes, target, [f.wrong if f else None for *_, f in lookups])
         if light.get('position') != group[0].light.get('position'):
             lookups = [(m, depths, mine, None) for m, depths, mine, _ in lookups]
         base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'light': light,
@@ -188,8 +188,8 @@ class Reader:
         length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' and not self.camera.camera.orthographic else ''
         return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}'
                 + (f' and {found.tan:.3g} tan' if found.tan else '')
-                + f', {"WHICH LEAVES" if found.misses > UNEXPLAINED else "which leaves"} {100 * found.misses:.2f}% '
-                + ('UNEXPLAINED by the map at the receivers\' own places' if found.misses > UNEXPLAINED else 'unexplained')
+                + f', which leaves {100 * found.misses:.2f}% unexplained'
+                + (f', AND {100 * found.wrong:.2f}% ARE WRONG: they do not follow from the map at their own places' if found.wrong > UNEXPLAINED else '')
                 + (', after sRGB is decoded' if found.decoded else ''))
 
     def not_in(self, lookups, parts):
@@ -206,9 +206,9 @@ class Reader:
             if len(farther) >= 12 and np.percentile(farther, 90 if lookups[0][0].cull == 'front' else 50) < -TEXELS_BEFORE:
                 yield part.name
 
-    def true_light(self, m, light, notes, target, misses):
+    def true_light(self, m, light, notes, target, wrong):
         """The light of the lookup's own matrix, where the map's vertices are moved and the constants hold it; and what the lookup does
-        with another matrix. misses: what the lookup of each map leaves unexplained, None where that is not known."""
+        with another matrix. wrong: the share that the lookup of each map does not explain, None where that is not known."""
         maps = {o[0] for o in (m.drawn.depth, *m.drawn.outputs) if o}
         lit = [d for d in self.draws if target in d.outputs and maps & set(d.reads)]
         if not lit:
@@ -235,12 +235,12 @@ class Reader:
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        elif (found and not exact and any(x and x > UNEXPLAINED for x in misses)
+        elif (found and not exact and any(x and x > UNEXPLAINED for x in wrong)
               and not self.camera.camera.orthographic):  # whose scale is not known, and so neither what leads to the world
             rest, name, *_ = min(found, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
                          'another light?), and no constant of the lit draw is nearer')
-        elif any(x is None or x > UNEXPLAINED for x in misses):
+        elif any(x is None or x > UNEXPLAINED for x in wrong):
             astray = lookup.without_model(self.capture, self.camera.camera, m, lit)
             if astray:
                 notes.append(f'MAP AND LOOKUP DIFFER: {", ".join(f"draw {d.event}" for d, _ in astray)}: {astray[0][1]} times their own vertices is '
