@@ -153,7 +153,7 @@ def camera_of(capture, drawn, vertices):
         if c is None or draw.instances > 1:
             continue
         for place in capture.vertex_inputs(draw):
-            if len(place) != len(c):
+            if len(place) != len(c) or not np.isfinite(place).all():
                 continue
             source = np.c_[place, np.ones(len(place))]
             g, rank, _ = fit(source, c)
@@ -177,6 +177,8 @@ def camera_of(capture, drawn, vertices):
     found = square if len(square) else found
     middle = np.median(found, axis=0)
     agree = found[np.abs(found[:, 0] / middle[0] - 1) < 1e-3]
+    if not len(agree):  # each draw is scaled along one axis, in its own way
+        return None
     fx, fy, cx, cy = np.median(agree, axis=0)
     cx, cy = (0.0 if abs(v) < 1e-6 else v for v in (cx, cy))
     if flat_w:
@@ -187,6 +189,15 @@ def camera_of(capture, drawn, vertices):
 
 
 # ---- one pass against another
+def on_depth_line(clip, camera):
+    """The clip positions with z from w, in double. Their difference carries the matrix's constant, and rounds away in float where near is small."""
+    if camera.orthographic:
+        return clip
+    z = -camera.clip[2, 2] * clip[:, 3] + camera.clip[2, 3]
+    near = np.abs(z - clip[:, 2]) < 1e-6 * np.abs(clip[:, 3])
+    return np.c_[clip[:, :2], np.where(near, z, clip[:, 2]), clip[:, 3]]
+
+
 def matrix_between(light, camera, vertices):
     """(M, pairs, clip of the camera, clip of the light) with light = M camera over draws of both; None if none fits."""
     theirs = collections.defaultdict(list)
@@ -204,7 +215,7 @@ def matrix_between(light, camera, vertices):
             continue
         keep = usable(l) & usable(c)
         if keep.sum() >= 3:
-            data.append((a, b, sure, few(c[keep]), few(l[keep])))
+            data.append((a, b, sure, few(on_depth_line(c[keep], camera.camera)), few(l[keep])))
         if len(data) > 120:
             break
     seeds = [[x for x in data if x[2]]] + [[x] for x in data[:12]] + [[x, y] for x in data[:6] for y in data[:6] if x is not y]
