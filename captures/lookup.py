@@ -58,6 +58,7 @@ class Lookup:
     tan: float  # window depth per tangent of the angle to the light
     misses: float  # mean difference from the frame's visibility
     decoded: bool  # the frame's values explain better after sRGB is decoded
+    wrong: float = 0.0  # share of the receivers where it differs by more than a half: an unknown filter differs by less
 
     @property
     def technique(self):
@@ -80,11 +81,26 @@ class Taps:
         self.depths = 1 - depths if m.reversed else depths
         u, v, self.z = window(m.clip, m.drawn.draws[0].zero_to_one, m.reversed, place)
         self.rows, self.columns = depths.shape
+        self.clip, self.zero_to_one, self.reversed = m.clip, m.drawn.draws[0].zero_to_one, m.reversed
         self.x, self.y = u * self.columns, v * self.rows
         self.inside = (u > 0) & (u < 1) & (v > 0) & (v < 1) & (self.z < 1)
 
     def texel(self, x, y):
         return self.depths[np.clip(y, 0, self.rows - 1), np.clip(x, 0, self.columns - 1)]
+
+    def farther(self):
+        """How much farther along the light than the nearest texel's depth the inner receivers are, in texels of the map at them."""
+        inside = self.inside
+        far, clip = self.read('none')[0][0][inside], self.clip
+        across, per_depth = aperture(clip)[0] * self.columns, 1 if self.zero_to_one else 2
+        if np.linalg.norm(clip[3, :3]) < 1e-4 * np.linalg.norm(clip[0, :3]):
+            return far * per_depth * across / 2 / np.linalg.norm(clip[2, :3])
+        k = clip[2, :3] @ clip[3, :3] / (clip[3, :3] @ clip[3, :3])  # z = k + b / w
+        b = clip[2, 3] - k * clip[3, 3]
+        own = lambda z: b / ((1 - z if self.reversed else z) * per_depth - (per_depth - 1) - k)
+        with np.errstate(all='ignore'):
+            w, map_w = own(self.z[inside]), own(self.z[inside] - far)
+            return (w - np.where(map_w > 0, map_w, np.inf)) * across / 2 / w
 
     def read(self, name):
         _, taps, blends = FILTERS[name]
@@ -142,7 +158,8 @@ def explain(depths, m, place, normal, visibility):
         score, constant = best_constant(beyond, weights, best.tan * tangent, curve)
         if score < 0.5 * best.misses - 1e-4:
             best = dataclasses.replace(best, misses=score, constant=constant, decoded=True)
-    return best
+    model = ((beyond <= best.tan * tangent + best.constant) * weights).sum(0)
+    return dataclasses.replace(best, wrong=float((np.abs(model - (curve if best.decoded else v)) > 0.5).mean()))
 
 
 # ---- the matrix of the lookup

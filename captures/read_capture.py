@@ -17,7 +17,8 @@ from replay import Capture, Refusal
 SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's and OpenGL's standard places; others: the centre
 
 MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
-UNEXPLAINED = 0.02  # of the receivers: a tenth of that is left where the lookup is one of those that are known
+UNEXPLAINED = 0.01  # of the receivers: a tenth of that is left where the lookup is one of those that are known
+TEXELS_BEFORE = 4  # how far before the map's depths a caster lies that the map lacks: more than a slope does within a texel
 
 
 def top_first(image):
@@ -126,18 +127,18 @@ class Reader:
         if mute.any():
             notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
         shares = visibility.shares(pictures, group, target, lit, dark)
-        lookups, missing, frames = [], {}, []
+        lookups, frames = [], []
         for k, m in enumerate(group):
             depths = visibility.crop(c.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
             mine = surface & reacts & facing & (shares[k] > 0.99 if shares else self.first_inside(group, k, place))
             found = self.of_map(m, depths, mine, v, place, normal, pictures.colour[id(m)])
             lookups.append((m, depths, mine, found))
-            missing = {d for d in self.not_in(m, depths, parts)} if k == 0 else missing & set(self.not_in(m, depths, parts))
         for m, _, mine, found in lookups:
             notes.append(f'map {c.describe(m.drawn.target)}, {m.drawn.name}: {self.words(m, found)}')
+        missing = set(self.not_in(lookups, parts))
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
-        light = self.true_light(m, light, notes, target, [f.misses if f else None for *_, f in lookups])
+        light = self.true_light(m, light, notes, target, [f.wrong if f else None for *_, f in lookups])
         if light.get('position') != group[0].light.get('position'):
             lookups = [(m, depths, mine, None) for m, depths, mine, _ in lookups]
         base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'light': light,
@@ -187,29 +188,27 @@ class Reader:
         length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' and not self.camera.camera.orthographic else ''
         return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}'
                 + (f' and {found.tan:.3g} tan' if found.tan else '')
-                + f', {"WHICH LEAVES" if found.misses > UNEXPLAINED else "which leaves"} {100 * found.misses:.2f}% '
-                + ('UNEXPLAINED by the map at the receivers\' own places' if found.misses > UNEXPLAINED else 'unexplained')
+                + f', which leaves {100 * found.misses:.2f}% unexplained'
+                + (f', AND {100 * found.wrong:.2f}% ARE WRONG: they do not follow from the map at their own places' if found.wrong > UNEXPLAINED else '')
                 + (', after sRGB is decoded' if found.decoded else ''))
 
-    def not_in(self, m, depths, parts):
-        """Draws of the picture that the map's pass does not draw, and at whose places the map holds nothing."""
-        drawn = {d.event for d in m.pairs.values()}
+    def not_in(self, lookups, parts):
+        """Names of the draws of the picture that no map's pass draws, and whose places lie behind nothing in the maps that see them."""
+        drawn = {d.event for m, *_ in lookups for d in m.pairs.values()}
+        weights = np.random.default_rng(0).dirichlet((1, 1, 1), 8)
         for part in parts:
             if part.role != 'camera' or part.draw.event in drawn:
                 continue
-            centres = part.triangles.mean(1)
-            taps = lookup.Taps(depths, m, centres[np.linspace(0, len(centres) - 1, min(len(centres), 2000)).astype(int)])
-            if taps.inside.sum() < 12:
-                continue
-            beyond = taps.read('none')[0][0][taps.inside]
-            slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
+            places = np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3)
+            places = places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)]
+            farther = np.concatenate([lookup.Taps(depths, m, places).farther() for m, depths, *_ in lookups])
             # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-            if np.percentile(beyond, 90 if m.cull == 'front' else 50) < -slack:
+            if len(farther) >= 12 and np.percentile(farther, 90 if lookups[0][0].cull == 'front' else 50) < -TEXELS_BEFORE:
                 yield part.name
 
-    def true_light(self, m, light, notes, target, misses):
+    def true_light(self, m, light, notes, target, wrong):
         """The light of the lookup's own matrix, where the map's vertices are moved and the constants hold it; and what the lookup does
-        with another matrix. misses: what the lookup of each map leaves unexplained, None where that is not known."""
+        with another matrix. wrong: the share that the lookup of each map does not explain, None where that is not known."""
         maps = {o[0] for o in (m.drawn.depth, *m.drawn.outputs) if o}
         lit = [d for d in self.draws if target in d.outputs and maps & set(d.reads)]
         if not lit:
@@ -224,8 +223,10 @@ class Reader:
             _, name, _, matrix = min(found, key=lambda e: e[0])
             centre = np.linalg.svd(matrix[[0, 1, 3]])[2][3]
             centre = centre[:3] / centre[3]
-            moved = np.linalg.norm(centre - light['position'])
-            if 1e-4 < moved / max(1, np.linalg.norm(centre)) < 0.1:
+            way = centre - light['position']
+            moved, axis = np.linalg.norm(way), m.clip[3, :3]
+            is_along = abs(way @ axis) > 0.999 * moved * np.linalg.norm(axis)  # aside it would be another light, or another frame's
+            if is_along and 1e-4 < moved / max(1, np.linalg.norm(centre)) < 0.1:
                 notes.append(f'the map\'s vertices are moved by {moved:.4g} along the light (a bias in the map\'s shader); the truth is of '
                              f'the light that {name} looks up from')
                 return light | {'position': centre.tolist()}
@@ -234,12 +235,12 @@ class Reader:
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        elif (found and not exact and any(x and x > UNEXPLAINED for x in misses)
+        elif (found and not exact and any(x and x > UNEXPLAINED for x in wrong)
               and not self.camera.camera.orthographic):  # whose scale is not known, and so neither what leads to the world
             rest, name, *_ = min(found, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
                          'another light?), and no constant of the lit draw is nearer')
-        elif any(x is None or x > UNEXPLAINED for x in misses):
+        elif any(x is None or x > UNEXPLAINED for x in wrong):
             astray = lookup.without_model(self.capture, self.camera.camera, m, lit)
             if astray:
                 notes.append(f'MAP AND LOOKUP DIFFER: {", ".join(f"draw {d.event}" for d, _ in astray)}: {astray[0][1]} times their own vertices is '

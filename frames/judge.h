@@ -67,7 +67,7 @@ struct FrameVerdict {
   Image<FrameClass> classes;
   std::vector<CheckResult> checks;        // in the order of frame_checks()
   std::map<std::string, double> metrics;  // by the rows of compare/results/metrics.h. Without a counted receiver NaN
-  std::string bias;                       // of a frame with its own map: which bias would do (app/sweep/frame_map.h)
+  std::string bias = {};                  // of a frame with its own map: which bias would do (app/sweep/frame_map.h)
   glm::ivec2 worst{-1, -1};               // the counted pixel with the largest error; row 0 on top
   double edge_m = 0;                      // the median edge distance that was used
   double contact_m = 0;                   // the contact distance that was used
