@@ -29,7 +29,7 @@ for name, entry in programs.items():
             failures.append(f"{name}: there is no {word}")
     if f"`{name}`" not in page:
         failures.append(f"docs/museum/index.md lacks `{name}`")
-for name in re.findall(r"^\| `([\w-]+)`", page, re.M):
+for name in re.findall(r"^\| `([a-z][\w-]*)`", page, re.M):
     if name not in programs:
         failures.append(f"docs/museum/index.md names `{name}`, which scripts/museum does not have")
 
