@@ -1,6 +1,6 @@
 """OGRE's own texture shadows as its run-time shader system integrates them: a ground, a cube, a ball and a pole under a sun.
 
-SHADOW_SIZE, SHADOW_BIAS and SHADOW_CULL=none in the environment change the map, the constant bias of the casters and their culling."""
+SHADOW_SIZE, SHADOW_FORMAT and SHADOW_BACK=0 in the environment change the map's texels, their format and the faces in it."""
 import math
 import os
 
@@ -30,7 +30,7 @@ generator.addSceneManager(scene)
 
 scene.setShadowTechnique(Ogre.SHADOWTYPE_TEXTURE_ADDITIVE_INTEGRATED)
 scene.setShadowFarDistance(20)
-scene.setShadowTextureSettings(int(os.environ.get('SHADOW_SIZE', '1024')), 1, Ogre.PF_DEPTH16)
+scene.setShadowTextureSettings(int(os.environ.get('SHADOW_SIZE', '1024')), 1, getattr(Ogre, os.environ.get('SHADOW_FORMAT', 'PF_DEPTH16')))
 scene.setShadowTextureSelfShadow(True)
 scene.setShadowCasterRenderBackFaces(os.environ.get('SHADOW_BACK', '1') == '1')
 state = generator.getRenderState(RTShader.ShaderGenerator.DEFAULT_SCHEME_NAME)

@@ -3,5 +3,5 @@
 set -e
 track=$1/.local/share/supertuxkart/addons/tracks/museum
 mkdir -p "$(dirname "$track")"
-cp -r /usr/share/games/supertuxkart/data/tracks/snowmountain "$track"
+cp -r /usr/share/games/supertuxkart/data/tracks/hacienda "$track"
 sed -i '/<sky-box/d' "$track/scene.xml"
