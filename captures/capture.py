@@ -73,6 +73,8 @@ def main():
     parser.add_argument('out')
     parser.add_argument('--light', type=int, default=0, help='only the light of this number, from 1')
     parser.add_argument('--casters', choices=('union', 'camera', 'map'), default='union')
+    parser.add_argument('--filter', choices=('none', 'hardware', 'box 3', 'box 5', 'box 7'), help='of the lookup; without it the one that fits')
+    parser.add_argument('--bias', type=float, help='of the lookup, constant, in window depth; without it the one that fits')
     parser.add_argument('--inside', action='store_true', help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.inside:
@@ -99,7 +101,8 @@ def main():
                     'HOME': scratch, 'TMPDIR': scratch, 'XDG_RUNTIME_DIR': scratch, 'XDG_CACHE_HOME': scratch, 'LP_NUM_THREADS': '2'}
     try:
         child = subprocess.Popen([sys.executable, os.path.abspath(__file__), os.path.abspath(options.capture), folder, '--inside',
-                                  '--light', str(options.light), '--casters', options.casters],
+                                  '--light', str(options.light), '--casters', options.casters,
+                                  *(f'--{k}={v}' for k, v in (('filter', options.filter), ('bias', options.bias)) if v is not None)],
                                  env=environment, preexec_fn=lambda: confine(folder))
         code = child.wait(timeout=2 * SECONDS)
     except subprocess.TimeoutExpired:

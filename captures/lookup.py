@@ -114,8 +114,8 @@ class Taps:
         return beyond, np.stack([(fx if i else 1 - fx) * (fy if j else 1 - fy) for i in (0, 1) for j in (0, 1)])
 
 
-def explain(depths, m, place, normal, visibility):
-    """The lookup that gives the frame's visibility best. Rows: receivers that look this map up."""
+def explain(depths, m, place, normal, visibility, given_filter=None, given_bias=None):
+    """The lookup that gives the frame's visibility best. Rows: receivers that look this map up. given_*: what is not searched."""
     pick = np.linspace(0, len(place) - 1, min(len(place), MOST_RECEIVERS)).astype(int)
     place, normal, v = place[pick], normal[pick], visibility[pick]
     taps = Taps(depths, m, place)
@@ -132,6 +132,8 @@ def explain(depths, m, place, normal, visibility):
 
     def best_constant(beyond, weights, slope, goal):
         """Tries the depths at which receivers turn, densest where they lie on their own surface, then finer."""
+        if given_bias is not None:
+            return misses(beyond, weights, slope + given_bias, goal), given_bias
         turns = np.sort((beyond[0] - slope)[np.abs(beyond[0] - slope) < 0.1])
         tries = np.unique(np.maximum(0, np.quantile(turns, np.linspace(0, 1, 49)))) if len(turns) > 50 else np.linspace(0, 1e-3, 49)
         for _ in range(3):
@@ -143,13 +145,13 @@ def explain(depths, m, place, normal, visibility):
         return (none, 0.0) if none < best[0] + 1e-3 and abs(best[1]) < ROUNDING else best
 
     partly = ((v > 0.02) & (v < 0.98)).mean() > 1e-3
-    for name in FILTERS if partly else ['none']:
+    for name in [given_filter] if given_filter else FILTERS if partly else ['none']:
         beyond, weights = (a[:, use] for a in taps.read(name))
         score, constant = best_constant(beyond, weights, 0, v)
         if best is None or score < 0.8 * best.misses - 1e-5:
             best = Lookup(name, constant, 0.0, score, False)
     beyond, weights = (a[:, use] for a in taps.read(best.filter))
-    for share in (0.25, 0.5, 1, 2):  # does the bias grow with the slope?
+    for share in (0.25, 0.5, 1, 2) if given_bias is None else ():  # does the bias grow with the slope?
         tan = share * abs(best.constant)
         score, constant = best_constant(beyond, weights, tan * tangent, v)
         if tan and score < 0.7 * best.misses - 1e-4:

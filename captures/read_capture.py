@@ -176,7 +176,7 @@ class Reader:
     def of_map(self, m, depths, mine, v, place, normal, is_colour):
         if is_colour or np.ptp(depths) == 0 or mine.sum() < 100 or np.abs(m.depth_off).max() > MOVED:
             return None
-        return lookup.explain(depths, m, place[mine], normal[mine], v[mine])
+        return lookup.explain(depths, m, place[mine], normal[mine], v[mine], self.options.filter, self.options.bias)
 
     def words(self, m, found):
         if np.abs(m.depth_off).max() > MOVED:

@@ -9,6 +9,7 @@ import renderdoc as rd
 from replay import Refusal
 from solve import usable
 
+ENOUGH = 100  # places of a part that the map tells of, before its mask is looked for
 SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through two matrices
 
 
@@ -72,8 +73,10 @@ def mask_of(part, m, draw, capture):
     beyond = taps.read('none')[0][0]
     slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
     told = taps.inside & (beyond < slack)  # elsewhere something nearer hides it
+    if told.sum() < ENOUGH:
+        return None, False
     there, uv = (np.abs(beyond) < slack)[told], ((part.coordinates[pick] * weight).sum(1) % 1)[told]
-    best = (max(there.mean(), 1 - there.mean()) if told.any() else 1.0, None)
+    best = (max(there.mean(), 1 - there.mean()), None)
     for texture in draw.reads:
         try:
             image = capture.image((texture, 0, 0), draw.event)
@@ -87,7 +90,7 @@ def mask_of(part, m, draw, capture):
                 agrees = ((value[:, channel] >= cut) == there).mean()
                 if agrees > best[0] + 0.01 or (agrees > best[0] - 1e-9 and best[1] and best[1][1] == channel and abs(cut - 0.5) < abs(best[1][2] - 0.5)):
                     best = (agrees, (texture, channel, float(cut)))
-    return best[1], bool(told.any()) and there.mean() < 0.95
+    return best[1], there.mean() < 0.95
 
 
 def casters(camera, maps, vertices, capture, say, which='union'):

@@ -13,7 +13,9 @@ namespace noonmark {
 struct CaptureArguments {
   std::optional<int> light;  // its number, from 1 on
   std::string casters;
-  std::string reader;  // the folder of the reader; empty: the program's own
+  std::string filter;          // of the lookup; empty: the one that fits
+  std::optional<double> bias;  // of the lookup, window depth; empty: the one that fits
+  std::string reader;          // the folder of the reader; empty: the program's own
 
   bool any() const;                        // one was given
   std::vector<std::string> words() const;  // of the reader's command line

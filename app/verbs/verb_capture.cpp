@@ -22,6 +22,8 @@ std::vector<std::string> CaptureArguments::words() const {
   };
   add("--light=", light ? std::to_string(*light) : "");
   add("--casters=", casters);
+  add("--filter=", filter);
+  add("--bias=", bias ? fmt::format("{}", *bias) : "");
   return words;
 }
 
@@ -36,6 +38,14 @@ void add_capture_options(CLI::App& verb, CaptureArguments& arguments) {
       ->check(one_of(casters))
       ->type_name(joined(casters))
       ->default_str(casters.front());
+  const std::vector<std::string> filters = {"none", "hardware", "box 3", "box 5", "box 7"};
+  verb.add_option("--filter", arguments.filter, "Of a capture: the filter of the lookup; without it the one that fits")
+      ->check(one_of(filters))
+      ->type_name(joined(filters));
+  verb.add_option("--bias", arguments.bias,
+                  "Of a capture: the constant bias of the lookup, in window depth; without it the one that fits")
+      ->check(number_in({.least = 0, .most = 1}))
+      ->type_name(value_kind::number);
   verb.add_option("--reader", arguments.reader,
                   "Of a capture: the folder of the reader, capture.py; without it the program's own")
       ->check(not_empty())

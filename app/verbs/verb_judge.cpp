@@ -80,7 +80,7 @@ void require_fitting(const JudgeOptions& options) {
         throw Error(ErrorKind::usage, fmt::format("{} is a picture; write noonmark judge SCENE --picture {}",
                                                   options.subject, options.subject));
   if (!of_capture && options.capture.any())
-    throw Error(ErrorKind::usage, "--light, --casters and --reader are for a capture (FILE.rdc)");
+    throw Error(ErrorKind::usage, "--light, --casters, --filter, --bias and --reader are for a capture (FILE.rdc)");
   if ((is_file || of_capture) != options.picture.empty())
     throw Error(ErrorKind::usage, is_file || of_capture
                                       ? "a frame.json or a capture has its picture itself; --picture is for a scene"
