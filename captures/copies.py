@@ -43,7 +43,7 @@ class Copies:
         """(edits, calls put in): the pass's map is cleared to `value` where this frame clears it last before drawing."""
         first = min(d.chunk for d in drawn.draws)
         depth, outputs = drawn.depth and drawn.depth[0], {o[0] for o in drawn.outputs}
-        mine = [c for event, c, z, o in clears
+        mine = [c for c, z, o in clears
                 if c < first and (z == depth if depth else outputs & set(o)) and self.call(c) in CLEARS]
         if not mine:
             raise Refusal(f'the map of {drawn.name} is not cleared in this frame, so it keeps what earlier frames drew; move '

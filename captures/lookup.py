@@ -66,22 +66,13 @@ class Lookup:
         return FILTERS[self.filter][0] | bias
 
 
-def window(clip, zero_to_one, is_reversed, place):
-    """(u, v, depth) of places in a map, 0 to 1, near = 0."""
-    q = np.c_[place, np.ones(len(place))] @ clip.T
-    q = q[:, :3] / np.where(np.abs(q[:, 3:]) > 1e-12, q[:, 3:], 1)
-    z = q[:, 2] if zero_to_one else q[:, 2] / 2 + 0.5
-    return q[:, 0] / 2 + 0.5, q[:, 1] / 2 + 0.5, 1 - z if is_reversed else z
-
-
 class Taps:
     """How much farther than the map's texels the receivers are, for each tap of a filter."""
 
-    def __init__(self, depths, m, place):
-        self.depths = 1 - depths if m.reversed else depths
-        u, v, self.z = window(m.clip, m.drawn.draws[0].zero_to_one, m.reversed, place)
-        self.rows, self.columns = depths.shape
-        self.clip, self.zero_to_one, self.reversed = m.clip, m.drawn.draws[0].zero_to_one, m.reversed
+    def __init__(self, m, place):
+        self.map, self.depths = m, 1 - m.depths if m.reversed else m.depths
+        u, v, self.z = m.window(place)
+        self.rows, self.columns = m.depths.shape
         self.x, self.y = u * self.columns, v * self.rows
         self.inside = (u > 0) & (u < 1) & (v > 0) & (v < 1) & (self.z < 1)
 
@@ -91,13 +82,13 @@ class Taps:
     def farther(self):
         """How much farther along the light than the nearest texel's depth the inner receivers are, in texels of the map at them."""
         inside = self.inside
-        far, clip = self.read('none')[0][0][inside], self.clip
-        across, per_depth = aperture(clip)[0] * self.columns, 1 if self.zero_to_one else 2
+        far, clip = self.read('none')[0][0][inside], self.map.clip
+        across, per_depth = aperture(clip)[0] * self.columns, 1 if self.map.zero_to_one else 2
         if np.linalg.norm(clip[3, :3]) < 1e-4 * np.linalg.norm(clip[0, :3]):
             return far * per_depth * across / 2 / np.linalg.norm(clip[2, :3])
         k = clip[2, :3] @ clip[3, :3] / (clip[3, :3] @ clip[3, :3])  # z = k + b / w
         b = clip[2, 3] - k * clip[3, 3]
-        own = lambda z: b / ((1 - z if self.reversed else z) * per_depth - (per_depth - 1) - k)
+        own = lambda z: b / ((1 - z if self.map.reversed else z) * per_depth - (per_depth - 1) - k)
         with np.errstate(all='ignore'):
             w, map_w = own(self.z[inside]), own(self.z[inside] - far)
             return (w - np.where(map_w > 0, map_w, np.inf)) * across / 2 / w
@@ -114,11 +105,11 @@ class Taps:
         return beyond, np.stack([(fx if i else 1 - fx) * (fy if j else 1 - fy) for i in (0, 1) for j in (0, 1)])
 
 
-def explain(depths, m, place, normal, visibility, given_filter=None, given_bias=None):
+def explain(m, place, normal, visibility, given_filter=None, given_bias=None):
     """The lookup that gives the frame's visibility best. Rows: receivers that look this map up. given_*: what is not searched."""
     pick = np.linspace(0, len(place) - 1, min(len(place), MOST_RECEIVERS)).astype(int)
     place, normal, v = place[pick], normal[pick], visibility[pick]
-    taps = Taps(depths, m, place)
+    taps = Taps(m, place)
     cosine = np.clip((normal * to_light(m.light, place)).sum(1), 1e-3, 1)
     use = taps.inside & (cosine > 0.05)
     if use.sum() < 100:

@@ -95,6 +95,8 @@ class Reader:
         self.describe()
         self.forget()
         c, depth = self.capture, self.depth()
+        for m in self.maps:
+            m.depths = visibility.crop(c.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
         parts = scene.casters(self.camera, self.maps, self.vertices, c, self.say, self.options.casters)
         scene.write_glb(os.path.join(self.folder, 'scene.glb'), parts, c)
         far = 0.0 if self.camera.draws[0].reversed else 1.0
@@ -129,18 +131,17 @@ class Reader:
         shares = visibility.shares(pictures, group, target, lit, dark)
         lookups, frames = [], []
         for k, m in enumerate(group):
-            depths = visibility.crop(c.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
             mine = surface & reacts & facing & (shares[k] > 0.99 if shares else self.first_inside(group, k, place))
-            found = self.of_map(m, depths, mine, v, place, normal, pictures.colour[id(m)])
-            lookups.append((m, depths, mine, found))
-        for m, _, mine, found in lookups:
+            found = self.of_map(m, mine, v, place, normal, pictures.colour[id(m)])
+            lookups.append((m, mine, found))
+        for m, _, found in lookups:
             notes.append(f'map {c.describe(m.drawn.target)}, {m.drawn.name}: {self.words(m, found)}')
         missing = set(self.not_in(lookups, parts))
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
         light = self.true_light(m, light, notes, target, [f.wrong if f else None for *_, f in lookups])
         if light.get('position') != group[0].light.get('position'):
-            lookups = [(m, depths, mine, None) for m, depths, mine, _ in lookups]
+            lookups = [(m, mine, None) for m, mine, _ in lookups]
         base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'light': light,
                 'camera': {'clip_from_world': self.matrix().flatten().tolist(), 'order': 'row',
                            'depth_range': '0..1' if self.zero_to_one else '-1..1', 'reversed': self.camera.draws[0].reversed},
@@ -148,12 +149,12 @@ class Reader:
         decoded = any(f and f.decoded for *_, f in lookups)
         name = f'light-{n}'
         picture = lambda stem, marks: dict(self.save(f'{stem}.npy', marks), normalised=True, **({'encoding': 'srgb'} if decoded else {}))
-        frames.append((name, base | {'visibility': picture(name, marks)} | (self.map(name, *lookups[0]) if len(group) == 1 else {})))
-        for k, (m, depths, mine, found) in enumerate(lookups, 1):
+        frames.append((name, base | {'visibility': picture(name, marks)} | (self.map(name, lookups[0][0], lookups[0][2]) if len(group) == 1 else {})))
+        for k, (m, mine, found) in enumerate(lookups, 1):
             if len(group) > 1 and found:
                 only = np.where(mine | ~surface | ~facing, marks, visibility.NOT_JUDGED)
                 frames.append((f'{name}-map-{k}', base | {'light': m.light, 'visibility': picture(f'{name}-map-{k}', only)}
-                               | self.map(f'{name}-map-{k}', m, depths, mine, found)))
+                               | self.map(f'{name}-map-{k}', m, found)))
         for stem, frame in frames:
             with open(os.path.join(self.folder, stem + '.json'), 'w') as f:
                 json.dump(frame, f, indent=1)
@@ -167,16 +168,16 @@ class Reader:
         order = sorted(range(len(group)), key=lambda i: -np.linalg.norm(group[i].clip[0, :3]))
         taken = np.zeros(place.shape[:2], bool)
         for i in order:
-            u, v, z = lookup.window(group[i].clip, group[i].drawn.draws[0].zero_to_one, group[i].reversed, place.reshape(-1, 3))
+            u, v, z = group[i].window(place.reshape(-1, 3))
             inside = ((u > 0) & (u < 1) & (v > 0) & (v < 1) & (z > 0) & (z < 1)).reshape(taken.shape) & ~taken
             if i == k:
                 return inside
             taken |= inside
 
-    def of_map(self, m, depths, mine, v, place, normal, is_colour):
-        if is_colour or np.ptp(depths) == 0 or mine.sum() < 100 or np.abs(m.depth_off).max() > MOVED:
+    def of_map(self, m, mine, v, place, normal, is_colour):
+        if is_colour or np.ptp(m.depths) == 0 or mine.sum() < 100 or np.abs(m.depth_off).max() > MOVED:
             return None
-        return lookup.explain(depths, m, place[mine], normal[mine], v[mine], self.options.filter, self.options.bias)
+        return lookup.explain(m, place[mine], normal[mine], v[mine], self.options.filter, self.options.bias)
 
     def words(self, m, found):
         if np.abs(m.depth_off).max() > MOVED:
@@ -184,7 +185,7 @@ class Reader:
                     'with the slope); judged by place')
         if not found:
             return 'its lookup is not known (moments, depths that do not read, or too few receivers); judged by place'
-        per_unit = np.linalg.norm(m.clip[2, :3]) / (1 if m.drawn.draws[0].zero_to_one else 2)
+        per_unit = np.linalg.norm(m.clip[2, :3]) / (1 if m.zero_to_one else 2)
         length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' and not self.camera.camera.orthographic else ''
         return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}'
                 + (f' and {found.tan:.3g} tan' if found.tan else '')
@@ -201,7 +202,7 @@ class Reader:
                 continue
             places = np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3)
             places = places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)]
-            farther = np.concatenate([lookup.Taps(depths, m, places).farther() for m, depths, *_ in lookups])
+            farther = np.concatenate([lookup.Taps(m, places).farther() for m, *_ in lookups])
             # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
             if len(farther) >= 12 and np.percentile(farther, 90 if lookups[0][0].cull == 'front' else 50) < -TEXELS_BEFORE:
                 yield part.name
@@ -247,7 +248,7 @@ class Reader:
                              'not where the map has them: the lookup lacks their model matrix')
         return light
 
-    def map(self, name, m, depths, mine, found):
+    def map(self, name, m, found):
         if not found or found.constant < 0:
             return {}
         factor, units = m.drawn.draws[0].polygon_offset
@@ -255,8 +256,8 @@ class Reader:
         if factor or units:
             sign = -1 if m.reversed else 1
             technique |= {'bias.polygon_factor': repr(sign * factor), 'bias.polygon_units': repr(sign * units)}
-        return {'map': dict(self.save(f'{name}-depths.npy', depths[::-1]), first_row='bottom', clip_from_world=m.clip.flatten().tolist(),
-                            order='row', depth_range='0..1' if m.drawn.draws[0].zero_to_one else '-1..1', reversed=m.reversed,
+        return {'map': dict(self.save(f'{name}-depths.npy', m.depths[::-1]), first_row='bottom', clip_from_world=m.clip.flatten().tolist(),
+                            order='row', depth_range='0..1' if m.zero_to_one else '-1..1', reversed=m.reversed,
                             technique=technique)}
 
 

@@ -24,7 +24,6 @@ class Refusal(Exception):
 class Draw:
     event: int
     chunk: int  # of the capture's list of calls
-    name: str
     count: int
     instances: int
     indexed: bool
@@ -36,7 +35,6 @@ class Draw:
     outputs: tuple  # of the same
     viewport: tuple  # x, y, width, height in pixels, from the bottom
     reads: dict  # texture -> the shader's name of it, of the textures that its shaders use
-    shaders: tuple  # ids of the vertex and the fragment shader
     has_geometry_shader: bool
     zero_to_one: bool  # depths of clip space
     reversed: bool
@@ -92,6 +90,11 @@ class Capture:
             action = action.parent
         return action.events[-1].chunkIndex
 
+    def clears(self):
+        """[(chunk, depth texture, colour textures)] that are cleared, or whose pass begins."""
+        return [(a.events[-1].chunkIndex, a.depthOut, list(a.outputs)) for a in self.actions()
+                if a.flags & (rd.ActionFlags.Clear | rd.ActionFlags.PassBoundary)]
+
     # ---- draws and their state
     def draws(self):
         found = []
@@ -119,13 +122,12 @@ class Capture:
         target = lambda t: (t.resourceId, max(0, t.firstSlice), max(0, t.firstMip))
         outputs = tuple(target(o) for o in state.GetOutputTargets() if o.resourceId != NULL)
         draw = Draw(
-            event=action.eventId, chunk=self.chunk_of(action), name=action.GetName(self.control.GetStructuredFile()),
+            event=action.eventId, chunk=self.chunk_of(action),
             count=action.numIndices, instances=instances, indexed=indexed,
             first=action.indexOffset if indexed else action.vertexOffset, base_vertex=action.baseVertex if indexed else 0,
             topology=state.GetPrimitiveTopology(), geometry=geometry + (action.numIndices, instances),
             depth=() if depth.resourceId == NULL else target(depth), outputs=outputs,
             viewport=(view.x, view.y, view.width, view.height), reads=self._reads(state),
-            shaders=tuple(int(state.GetShader(s)) for s in STAGES),
             has_geometry_shader=state.GetShader(rd.ShaderStage.Geometry) != NULL, zero_to_one=True, reversed=False,
             y_down=False, writes_depth=True, culls='none', polygon_offset=(0.0, 0.0),
             discards=discards(state.GetShaderReflection(rd.ShaderStage.Pixel)), samples=1)

@@ -6,6 +6,7 @@ import struct
 import numpy as np
 import renderdoc as rd
 
+from lookup import Taps
 from replay import Refusal
 from solve import usable
 
@@ -63,13 +64,10 @@ def mask_of(part, m, draw, capture):
 
     The shader's text tells nothing: a `discard` may stand under a constant that is 0.
     """
-    from lookup import Taps
-    from visibility import crop
-    depths = crop(capture.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
     seeds = np.random.default_rng(1)
     pick = seeds.integers(len(part.triangles), size=6000)
     weight = seeds.dirichlet((1, 1, 1), size=6000)[:, :, None]
-    taps = Taps(depths, m, (part.triangles[pick] * weight).sum(1))
+    taps = Taps(m, (part.triangles[pick] * weight).sum(1))
     beyond = taps.read('none')[0][0]
     slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
     told = taps.inside & (beyond < slack)  # elsewhere something nearer hides it

@@ -56,6 +56,11 @@ class Map:
     residual: tuple  # median, 99 in 100; clip units
     depth_off: tuple  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
     square: float  # cosine of its axes
+    depths: np.ndarray = None  # as captured; rows start at the bottom
+
+    @property
+    def zero_to_one(self):
+        return self.drawn.draws[0].zero_to_one
 
     @property
     def reversed(self):
@@ -71,6 +76,14 @@ class Map:
         turn = max(self.drawn.draws, key=lambda d: sum(e.count for e in self.drawn.draws if e.culls == d.culls)).culls
         mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.reversed
         return turn if turn == 'none' else 'front' if (turn == 'ccw') != mirrored else 'back'
+
+
+    def window(self, place):
+        """(u, v, depth) of places in the map, 0 to 1, near = 0."""
+        q = np.c_[place, np.ones(len(place))] @ self.clip.T
+        q = q[:, :3] / np.where(np.abs(q[:, 3:]) > 1e-12, q[:, 3:], 1)
+        z = q[:, 2] if self.zero_to_one else q[:, 2] / 2 + 0.5
+        return q[:, 0] / 2 + 0.5, q[:, 1] / 2 + 0.5, 1 - z if self.reversed else z
 
 
 class Vertices:

@@ -38,7 +38,6 @@ class Pictures:
                 for o in p.outputs:
                     self.targets[o] = max(self.targets.get(o, 0), p.last)
         self.targets = dict(sorted(self.targets.items(), key=lambda t: t[1]))
-        self.clears = [(a.eventId, a.events[-1].chunkIndex, a.depthOut, list(a.outputs)) for a in capture.actions() if is_clear(a)]
         self.frame = self.read(capture, 0)
         read = set().union(*(d.reads for d in draws if d.event > min(m.drawn.first for m in maps)))
         # A pass may write a depth and colours; what a later draw reads is the map.
@@ -62,7 +61,7 @@ class Pictures:
         for value in values:
             edits, shift = self.copies.without({d.event: d for m in (*lit, *dark) for d in m.drawn.draws}.values()), 0
             for m in dark:
-                clear, more = self.copies.cleared(m.drawn, self.clears, self.colour[id(m)], m.near if value is None else value)
+                clear, more = self.copies.cleared(m.drawn, self.capture.clears(), self.colour[id(m)], m.near if value is None else value)
                 shift += more if not set(clear) & set(edits) else 0
                 edits |= clear
             copy = self.copies.open(edits)
@@ -71,13 +70,8 @@ class Pictures:
         return shots
 
 
-def is_clear(action):
-    import renderdoc as rd
-    return bool(action.flags & (rd.ActionFlags.Clear | rd.ActionFlags.PassBoundary))
-
-
 def measure(pictures, group):
-    """(V, amplitude, target, notes): V has NaN where the picture does not react to the light's maps."""
+    """(V, picture all lit, picture all dark, target, notes): V has NaN where the picture does not react to the light's maps."""
     capture, notes = pictures.capture, []
     empty = pictures.replay(lit=group)[0]
     values = (None,)
