@@ -1,5 +1,6 @@
 """The casters and receivers of the frame as triangles in the camera's axes, written as a GLB: one node a draw."""
 import dataclasses
+import itertools
 import json
 import struct
 
@@ -91,6 +92,22 @@ def mask_of(part, m, draw, capture):
     return best[1], there.mean() < 0.95
 
 
+def described(triangles):
+    """Centre and radius of each triangle: n x 4."""
+    centre = triangles.mean(1)
+    return np.c_[centre, np.linalg.norm(triangles - centre[:, None], axis=2).max(1)]
+
+
+def among(rows, known, near):
+    """Which rows lie within `near` of a known one along each axis: they share a cell of a grid, or of one that is moved by half a cell."""
+    odd = np.array([0x9e3779b97f4a7c15, 0xc2b2ae3d27d4eb4f, 0x165667b19e3779f9, 0xd6e8feb86659fd93], 'u8')  # of a hash, modulo 2^64
+    found = np.zeros(len(rows), bool)
+    for moved in itertools.product((0, 0.5), repeat=4):
+        cell = lambda d: (np.floor(d / (4 * near) + moved).astype('i8').astype('u8') * odd).sum(1)
+        found |= np.isin(cell(rows), cell(known))
+    return found
+
+
 def casters(camera, maps, vertices, capture, say, which='union'):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
     to_camera = np.linalg.inv(camera.camera.clip)
@@ -121,15 +138,22 @@ def casters(camera, maps, vertices, capture, say, which='union'):
                 parts += parts_of(draw, 'map', back, vertices)
     if not parts:
         raise Refusal('the frame has no triangles that cast shadows')
-    kept, known = [], {}
     size = np.linalg.norm(np.ptp(np.concatenate([p.triangles.reshape(-1, 3) for p in parts]), axis=0))
-    for part in parts:
-        same = known.setdefault(part.draw.geometry[:-1] + (len(part.triangles),), [])
-        if not any(np.abs(part.triangles - other).max() < SAME_PLACE * size for other in same):
-            same.append(part.triangles)
-            kept.append(part)
-    say(f'{sum(len(p.triangles) for p in kept)} triangles of {len({p.draw.event for p in kept})} draws; '
-        f'{sum(len(p.triangles) for p in parts if p.role == "map")} of them only in the maps; {len(parts) - len(kept)} draws again')
+    known, before = np.zeros((0, 4)), sum(len(p.triangles) for p in parts)
+    for drawn in [camera, *(m.drawn for m in maps)]:
+        events = {d.event for d in drawn.draws}
+        mine = [p for p in parts if p.draw.event in events]
+        if not mine:
+            continue
+        rows = described(np.concatenate([p.triangles for p in mine]))
+        new = ~among(rows, known, SAME_PLACE * size)
+        for part, keep in zip(mine, np.split(new, np.cumsum([len(p.triangles) for p in mine])[:-1])):
+            part.triangles = part.triangles[keep]
+            part.coordinates = part.coordinates[keep] if part.coordinates is not None else None
+        known = np.concatenate([known, rows[new]])
+    kept, holed = [p for p in parts if len(p.triangles)], []
+    say(f'{len(known)} triangles of {len({p.draw.event for p in kept})} draws; {sum(len(p.triangles) for p in kept if p.role == "map")} of them '
+        f'only in the maps; {before - len(known)} are drawn again in other passes')
     for part in kept:
         if part.draw.geometry in masks:
             m, draw = masks[part.draw.geometry]
@@ -138,8 +162,10 @@ def casters(camera, maps, vertices, capture, say, which='union'):
                 texture, channel, cut = part.mask
                 say(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
             elif has_holes:
-                say(f'draw {draw.event} may drop fragments, and no texture explains which: it is a solid caster here, so the shadows '
-                    'through its holes are not to be trusted')
+                holed.append(draw.event)
+    if holed:
+        say(f'{"draws" if len(holed) > 1 else "draw"} {", ".join(map(str, holed))} may drop fragments, and no texture explains which: solid casters '
+            'here, so the shadows through their holes are not to be trusted')
     return kept
 
 

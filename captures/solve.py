@@ -303,12 +303,17 @@ def camera_and_maps(capture, passes, vertices, say):
     if not cameras:
         raise Refusal('no pass of this frame tells a camera: its meshes are flat, or placed on the GPU without a linear '
                       'place for each vertex')
+    warped = []
     for camera in sorted(cameras, key=lambda p: (-p.viewport[2] * p.viewport[3], -p.last)):
         maps = [map_of(p, camera, vertices) for p in passes
                 if p is not camera and p.first < camera.last and not (p.viewport == camera.viewport and p.depth == camera.depth)]
+        warped += [m.drawn.name for m in maps if m and m.square >= 0.05]
         maps = [m for m in maps if m and m.square < 0.05]
         if maps:
             return camera, maps
+    if warped:
+        raise Refusal(f'the map of {warped[0]} has axes that are not at right angles (a warped map, as light-space perspective shadow '
+                      'maps are): its light cannot be told')
     raise Refusal('no pass draws the meshes of the picture from another eye: this frame draws no shadow map. Where a map is '
                   'kept over frames, move the light a little while the frame is captured')
 

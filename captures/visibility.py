@@ -89,7 +89,7 @@ def measure(pictures, group):
         if (reaction > 1 / 256).sum() >= 100:
             break
     else:
-        own, later = {m.drawn.target[0] for m in group}, [d for d in pictures.draws if d.event > group[-1].drawn.last]
+        own, later = {o[0] for m in group for o in (m.drawn.depth, *m.drawn.outputs) if o}, [d for d in pictures.draws if d.event > group[-1].drawn.last]
         if any(own & set(d.reads) for d in later):
             raise Refusal(f'the map of {group[0].drawn.name} has no effect on the picture, although draws read it: is its bias so large '
                           'that nothing is in shadow?')
