@@ -18,6 +18,7 @@ import sys
 import tempfile
 
 PACKAGES = {'renderdoc': 'python3-renderdoc', 'numpy': 'python3-numpy'}
+CRASHES = (-signal.SIGSEGV, -signal.SIGABRT, -signal.SIGBUS, -signal.SIGILL)
 MEMORY, SECONDS = 16 << 30, 1200
 CLONE_NEWUSER, CLONE_NEWNET, PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS = 0x10000000, 0x40000000, 1, 38
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
@@ -99,12 +100,16 @@ def main():
     scratch = tempfile.mkdtemp(prefix='scratch-', dir=folder)
     environment |= {'LIBGL_ALWAYS_SOFTWARE': environment.get('LIBGL_ALWAYS_SOFTWARE', '1'), 
                     'HOME': scratch, 'TMPDIR': scratch, 'XDG_RUNTIME_DIR': scratch, 'XDG_CACHE_HOME': scratch, 'LP_NUM_THREADS': '2'}
+    command = [sys.executable, os.path.abspath(__file__), os.path.abspath(options.capture), folder, '--inside',
+               '--light', str(options.light), '--casters', options.casters,
+               *(f'--{k}={v}' for k, v in (('filter', options.filter), ('bias', options.bias)) if v is not None)]
     try:
-        child = subprocess.Popen([sys.executable, os.path.abspath(__file__), os.path.abspath(options.capture), folder, '--inside',
-                                  '--light', str(options.light), '--casters', options.casters,
-                                  *(f'--{k}={v}' for k, v in (('filter', options.filter), ('bias', options.bias)) if v is not None)],
-                                 env=environment, preexec_fn=lambda: confine(folder))
-        code = child.wait(timeout=2 * SECONDS)
+        for tried in (1, 2):
+            child = subprocess.Popen(command, env=environment, preexec_fn=lambda: confine(folder))
+            code = child.wait(timeout=2 * SECONDS)
+            if code not in CRASHES or tried == 2:
+                break
+            print(f'the replay crashed (signal {-code}); it is tried once more', flush=True)  # one of 130 did, in the driver
     except subprocess.TimeoutExpired:
         child.kill()
         code = -signal.SIGKILL
