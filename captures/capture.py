@@ -7,6 +7,7 @@ OUT, with a limit of memory and time; display and child end with this process.
 """
 import argparse
 import ctypes
+import glob
 import importlib.util
 import os
 import resource
@@ -97,7 +98,9 @@ def main():
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that display and scratch folder end with this process
     folder = os.path.abspath(options.out)
     environment, server = with_display(dict(os.environ))
-    scratch = tempfile.mkdtemp(prefix='scratch-', dir=folder)
+    for old in glob.glob(os.path.join(glob.escape(folder), '.noonmark-scratch-*')):
+        shutil.rmtree(old, ignore_errors=True)  # of a run that was killed
+    scratch = tempfile.mkdtemp(prefix='.noonmark-scratch-', dir=folder)
     environment |= {'LIBGL_ALWAYS_SOFTWARE': environment.get('LIBGL_ALWAYS_SOFTWARE', '1'), 
                     'HOME': scratch, 'TMPDIR': scratch, 'XDG_RUNTIME_DIR': scratch, 'XDG_CACHE_HOME': scratch, 'LP_NUM_THREADS': '2'}
     command = [sys.executable, os.path.abspath(__file__), os.path.abspath(options.capture), folder, '--inside',

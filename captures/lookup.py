@@ -16,7 +16,7 @@ FILTERS = {  # settings of Noonmark: taps in texels and whether each blends four
     'box 7': ({'filter.kind': 'box', 'filter.size': '7'}, [(i, j) for i in range(-3, 4) for j in range(-3, 4)], False),
 }
 ROUNDING = 1e-5  # of window depth: a smaller bias is what a shader's floats and the map's steps do by themselves
-MOST_RECEIVERS = 10000  # for the fit; evenly over the picture
+MOST_RECEIVERS = 40000  # for the fit; evenly over the picture
 
 
 # ---- the receivers
@@ -58,11 +58,13 @@ class Lookup:
     tan: float  # window depth per tangent of the angle to the light
     misses: float  # mean difference from the frame's visibility
     decoded: bool  # the frame's values explain better after sRGB is decoded
+    between: tuple = None  # constants that give the same visibility
     wrong: float = 0.0  # share of the receivers where it differs by more than a half: an unknown filter differs by less
 
     @property
     def technique(self):
-        bias = {'bias.constant': repr(self.constant)} | ({'bias.tan': repr(self.tan)} if self.tan else {})
+        short = lambda x: f'{x:.4g}'
+        bias = {'bias.constant': short(self.constant)} | ({'bias.tan': short(self.tan)} if self.tan else {})
         return FILTERS[self.filter][0] | bias
 
 
@@ -126,14 +128,28 @@ def explain(m, place, normal, visibility, given_filter=None, given_bias=None):
         if given_bias is not None:
             return misses(beyond, weights, slope + given_bias, goal), given_bias
         turns = np.sort((beyond[0] - slope)[np.abs(beyond[0] - slope) < 0.1])
-        tries = np.unique(np.maximum(0, np.quantile(turns, np.linspace(0, 1, 49)))) if len(turns) > 50 else np.linspace(0, 1e-3, 49)
+        tries = np.unique(np.quantile(turns, np.linspace(0, 1, 49))) if len(turns) > 50 else np.linspace(-1e-3, 1e-3, 49)
         for _ in range(3):
             scores = np.array([misses(beyond, weights, slope + c, goal) for c in tries])
             k = int(np.argmin(scores))
             best = scores[k], float(tries[k])
             tries = np.linspace(tries[max(0, k - 1)], tries[min(len(tries) - 1, k + 1)], 17)
-        none = misses(beyond, weights, slope, goal)
-        return (none, 0.0) if none < best[0] + 1e-3 and abs(best[1]) < ROUNDING else best
+        return best
+
+    def alike(beyond, weights, slope, goal, constant):
+        """The least and the largest constant that give the same visibility, but for two receivers."""
+        turns = np.sort((beyond - slope).ravel())
+        most = misses(beyond, weights, slope + constant, goal) + 2 / len(goal)
+        ends = []
+        for good, bad in ((np.searchsorted(turns, constant), -1), (np.searchsorted(turns, constant), len(turns))):
+            while abs(bad - good) > 1:
+                middle = (good + bad) // 2
+                if misses(beyond, weights, slope + turns[middle], goal) <= most:
+                    good = middle
+                else:
+                    bad = middle
+            ends.append(float(turns[min(good, len(turns) - 1)]))
+        return min(ends[0], constant), max(ends[1], constant)
 
     partly = ((v > 0.02) & (v < 0.98)).mean() > 1e-3
     for name in [given_filter] if given_filter else FILTERS if partly else ['none']:
@@ -151,8 +167,14 @@ def explain(m, place, normal, visibility, given_filter=None, given_bias=None):
         score, constant = best_constant(beyond, weights, best.tan * tangent, curve)
         if score < 0.5 * best.misses - 1e-4:
             best = dataclasses.replace(best, misses=score, constant=constant, decoded=True)
+    goal = curve if best.decoded else v
+    if given_bias is None:
+        low, high = alike(beyond, weights, best.tan * tangent, goal, best.constant)
+        # Where several do, none if that is among them, otherwise one a little above the least.
+        best = dataclasses.replace(best, between=(low, high), constant=0.0 if low <= ROUNDING and high >= -ROUNDING else (low + min(high, 1.5 * low)) / 2
+                                   if low > 0 else best.constant)
     model = ((beyond <= best.tan * tangent + best.constant) * weights).sum(0)
-    return dataclasses.replace(best, wrong=float((np.abs(model - (curve if best.decoded else v)) > 0.5).mean()))
+    return dataclasses.replace(best, wrong=float((np.abs(model - goal) > 0.5).mean()), misses=float(np.abs(model - goal).mean()))
 
 
 # ---- the matrix of the lookup

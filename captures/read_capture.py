@@ -17,6 +17,7 @@ from replay import Capture, Refusal
 SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's and OpenGL's standard places; others: the centre
 
 MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
+EMPTY = 0.3  # of the receivers that read an empty texel, before the ground is taken for no caster of the map
 UNEXPLAINED = 0.01  # of the receivers: a tenth of that is left where the lookup is one of those that are known
 TEXELS_BEFORE = 4  # how far before the map's depths a caster lies that the map lacks: more than a slope does within a texel
 
@@ -36,26 +37,14 @@ class Reader:
         self.camera, self.maps = solve.camera_and_maps(c, self.passes, self.vertices, self.say)
         self.lights = solve.lights_of(self.maps)
         self.zero_to_one = self.camera.draws[0].zero_to_one
-        self.found = {'api': c.driver, 'draws': len(self.draws), 'lights': [], 'files': ['scene.glb']}
+        self.found = {'api': c.driver, 'draws': len(self.draws), 'lights': []}
 
     def say(self, text):
         print(text, flush=True)
 
     def save(self, name, image):
         np.save(os.path.join(self.folder, name), top_first(image))
-        self.found['files'].append(name)
         return {'file': name}
-
-    def forget(self):
-        """Removes what an earlier reading wrote here, by its own list."""
-        try:
-            with open(os.path.join(self.folder, 'capture.json')) as f:
-                files = json.load(f)['files']
-        except (OSError, ValueError, KeyError):
-            return
-        for name in files:
-            if os.path.basename(name) == name and os.path.isfile(os.path.join(self.folder, name)):
-                os.remove(os.path.join(self.folder, name))
 
     def describe(self):
         c, cam = self.capture, self.camera
@@ -93,7 +82,6 @@ class Reader:
 
     def run(self):
         self.describe()
-        self.forget()
         c, depth = self.capture, self.depth()
         for m in self.maps:
             m.depths = visibility.crop(c.image(m.drawn.target, m.drawn.last), m.drawn.viewport)[..., 0]
@@ -102,9 +90,11 @@ class Reader:
         far = 0.0 if self.camera.draws[0].reversed else 1.0
         place, normal = lookup.receivers(depth, self.camera.camera, self.zero_to_one)
         surface = depth != far
-        with tempfile.TemporaryDirectory(dir=self.folder) as work:
+        with tempfile.TemporaryDirectory() as work:
             edited = copies.Copies(self.options.capture, work)
             pictures = visibility.Pictures(c, self.camera, self.maps, self.passes, self.draws, edited, self.say)
+            if self.options.light > len(self.lights):
+                raise Refusal(f'there is no light {self.options.light}: it has {len(self.lights)}')
             for n, group in enumerate(self.lights, 1):
                 if self.options.light in (0, n):
                     try:
@@ -124,19 +114,20 @@ class Reader:
         facing = (normal * lookup.to_light(light, place)).sum(-1) > 0
         reacts = np.isfinite(v)
         mute = surface & ~reacts & facing
+        if (reacts & surface & facing).sum() < 100:
+            raise Refusal(f'only {(reacts & surface & facing).sum()} pixels that face the light react to the map of {group[0].drawn.name}')
         marks = np.where(reacts, v, np.where(facing, visibility.NOT_JUDGED, 0))
         marks[~surface] = visibility.NO_SURFACE
         if mute.any():
             notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
         shares = visibility.shares(pictures, group, target, lit, dark)
-        lookups, frames = [], []
+        lookups, frames, missing = [], [], set(self.not_in(group, parts))
         for k, m in enumerate(group):
             mine = surface & reacts & facing & (shares[k] > 0.99 if shares else self.first_inside(group, k, place))
-            found = self.of_map(m, mine, v, place, normal, pictures.colour[id(m)])
+            why = self.why_unknown(m, mine, place, pictures.colour[id(m)], missing)
+            found = None if why else lookup.explain(m, place[mine], normal[mine], v[mine], self.options.filter, self.options.bias)
             lookups.append((m, mine, found))
-        for m, _, found in lookups:
-            notes.append(f'map {c.describe(m.drawn.target)}, {m.drawn.name}: {self.words(m, found)}')
-        missing = set(self.not_in(lookups, parts))
+            notes.append(f'map {c.describe(m.drawn.target)}, {m.drawn.name}: {self.words(m, found, why)}')
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(sorted(missing))}')
         light = self.true_light(m, light, notes, target, [f.wrong if f else None for *_, f in lookups])
@@ -158,7 +149,6 @@ class Reader:
         for stem, frame in frames:
             with open(os.path.join(self.folder, stem + '.json'), 'w') as f:
                 json.dump(frame, f, indent=1)
-            self.found['files'].append(stem + '.json')
         for note in notes:
             self.say(f'light {n}: {note}')
         self.found['lights'].append({'light': n, 'kind': light['kind'], 'frames': [f + '.json' for f, _ in frames], 'notes': notes})
@@ -174,37 +164,51 @@ class Reader:
                 return inside
             taken |= inside
 
-    def of_map(self, m, mine, v, place, normal, is_colour):
-        if is_colour or np.ptp(m.depths) == 0 or mine.sum() < 100 or np.abs(m.depth_off).max() > MOVED:
-            return None
-        return lookup.explain(m, place[mine], normal[mine], v[mine], self.options.filter, self.options.bias)
-
-    def words(self, m, found):
+    def why_unknown(self, m, mine, place, is_colour, missing):
+        """Why the lookup of this map cannot be known; '' where it can."""
         if np.abs(m.depth_off).max() > MOVED:
             return (f'its shader moves the casters by {m.depth_off[0] / 2:.2g} to {m.depth_off[2] / 2:.2g} of window depth (a bias that grows '
-                    'with the slope); judged by place')
+                    'with the slope)')
+        if is_colour:
+            return 'it holds moments or packed depths, whose lookup is not known'
+        if np.ptp(m.depths) == 0:
+            return 'its depths read as one value'
+        if mine.sum() < 100:
+            return f'only {mine.sum()} pixels look it up'
+        if self.unfilled(m):
+            return 'its viewport fills a part of the texture'
+        if not missing:
+            return ''
+        taps = lookup.Taps(m, place[mine])
+        empty = (taps.read('none')[0][0][taps.inside] <= taps.z[taps.inside] - 1).mean() if taps.inside.any() else 1.0
+        return f'it holds nothing under {100 * empty:.0f}% of the receivers, which are no casters in it' if empty > EMPTY else ''
+
+    def words(self, m, found, why):
         if not found:
-            return 'its lookup is not known (moments, depths that do not read, or too few receivers); judged by place'
+            return (why or 'too few receivers for its lookup') + '; judged by place'
         per_unit = np.linalg.norm(m.clip[2, :3]) / (1 if m.zero_to_one else 2)
         length = f' ({found.constant / per_unit:.4g} units of length)' if m.light['kind'] == 'directional' and not self.camera.camera.orthographic else ''
-        return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}'
+        low, high = found.between or (found.constant, found.constant)
+        alike = f' (from {low:.3g} to {high:.3g} alike)' if high - low > max(lookup.ROUNDING, 0.05 * abs(found.constant)) else ''
+        return (f'filter {found.filter}, bias {found.constant:.4g} of window depth{length}{alike}'
                 + (f' and {found.tan:.3g} tan' if found.tan else '')
                 + f', which leaves {100 * found.misses:.2f}% unexplained'
                 + (f', AND {100 * found.wrong:.2f}% ARE WRONG: they do not follow from the map at their own places' if found.wrong > UNEXPLAINED else '')
-                + (', after sRGB is decoded' if found.decoded else ''))
+                + (', after sRGB is decoded' if found.decoded else '')
+                + ('; a bias below 0 cannot be handed over: judged by place' if found.constant < 0 else ''))
 
-    def not_in(self, lookups, parts):
+    def not_in(self, group, parts):
         """Names of the draws of the picture that no map's pass draws, and whose places lie behind nothing in the maps that see them."""
-        drawn = {d.event for m, *_ in lookups for d in m.pairs.values()}
+        drawn = {d.event for m in group for d in m.pairs.values()}
         weights = np.random.default_rng(0).dirichlet((1, 1, 1), 8)
         for part in parts:
             if part.role != 'camera' or part.draw.event in drawn:
                 continue
             places = np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3)
             places = places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)]
-            farther = np.concatenate([lookup.Taps(m, places).farther() for m, *_ in lookups])
+            farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
             # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-            if len(farther) >= 12 and np.percentile(farther, 90 if lookups[0][0].cull == 'front' else 50) < -TEXELS_BEFORE:
+            if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -TEXELS_BEFORE:
                 yield part.name
 
     def true_light(self, m, light, notes, target, wrong):
@@ -231,17 +235,21 @@ class Reader:
                 notes.append(f'the map\'s vertices are moved by {moved:.4g} along the light (a bias in the map\'s shader); the truth is of '
                              f'the light that {name} looks up from')
                 return light | {'position': centre.tolist()}
-        if exact and min(e[0] for e in exact) > 1e-2:
+        # Of many constants some look alike by chance, moved by a draw's own place: that is a finding only where the lookup does not
+        # follow from the map, and where that is not known, another scale is.
+        scale = lambda rows: min(max(abs(rows[0][0] - want[0]), abs(abs(rows[1][0]) - want[2])) for want in ([1, 0, 1, 0], [0.5, 0.5, 0.5, 0.5], part))
+        is_wrong, is_unknown = any(x and x > UNEXPLAINED for x in wrong), any(x is None for x in wrong)
+        if exact and (is_wrong and min(e[0] for e in exact) > 1e-2 or is_unknown and min(scale(e[2]) for e in exact) > 1e-2):
             _, name, rows = min(exact, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} reads x = {rows[0][0]:.4f} X + {rows[0][1]:.4f}, y = {rows[1][0]:.4f} Y + '
                          f'{rows[1][1]:.4f}, where X and Y are those of the map as it is drawn; {part[0]:g} and {part[1]:g}, {part[2]:g} and '
                          f'{part[3]:g} would read it')
-        elif (found and not exact and any(x and x > UNEXPLAINED for x in wrong)
+        elif (found and not exact and is_wrong
               and not self.camera.camera.orthographic):  # whose scale is not known, and so neither what leads to the world
             rest, name, *_ = min(found, key=lambda e: e[0])
             notes.append(f'MAP AND LOOKUP DIFFER: the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or '
                          'another light?), and no constant of the lit draw is nearer')
-        elif any(x is None or x > UNEXPLAINED for x in wrong):
+        elif is_wrong or is_unknown:
             astray = lookup.without_model(self.capture, self.camera.camera, m, lit)
             if astray:
                 notes.append(f'MAP AND LOOKUP DIFFER: {", ".join(f"draw {d.event}" for d, _ in astray)}: {astray[0][1]} times their own vertices is '

@@ -113,7 +113,8 @@ def measure(pictures, group):
     each = np.divide(frame - dark, span, out=np.zeros_like(span), where=strong)
     apart = np.where(strong, each, -np.inf).max(2) - np.where(strong, each, np.inf).min(2)
     partly = reacts & (v > 0.1) & (v < 0.9)
-    if partly.any() and np.median(apart[partly]) > 16 * step + 0.01:
+    apart -= 4 * step / np.where(strong, np.abs(span), np.inf).min(2)  # what the format's steps do
+    if partly.any() and np.median(apart[partly]) > 0.01:
         notes.append(f'the channels of the picture disagree about the visibility by {np.median(apart[partly]):.2g}: the target is '
                      'not linear in the light (a tone curve, or colours mixed after it)')
     outside = int((reacts & ((v < -0.02) | (v > 1.02))).sum())

@@ -98,7 +98,7 @@ void print_capture(const Subject& subject, const FrameVerdict& verdict, const st
   for (const std::string& note : subject.frame.notes) fmt::print("  {}\n", printable(note));
   for (const CheckResult& check : verdict.checks)
     if (check.state == CheckState::failed)
-      fmt::print("  check {} ({}): {}\n", check.name, state_text(check), printable(check.says));
+      fmt::print("  check {}: {}\n", check.name, printable(check.says));
   if (verdict.worst.x >= 0 && !verdict.refused())
     fmt::print("  the largest error is {:.3f}, at x = {}, y = {} (row 0 on top), of {:.0f} receivers\n",
                verdict.error.at(verdict.worst.x, verdict.worst.y), verdict.worst.x, verdict.worst.y,
