@@ -35,7 +35,7 @@ def mistake(document):
     return next((f"{'/'.join(map(str, e.absolute_path))}: {e.message[:200]}" for e in validator.iter_errors(document)), None)
 
 
-experiments = sorted([*source.glob("experiments/**/*.toml"), *source.glob("examples/**/*.toml")])
+experiments = sorted([*source.glob("experiments/**/*.toml"), *(f for f in source.glob("examples/**/*.toml") if f.name != "programs.toml")])  # the museum's own list
 expect(len(experiments) >= 5, f"there are experiments: {experiments}")
 for file in experiments:
     found = mistake(tomllib.loads(file.read_text()))

@@ -73,7 +73,8 @@ TEST(FlickerSection, LeadsAReportWithoutALivePictureAndADiagram) {
                           {"residual", 0},
                           {"tap_residual", 0},
                           {"contract", 0},
-                          {"rounding_excess", 0}});
+                          {"rounding_excess", 0},
+                          {"map_excess", 0}});
   const std::string html = render_report(results, sample_picture);
   const size_t strips = html.find("chart strip"), section = html.find("id=\"motion\"");
   ASSERT_NE(strips, std::string::npos);

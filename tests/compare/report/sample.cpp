@@ -96,6 +96,7 @@ PointRecord sample_point(int64_t id, int resolution, double extent_m, bool box) 
        {"tap_residual", 1.1e-7},
        {"contract", 0},
        {"rounding_excess", 0.4},
+       {"map_excess", 0.001},
        {"map_ms", 1.1 + 2.4e-6 * resolution * resolution},
        {"lookup_ms", box ? 21.4 : 6.1}};
   m["shadow_ms"] = m["map_ms"] + m["lookup_ms"];
