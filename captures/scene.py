@@ -164,7 +164,7 @@ def casters(camera, maps, vertices, capture, say, which='union'):
             elif has_holes:
                 holed.append(draw.event)
     if holed:
-        say(f'{"draws" if len(holed) > 1 else "draw"} {", ".join(map(str, holed))} may drop fragments, and no texture explains which: solid casters '
+        say(f'{"draws" if len(holed) > 1 else "draw"} {", ".join(map(str, dict.fromkeys(holed)))} may drop fragments, and no texture explains which: solid casters '
             'here, so the shadows through their holes are not to be trusted')
     return kept
 
