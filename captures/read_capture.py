@@ -200,10 +200,11 @@ class Reader:
     def not_in(self, group, parts):
         """Names of the draws of the picture that no map's pass draws, and whose places lie behind nothing in the maps that see them."""
         drawn = {d.event for m in group for d in m.pairs.values()}
-        weights = np.random.default_rng(0).dirichlet((1, 1, 1), 8)
+        seeds = np.random.default_rng(0)
         for part in parts:
             if part.role != 'camera' or part.draw.event in drawn:
                 continue
+            weights = seeds.dirichlet((1, 1, 1), max(8, 800 // len(part.triangles)))
             places = np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3)
             places = places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)]
             farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
