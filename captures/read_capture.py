@@ -195,7 +195,7 @@ class Reader:
                 + f', which leaves {100 * found.misses:.2f}% unexplained'
                 + (f', AND {100 * found.wrong:.2f}% ARE WRONG: they do not follow from the map at their own places' if found.wrong > UNEXPLAINED else '')
                 + (', after sRGB is decoded' if found.decoded else '')
-                + ('; a bias below 0 cannot be handed over: judged by place' if found.constant < 0 else ''))
+                + ('; A BIAS BELOW 0: its sign is wrong, or another value is compared; judged by place' if found.constant < 0 else ''))
 
     def not_in(self, group, parts):
         """Names of the draws of the picture that no map's pass draws, and whose places lie behind nothing in the maps that see them."""

@@ -43,7 +43,7 @@ FEATURES = {"sun": [1], "spot": [1], "point": [6], "cascades-atlas": [3], "casca
 # The fault, and what reader or verdict say of it, which they must not say of any program without one.
 FAULTS = {"no-model": "the lookup lacks their model matrix", "stale": "MAP AND LOOKUP DIFFER.*another frame", "half": "128 x 128 fills a part",
           "culled": "not in the map although in the picture: draw \\d+$", "sides": "without front faces", "gequal": "light and shadow are exchanged",
-          "component": "AND [\\d.]+% ARE WRONG", "small": "frame_acne +[1-9]\\d\\.", "large": "peter_panning +0\\.[1-9]",
+          "component": "A BIAS BELOW 0", "small": "frame_acne +[1-9]\\d\\.", "large": "peter_panning +0\\.[1-9]",
           "other-map": "has no effect on the picture", "aspect": "MAP AND LOOKUP DIFFER.* 1\\.7778 X"}
 FAULTS |= {f"{fault} {feature}": FAULTS[fault] for fault, feature in [("stale", "spot"), ("culled", "point"), ("culled", "cascades-array"),
                                                                       ("no-model", "shaded")]}
