@@ -75,7 +75,7 @@ def main():
     parser.add_argument('out')
     parser.add_argument('--light', type=int, default=0, help='only the light of this number, from 1')
     parser.add_argument('--casters', choices=('union', 'camera', 'map'), default='union')
-    parser.add_argument('--filter', choices=('none', 'hardware', 'box 3', 'box 5', 'box 7'), help='of the lookup; without it the one that fits')
+    parser.add_argument('--filter', choices=('none', 'hardware', 'box3', 'box5', 'box7'), help='of the lookup; without it the one that fits')
     parser.add_argument('--bias', type=float, help='of the lookup, constant, in window depth; without it the one that fits')
     parser.add_argument('--inside', action='store_true', help=argparse.SUPPRESS)
     options = parser.parse_args()

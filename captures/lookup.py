@@ -11,9 +11,9 @@ from solve import fit
 FILTERS = {  # settings of Noonmark: taps in texels and whether each blends four texels
     'none': ({}, [(0, 0)], False),
     'hardware': ({'filter.kind': 'hardware'}, [(0, 0)], True),
-    'box 3': ({'filter.kind': 'box', 'filter.size': '3'}, [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)], False),
-    'box 5': ({'filter.kind': 'box', 'filter.size': '5'}, [(i, j) for i in range(-2, 3) for j in range(-2, 3)], False),
-    'box 7': ({'filter.kind': 'box', 'filter.size': '7'}, [(i, j) for i in range(-3, 4) for j in range(-3, 4)], False),
+    'box3': ({'filter.kind': 'box', 'filter.size': '3'}, [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)], False),
+    'box5': ({'filter.kind': 'box', 'filter.size': '5'}, [(i, j) for i in range(-2, 3) for j in range(-2, 3)], False),
+    'box7': ({'filter.kind': 'box', 'filter.size': '7'}, [(i, j) for i in range(-3, 4) for j in range(-3, 4)], False),
 }
 ROUNDING = 1e-5  # of window depth: a smaller bias is what a shader's floats and the map's steps do by themselves
 MOST_RECEIVERS = 40000  # for the fit; evenly over the picture

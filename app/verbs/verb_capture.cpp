@@ -38,7 +38,7 @@ void add_capture_options(CLI::App& verb, CaptureArguments& arguments) {
       ->check(one_of(casters))
       ->type_name(joined(casters))
       ->default_str(casters.front());
-  const std::vector<std::string> filters = {"none", "hardware", "box 3", "box 5", "box 7"};
+  const std::vector<std::string> filters = {"none", "hardware", "box3", "box5", "box7"};
   verb.add_option("--filter", arguments.filter, "Of a capture: the filter of the lookup; without it the one that fits")
       ->check(one_of(filters))
       ->type_name(joined(filters));
