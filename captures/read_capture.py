@@ -55,12 +55,12 @@ class Reader:
                 f, u = m.drawn.draws[0].polygon_offset
                 self.say(f'light {n}, {solve.light_of(group)["kind"]}: map {c.describe(m.drawn.target)} "{c.names.get(m.drawn.target[0], "")}", '
                          f'{m.drawn.name}, {len(m.pairs)} of {len(m.drawn.draws)} draws are in the picture too, residual '
-                         f'{m.residual[1]:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
+                         f'{m.residual:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
                          + ('' if m.cull == 'none' else f', without {m.cull} faces by their winding') + self.unfilled(m))
 
     def unfilled(self, m):
         """Of a map that is drawn into a part of a texture into which nothing else is drawn."""
-        t, (x, y, w, h) = self.capture.textures[m.drawn.target[0]], m.drawn.viewport
+        t, (_, _, w, h) = self.capture.textures[m.drawn.target[0]], m.drawn.viewport
         alone = all(p is m.drawn or m.drawn.target not in (p.depth, *p.outputs) for p in self.passes)
         return f'; its viewport {w:.0f} x {h:.0f} fills a part of the texture, and nothing fills the rest: an atlas, or a forgotten viewport' if alone and w * h < t.width * t.height else ''
 

@@ -111,7 +111,7 @@ def among(rows, known, near):
 def casters(camera, maps, vertices, capture, say, which='union'):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
     to_camera = np.linalg.inv(camera.camera.clip)
-    a, b = camera.camera.clip[2], camera.camera.clip[3]
+    a = camera.camera.clip[2]
     parts = []
     for draw in camera.draws if which != 'map' else []:
         if not draw.writes_depth:

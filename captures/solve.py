@@ -12,6 +12,7 @@ from replay import Refusal
 
 ON_MATRIX = 2e-3  # of the clip unit: vertices of the same draw lie within 1e-5, another draw's are off by far more
 SAME_LIGHT = 1e-3
+ON_LINE = 0.3  # of a pass's vertices, on the depths of one camera: the others are skies and quads
 
 
 @dataclasses.dataclass
@@ -44,7 +45,6 @@ class Camera:
     clip: np.ndarray  # 4 x 4: clip from the camera's axes
     orthographic: bool
     draws: int  # rigid draws that agree
-    on_line: float  # share of the vertices that lie on its depths
 
 
 @dataclasses.dataclass
@@ -53,7 +53,7 @@ class Map:
     clip: np.ndarray  # 4 x 4: the light's clip space from the camera's axes
     light: dict  # frame.json's light
     pairs: dict  # event of the map's draw -> draw of the camera's pass
-    residual: tuple  # median, 99 in 100; clip units
+    residual: float  # 99 in 100 vertices are nearer to the matrix, in clip units
     depth_off: tuple  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
     square: float  # cosine of its axes
     depths: np.ndarray = None  # as captured; rows start at the bottom
@@ -154,11 +154,9 @@ def camera_of(capture, drawn, vertices):
         return None
     clip = np.concatenate([few(c) for c in clips])
     flat_w = np.ptp(clip[:, 3]) < 1e-5 * np.abs(clip[:, 3]).max()
-    share = 1.0
     if not flat_w:
         a, b = robust_line(clip[:, 3], clip[:, 2])
-        share = float((np.abs(clip[:, 2] - a * clip[:, 3] - b) < 1e-4 * np.abs(clip[:, 3])).mean())
-        if share < 0.3:
+        if (np.abs(clip[:, 2] - a * clip[:, 3] - b) < 1e-4 * np.abs(clip[:, 3])).mean() < ON_LINE:
             return None
     found = []
     for draw in sorted(drawn.draws, key=lambda d: -d.count)[:60]:
@@ -197,8 +195,8 @@ def camera_of(capture, drawn, vertices):
     if flat_w:
         # Lengths are in units of the depth: one unit of window depth is one unit, so the scale is free; the axes are not.
         toward = -1.0 if drawn.draws[0].reversed else 1.0
-        return Camera(np.array([[fx, 0, 0, 0], [0, fy, 0, 0], [0, 0, -toward, 0], [0, 0, 0, 1.0]]), True, len(agree), share)
-    return Camera(np.array([[fx, 0, -cx, 0], [0, fy, -cy, 0], [0, 0, -a, b], [0, 0, -1.0, 0]]), False, len(agree), share)
+        return Camera(np.array([[fx, 0, 0, 0], [0, fy, 0, 0], [0, 0, -toward, 0], [0, 0, 0, 1.0]]), True, len(agree))
+    return Camera(np.array([[fx, 0, -cx, 0], [0, fy, -cy, 0], [0, 0, -a, b], [0, 0, -1.0, 0]]), False, len(agree))
 
 
 # ---- one pass against another
@@ -288,7 +286,7 @@ def map_of(light, camera, vertices):
     axes = [v / np.linalg.norm(v) for v in (clip[0, :3], clip[1, :3], along)]
     square = max(abs(axes[0] @ axes[1]), abs(axes[0] @ axes[2]), abs(axes[1] @ axes[2]))
     e = off(m, c, l)
-    return Map(light, clip, found, pairs, (float(np.median(e)), float(np.percentile(e, 99))),
+    return Map(light, clip, found, pairs, float(np.percentile(e, 99)),
                tuple(np.percentile(rest, [1, 50, 99]).tolist()), float(square))
 
 
