@@ -24,10 +24,10 @@
 #include "base/image.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
-#include "technique/cascades.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
 #include "technique/map_depths.h"
+#include "technique/point_maps.h"
 #include "technique/settings.h"
 #include "technique/technique.h"
 
@@ -173,7 +173,7 @@ class Renderer {
   double time_moments(const ShadowMap& map, const Technique& technique);
 
   // What the lookup chooses for each receiver (shaders/cascade/choice.glsl). technique: of any of the cascades.
-  ChosenCascades choose_cascades(const Technique& technique);
+  MapChoice choose_maps(const Technique& technique);
 
   // The numbers that lookup computes before it compares. They do not depend on the contents of the map. Of the bias,
   // they depend only on the parts that move the lookup.

@@ -128,7 +128,7 @@ void Renderer::Impl::set_pattern(Program& program, const TapPattern& pattern) {
 }
 
 Image<float> Renderer::lookup(const ShadowMap& map, const Technique& technique, double* time_ms) {
-  return result_in_map(lookup_maps(map, {&technique, 1}, time_ms), nullptr, 0);
+  return result_in_map(lookup_maps(map, {&technique, 1}, time_ms), only_map, 0);
 }
 
 MapResults Renderer::lookup_maps(const ShadowMap& map, std::span<const Technique> techniques, double* time_ms) {

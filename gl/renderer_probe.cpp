@@ -122,11 +122,11 @@ LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
   return probe;
 }
 
-ChosenCascades Renderer::choose_cascades(const Technique& technique) {
+MapChoice Renderer::choose_maps(const Technique& technique) {
   Impl& r = *impl_;
   r.context->make_current();
-  if (!technique.cascade) throw std::logic_error("choose_cascades: a technique without cascades");
-  if (!r.position_image.texture) throw std::logic_error("load_receivers comes before choose_cascades");
+  if (!technique.cascade) return only_map;
+  if (!r.position_image.texture) throw std::logic_error("load_receivers comes before choose_maps");
   Program& program =
       r.programs.get({"shaders/screen.vert", "shaders/choose_cascade.frag"}, cascade_slots(r.programs, technique));
   set_cascade_uniforms(program, *technique.cascade);
@@ -139,8 +139,8 @@ ChosenCascades Renderer::choose_cascades(const Technique& technique) {
   r.draw_screen(program);
   r.detach(1);
   const Image<glm::vec4> read = read_back<glm::vec4>(target, GL_RGBA, GL_FLOAT);
-  r.context->check("choose_cascades");
-  ChosenCascades chosen{Image<uint8_t>(width, height, no_cascade), {}, Image<uint8_t>(width, height, 0)};
+  r.context->check("choose_maps");
+  MapChoice chosen{Image<uint8_t>(width, height, no_map), {}, Image<uint8_t>(width, height, 0)};
   if (technique.cascade->blend > 0) chosen.next = Image<float>(width, height, 0);
   for (size_t i = 0; i < read.size(); ++i) {
     if (!(read[i].x >= 0)) continue;

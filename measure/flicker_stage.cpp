@@ -7,7 +7,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/library.h"
-#include "technique/cascades.h"
+#include "technique/point_maps.h"
 
 namespace noonmark {
 namespace {
@@ -92,14 +92,15 @@ Flicker trace_flicker(const FlickerInput& in) {
   const int width = receivers.width(), height = receivers.height();
   const Settings& settings = in.techniques.front().settings;
   const Settings next = next_frame(settings);
+  const bool several = in.techniques.size() > 1;
   std::optional<Scene> moved;
   if (settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, next.scene);
   const Scene& scene = moved ? *moved : *in.loaded.scene;
   const Camera camera = effective_camera(scene, next.view);
   std::optional<ViewSlice> visible;  // in the next frame's picture
-  if (in.cascades && settings.cascades.depths == CascadeDepths::visible)
+  if (several && settings.cascades.depths == CascadeDepths::visible)
     visible = visible_depths(next, in.stages.take_view(in.renderer, scene, next.view).receivers, camera);
-  const std::vector<Technique> next_techniques = cascades_of(scene, next, visible);
+  const std::vector<Technique> next_techniques = techniques_of(scene, next, visible);
   const Technique& next_technique = next_techniques.front();
   const LightFrame& next_light = next_technique.frame;
 
@@ -117,18 +118,14 @@ Flicker trace_flicker(const FlickerInput& in) {
   const double reach = reach_of_taps(next_technique.taps);
   Image<uint32_t> pixels(width, height, 0);
   // Whether each map that has a part in the receiver's result holds it.
-  const auto all_hold = [&](std::span<const Technique> techniques, const ChosenCascades* cascades, size_t i) {
+  const auto all_hold = [&](std::span<const Technique> techniques, const MapChoice& choice, size_t i) {
     const glm::dvec3 place(receivers.position[i]);
     for (size_t k = 0; k < techniques.size(); ++k)
-      if ((!cascades || cascades->share(i, static_cast<int>(k)) > 0) && !holds(techniques[k].frame, place, reach))
-        return false;
+      if (choice.share(i, static_cast<int>(k)) > 0 && !holds(techniques[k].frame, place, reach)) return false;
     return true;
   };
-  std::optional<ChosenCascades> next_cascades;  // as the next frame's camera chooses them
-  if (in.cascades) {
-    in.renderer.load_receivers(receivers, camera.eye_m);
-    next_cascades = in.renderer.choose_cascades(next_technique);
-  }
+  if (several) in.renderer.load_receivers(receivers, camera.eye_m);
+  const MapChoice next_choice = in.renderer.choose_maps(next_technique);  // as the next frame's camera chooses
   for (size_t i = 0; i < pixels.size(); ++i) {
     pixels[i] = static_cast<uint32_t>(i);
     if (!before.facing[i] || before.ambiguous[i]) continue;
@@ -154,16 +151,14 @@ Flicker trace_flicker(const FlickerInput& in) {
       continue;
     }
     points.counted[i] = 1;
-    const ChosenCascades* const chosen = next_cascades ? &*next_cascades : nullptr;
-    points.held[i] = all_hold(in.techniques, in.cascades, i) && all_hold(in.techniques, chosen, i) &&
-                     all_hold(next_techniques, chosen, i);
+    points.held[i] = all_hold(in.techniques, in.choice, i) && all_hold(in.techniques, next_choice, i) &&
+                     all_hold(next_techniques, next_choice, i);
   }
 
-  // The lookups, each of which differs from the one before in one respect. Cascades are the next frame's choice.
+  // The lookups, each of which differs from the one before in one respect. Of several maps by the next frame's choice.
   const auto shown = [&](std::span<const Technique> techniques) {
     const MapStage map = in.stages.draw_maps(in.renderer, scene, techniques);
-    return mixed_results(in.stages.look_up(in.renderer, *map.map, techniques),
-                         next_cascades ? &*next_cascades : nullptr);
+    return mixed_results(in.stages.look_up(in.renderer, *map.map, techniques), next_choice);
   };
   const auto same_maps = [](std::span<const Technique> a, std::span<const Technique> b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -176,7 +171,7 @@ Flicker trace_flicker(const FlickerInput& in) {
     same_depths[k].frame.near_m = now.near_m;
     same_depths[k].frame.far_m = now.far_m;
   }
-  if (in.cascades) {  // the next frame's choice, with its eye, in this frame's maps
+  if (several) {  // the next frame's choice, with its eye, in this frame's maps
     std::vector<Technique> chosen(in.techniques.begin(), in.techniques.end());
     for (size_t k = 0; k < chosen.size(); ++k) chosen[k].cascade = next_techniques[k].cascade;
     choice = shown(chosen);
@@ -190,7 +185,7 @@ Flicker trace_flicker(const FlickerInput& in) {
     in.renderer.load_receivers(receivers, camera.eye_m, &pixels);
     last = shown(next_techniques);
   }
-  if (turns || in.cascades) in.renderer.load_receivers(receivers, in.view.camera.eye_m);
+  if (turns || several) in.renderer.load_receivers(receivers, in.view.camera.eye_m);
   return flicker_of({in.r5, before_grid, grid, depth, last}, std::move(points));
 }
 

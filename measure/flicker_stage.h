@@ -1,6 +1,6 @@
 // The stage of a measurement that compares a frame of a motion ([motion]) with the next one.
 //
-//   if (settings.view.motion.any()) Flicker flicker = trace_flicker({stages, renderer, loaded, view, truth, techniques, nullptr, r5});
+//   if (settings.view.motion.any()) Flicker flicker = trace_flicker({stages, renderer, loaded, view, truth, techniques, choice, r5});
 #pragma once
 #include <span>
 
@@ -17,8 +17,8 @@ struct FlickerInput {
   const SceneStage& loaded;
   const ViewStage& view;
   const TruthStage& truth;                // of all receivers
-  std::span<const Technique> techniques;  // one, or one for each cascade
-  const ChosenCascades* cascades;         // of this frame; null with one map
+  std::span<const Technique> techniques;  // of each map
+  const MapChoice& choice;                // of this frame
   const Image<float>& r5;
 };
 

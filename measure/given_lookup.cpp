@@ -91,7 +91,7 @@ void GivenLookup::Impl::allow_rounding(const GivenPoint& point, GivenClimb& made
                                     to.z * (off_m + step_m) * frame.forward);
     }
     renderer.load_receivers(moved, point.eye_m);
-    const Image<float> seen = mixed_results(stages.look_up(renderer, map, {&technique, 1}), nullptr);
+    const Image<float> seen = mixed_results(stages.look_up(renderer, map, {&technique, 1}), only_map);
     for (size_t i = 0; i < seen.size(); ++i) {
       least[i] = std::min(least[i], seen[i]);
       most[i] = std::max(most[i], seen[i]);
@@ -187,7 +187,7 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
     const Technique declaring(with, technique.frame);
     const LookupStage again = impl_->stages.prepare_lookup(renderer, impl_->tracer, view, truth, declaring);
     const gl::ShadowMap moved = renderer.upload_map(again.exact_depth, with.map);
-    const Image<float> r4 = mixed_results(impl_->stages.look_up(renderer, moved, {&declaring, 1}), nullptr);
+    const Image<float> r4 = mixed_results(impl_->stages.look_up(renderer, moved, {&declaring, 1}), only_map);
     double differ = 0, counted = 0;
     for (size_t i = 0; i < r4.size(); ++i)
       if (is_counted(made.ladder, i)) {
@@ -212,9 +212,7 @@ Image<float> GivenLookup::visibility(const ReceiverImage& receivers, glm::dvec3 
   renderer.load_receivers(receivers, eye_m);
   const MapStage map = impl_->stages.draw_maps(renderer, impl_->scene, techniques);
   const MapResults results = impl_->stages.look_up(renderer, *map.map, techniques);
-  if (!techniques.front().cascade) return mixed_results(results, nullptr);
-  const ChosenCascades chosen = renderer.choose_cascades(techniques.front());
-  return mixed_results(results, &chosen);
+  return mixed_results(results, renderer.choose_maps(techniques.front()));
 }
 
 }  // namespace noonmark

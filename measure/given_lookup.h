@@ -5,7 +5,7 @@
 //   GivenLookup lookup(scene, tracer);
 //   GivenClimb climb = lookup.climb({receivers, eye, truth, technique, depth, {.name = "frame", .picture = visibility, ...}});
 //   climb.metrics.at("acne");
-//   Image<float> ours = lookup.visibility(receivers, eye, cascades_of(scene, settings));
+//   Image<float> ours = lookup.visibility(receivers, eye, techniques_of(scene, settings));
 #pragma once
 #include <map>
 #include <memory>
@@ -72,7 +72,7 @@ class GivenLookup {
   // Throws Error(defect) if the measurement contradicts itself (compare/judge/soundness.h).
   GivenClimb climb(const GivenPoint& point);
 
-  // Of each receiver, 0 dark to 1 lit, by the map that OpenGL draws for the technique, or by those of cascades (cascades_of()).
+  // Of each receiver, 0 dark to 1 lit, by the map that OpenGL draws for the technique, or by those of cascades (techniques_of()).
   // Without a meaning where there is no receiver.
   Image<float> visibility(const ReceiverImage& receivers, glm::dvec3 eye_m, std::span<const Technique> techniques);
 

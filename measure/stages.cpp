@@ -192,7 +192,7 @@ MapResults Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, s
 
 ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
                               std::span<const AskedMap> asked, std::span<const Technique> techniques,
-                              const ChosenCascades* chosen, bool keep_fetched, Checks checks) {
+                              const MapChoice& choice, bool keep_fetched, Checks checks) {
   const bool checked = checks == Checks::all;
   ShownMaps shown;
   shown.checks = checks;
@@ -206,7 +206,7 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
       MomentEvidence moments = renderer.read_moments(of, techniques, *depths.texels, k);
       if (checked)
         shown.moments[k] += check_moments(evidence_of(asked[k].lookup, asked[k].truth, nothing, techniques[k]), depths,
-                                          moments, result_in_map(results, chosen, static_cast<int>(k)));
+                                          moments, result_in_map(results, choice, static_cast<int>(k)));
       if (kept) shown.fetched.push_back(std::move(moments.fetched));
     }
   };
@@ -237,10 +237,9 @@ ShownMaps Pipeline::show_maps(gl::Renderer& renderer, MapStage& map, std::option
   return shown;
 }
 
-ShownStage ShownMaps::take(const ChosenCascades* chosen, size_t map) {
-  const int cascade = static_cast<int>(map);
+ShownStage ShownMaps::take(const MapChoice& choice, size_t map) {
   const auto result = [&](const MapResults& of) {
-    return of.own.size() ? result_in_map(of, chosen, cascade) : Image<float>();
+    return of.own.size() ? result_in_map(of, choice, static_cast<int>(map)) : Image<float>();
   };
   return {checks,
           result(r5),
@@ -256,8 +255,8 @@ ShownStage Pipeline::show(gl::Renderer& renderer, MapStage& map, LookupStage& lo
                           const Technique& technique) {
   std::optional<gl::ShadowMap> exact_map;
   const AskedMap asked{lookup, truth};
-  ShownMaps shown = show_maps(renderer, map, exact_map, {&asked, 1}, {&technique, 1}, nullptr);
-  return shown.take(nullptr, 0);
+  ShownMaps shown = show_maps(renderer, map, exact_map, {&asked, 1}, {&technique, 1}, only_map);
+  return shown.take(only_map, 0);
 }
 
 Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,

@@ -36,6 +36,7 @@
 #include "gl/renderer.h"
 #include "measure/memory_estimate.h"
 #include "raytrace/tracer.h"
+#include "technique/point_maps.h"
 #include "technique/technique.h"
 
 namespace noonmark {
@@ -60,7 +61,7 @@ struct TruthStage {
 };
 
 struct MapStage {
-  std::optional<gl::ShadowMap> map;  // of cascades the maps of all; none after show(), if one is too large to be kept
+  std::optional<gl::ShadowMap> map;  // all maps of the point; none after show(), if one is too large to be kept
   std::optional<int64_t> used;       // gl::Renderer::used_texels, once they have been counted
 };
 
@@ -112,8 +113,8 @@ struct ShownMaps {
   std::vector<MomentContractCounts> moments;
   std::vector<Image<glm::vec4>> fetched;  // from the drawn maps of moments; empty unless asked for
 
-  // What is shown in one of them, whose depths it takes. chosen: null with one map.
-  ShownStage take(const ChosenCascades* chosen, size_t map);
+  // What is shown in one of them, whose depths it takes.
+  ShownStage take(const MapChoice& choice, size_t map);
 };
 
 // A map with what is asked of it. All of it outlives the call that it is given to.
@@ -171,11 +172,11 @@ class Pipeline {
   // One lookup of all receivers, in all maps. show_maps() calls it for the drawn, the exact and the tie maps.
   virtual MapResults look_up(gl::Renderer& renderer, const gl::ShadowMap& map, std::span<const Technique> techniques);
   // map: has its maps; afterwards they and the exact maps on the device are kept only if they are small. exact_map: those of
-  // an earlier call for the same lookups, or none. chosen: null with one map. keep_fetched: of maps of moments. checks: what
+  // an earlier call for the same lookups, or none. keep_fetched: of maps of moments. checks: what
   // only they read is left out with none, and climb_strips() leaves them out too.
   ShownMaps show_maps(gl::Renderer& renderer, MapStage& map, std::optional<gl::ShadowMap>& exact_map,
-                      std::span<const AskedMap> asked, std::span<const Technique> techniques,
-                      const ChosenCascades* chosen, bool keep_fetched = false, Checks checks = Checks::all);
+                      std::span<const AskedMap> asked, std::span<const Technique> techniques, const MapChoice& choice,
+                      bool keep_fetched = false, Checks checks = Checks::all);
   // The same of one map, whose exact map is not kept.
   ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
                   const Technique& technique);

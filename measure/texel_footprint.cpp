@@ -47,11 +47,11 @@ double pixel_width_m(const CameraFrame& camera, glm::dvec3 p, int height) {
 TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame& camera, const LightFrame& frame,
                                const Image<uint8_t>& facing) {
   const LightFrame* const only = &frame;
-  return texel_footprint(receivers, camera, {&only, 1}, nullptr, facing);
+  return texel_footprint(receivers, camera, {&only, 1}, only_map, facing);
 }
 
 TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame& camera,
-                               std::span<const LightFrame* const> frames, const Image<uint8_t>* cascades,
+                               std::span<const LightFrame* const> frames, const MapChoice& choice,
                                const Image<uint8_t>& facing) {
   const int width = receivers.width(), height = receivers.height();
   const auto none = static_cast<float>(std::numeric_limits<double>::quiet_NaN());
@@ -63,7 +63,7 @@ TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame
       for (int x = 0; x < width; ++x) {
         const size_t i = facing.index(x, y);
         if (!facing[i]) continue;
-        const Grid& grid = grids[cascades ? (*cascades)[i] : 0];
+        const Grid& grid = grids[choice.map_of(i)];
         const glm::dvec3 p(receivers.position[i]), normal(receivers.normal[i]), light = grid.frame.to_light(p);
         std::optional<MapTile> there;
         const MapTile& tile = grid.only ? *grid.only : there.emplace(grid.frame.tile_at(light));

@@ -15,6 +15,7 @@
 #include "scenes/camera_frame.h"
 #include "scenes/receivers.h"
 #include "technique/light_frame.h"
+#include "technique/point_maps.h"
 
 namespace noonmark {
 
@@ -25,9 +26,9 @@ struct TexelFootprint {
 };
 TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame& camera, const LightFrame& frame,
                                const Image<uint8_t>& facing);
-// The same of several maps. cascades: the one that each receiver is looked up in; null: the first.
+// The same of all maps of a point.
 TexelFootprint texel_footprint(const ReceiverImage& receivers, const CameraFrame& camera,
-                               std::span<const LightFrame* const> frames, const Image<uint8_t>* cascades,
+                               std::span<const LightFrame* const> frames, const MapChoice& choice,
                                const Image<uint8_t>& facing);
 
 // undersampled, perspective_aliasing, perspective_aliasing_p95 (compare/results/metrics.cpp); NaN if nothing faces the light.

@@ -8,9 +8,8 @@
 #include "base/address_space.h"
 #include "base/error.h"
 #include "base/threads.h"
-#include "measure/workbench_impl.h"
+#include "measure/bench.h"
 #include "scenes/scene_size.h"
-#include "technique/cascades.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -55,49 +54,49 @@ void require_room_to_start(bool pictures) {
 Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> stages) {
   require_room_to_start(false);
   const AvailableMemory space = free_address_space();  // read before any of it is used
-  impl_ = std::make_unique<Impl>(debug, std::move(shaders), std::move(stages));
-  impl_->space_at_start = space;
+  bench_ = std::make_unique<Bench>(debug, std::move(shaders), std::move(stages));
+  bench_->space_at_start = space;
 }
 Workbench::~Workbench() = default;
 
-const gl::DeviceInfo& Workbench::device() const { return impl_->renderer.info(); }
+const gl::DeviceInfo& Workbench::device() const { return bench_->renderer.info(); }
 
-const Scene& Workbench::scene(const SceneSettings& settings) { return *impl_->load(of_scene(settings)).scene; }
+const Scene& Workbench::scene(const SceneSettings& settings) { return *bench_->load(of_scene(settings)).scene; }
 
 const std::string& Workbench::scene_identity(const SceneSettings& settings) {
-  return impl_->load(of_scene(settings)).identity;
+  return bench_->load(of_scene(settings)).identity;
 }
 
 MemoryEstimate Workbench::memory(const Settings& settings, bool curve, bool pictures) {
-  return impl_->memory(settings, curve, pictures);
+  return bench_->memory(settings, curve, pictures);
 }
 
-MemoryEstimate Workbench::Impl::memory(const Settings& settings, bool curve, bool pictures) {
+MemoryEstimate Bench::memory(const Settings& settings, bool curve, bool pictures) {
   const Asked asked = begin(settings);
   const Scene& scene = *asked.loaded.scene;
   return estimate_memory({settings, asked.technique.frame.kind, scene_size(scene), asked.loaded.open_edges,
                           outside_texels(scene, asked.technique), curve, pictures});
 }
 
-AvailableMemory Workbench::memory_of_program(bool pictures) const { return impl_->memory_of_program(pictures); }
+AvailableMemory Workbench::memory_of_program(bool pictures) const { return bench_->memory_of_program(pictures); }
 
-AvailableMemory Workbench::Impl::memory_of_program(bool pictures) const {
+AvailableMemory Bench::memory_of_program(bool pictures) const {
   return noonmark::memory_of_program(space_at_start, room_to_start(pictures));
 }
 
 PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured,
                               const RowDone& row_done) {
-  const Impl::Asked asked = impl_->begin(settings);
+  const Bench::Asked asked = bench_->begin(settings);
   const SceneStage& loaded = asked.loaded;
-  const auto [view, truth] = impl_->look(asked);
+  const auto [view, truth] = bench_->look(asked);
   if (measured) return rejudged_phase(*measured, *loaded.scene, view, truth, settings, options);
-  return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options, row_done);
+  return measure_phase(bench_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options, row_done);
 }
 
 std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<const Settings> points) {
-  const Impl::Asked asked = impl_->begin(picture);
+  const Bench::Asked asked = bench_->begin(picture);
   const SceneStage& loaded = asked.loaded;
-  const auto [view, truth] = impl_->look(asked);
+  const auto [view, truth] = bench_->look(asked);
   // Each place reads medians over the receivers, and the points of a sweep share most of their maps.
   std::map<std::string, PhasePlace> of_one_unit;
   std::vector<PhasePlace> places;
@@ -116,8 +115,8 @@ std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<con
 }
 
 std::optional<Workbench::Hider> Workbench::hider(const Settings& settings) {
-  const Impl::Asked asked = impl_->begin(settings);
-  const auto [view, truth] = impl_->look(asked);
+  const Bench::Asked asked = bench_->begin(settings);
+  const auto [view, truth] = bench_->look(asked);
   const Scene& scene = *asked.loaded.scene;
   Image<uint8_t> hidden = truth.receivers.facing;
   for (size_t i = 0; i < hidden.size(); ++i) hidden[i] = hidden[i] && !truth.receivers.lit[i];
@@ -137,13 +136,13 @@ std::optional<Workbench::Hider> Workbench::hider(const Settings& settings) {
 }
 
 PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup) {
-  Impl& b = *impl_;
-  const Impl::Asked asked = b.begin(settings);
+  Bench& b = *bench_;
+  const Bench::Asked asked = b.begin(settings);
   const SceneStage& loaded = asked.loaded;
   const ViewStage& seen = b.see(asked);
   b.forget_maps();  // there may be no memory for another map
   const std::optional<ViewSlice> visible = visible_depths(settings, seen.receivers, seen.camera);
-  std::vector<Technique> techniques = cascades_of(*loaded.scene, settings, visible);
+  std::vector<Technique> techniques = techniques_of(*loaded.scene, settings, visible);
   for (Technique& one : techniques)
     if (one.cascade) one.cascade->seam = 1;  // an engine looks up nothing for comparison
   PassTimes times;

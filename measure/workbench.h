@@ -18,7 +18,7 @@
 #include "compare/results/records.h"
 #include "measure/phase_diagram.h"
 #include "measure/stages.h"
-#include "technique/cascades.h"
+#include "technique/point_maps.h"
 
 namespace noonmark {
 
@@ -43,14 +43,12 @@ struct Measurement {
   const Scene& scene;
   const ReceiverImage& receivers;
   std::vector<MeasuredMap> maps;   // one, or one for each cascade
-  ChosenCascades cascades;         // the map that each receiver is looked up in, and what blends in; empty with one map
+  MapChoice choice;                // in which of them each receiver is looked up
   std::optional<Flicker> flicker;  // from this frame to the next, if the settings have a motion
 
   const MeasuredMap& map() const { return maps.front(); }  // of a point with one map
   // That of the receiver, in a blend band the nearer of its two; the first where there is none.
-  const MeasuredMap& map_of(size_t i) const {
-    return maps[maps.size() > 1 && cascades.of[i] < maps.size() ? cascades.of[i] : 0];
-  }
+  const MeasuredMap& map_of(size_t i) const { return maps[choice.map_of(i) < maps.size() ? choice.map_of(i) : 0]; }
   // Whether the size of a texel and the step of depth are the same at all receivers.
   bool uniform() const { return maps.size() == 1 && technique.frame.uniform(); }
 };
@@ -70,6 +68,8 @@ void require_room_to_start(bool pictures);
 // shaded_rmse, flip, map_used, undersampled and perspective_aliasing. shaded: as searched, with shaded_rmse and flip.
 enum class MetricSet { all, shaded, searched };
 MetricSet metric_set_for(std::string_view metric);  // what is needed to know this one
+
+struct Bench;  // measure/bench.h
 
 class Workbench {
  public:
@@ -133,8 +133,7 @@ class Workbench {
   const std::string& scene_identity(const SceneSettings& settings);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Bench> bench_;
 };
 
 }  // namespace noonmark

@@ -3,8 +3,7 @@
 
 #include "compare/ladder/bias_curves.h"
 #include "compare/ladder/reduction_window.h"
-#include "measure/workbench_impl.h"
-#include "technique/cascades.h"
+#include "measure/bench.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -32,51 +31,51 @@ std::vector<PixelRange> growing_bands(size_t width, size_t height) {
 
 // What a small picture is drawn from: its maps, each with the truth of its receivers. As of the point itself, but nothing that
 // the bench remembers is replaced, because the next point has a picture of full size again.
-struct Workbench::Impl::SmallPicture {
-  SmallPicture(Impl& bench, const SceneStage& loaded, const Settings& settings)
+struct Bench::SmallPicture {
+  SmallPicture(Bench& bench, const SceneStage& loaded, const Settings& settings)
       : seen(bench.stages->take_view(bench.renderer, *loaded.scene, settings.view)),
-        visible(visible_depths(settings, seen.receivers, seen.camera)),
-        techniques(at(*loaded.scene, settings)),
-        all(bench.stages->trace_truth(loaded, seen, techniques.front())) {
+        visible(visible_depths(settings, seen.receivers, seen.camera)) {
+    const std::vector<Technique> techniques = techniques_of(*loaded.scene, settings, visible);
+    all = bench.stages->trace_truth(loaded, seen, techniques.front());
     bench.renderer.load_receivers(seen.receivers, seen.camera.eye_m);
-    if (techniques.size() == 1) {
-      truths.push_back(all);
-    } else {
-      chosen = bench.renderer.choose_cascades(techniques.front());
-      for (size_t k = 0; k < techniques.size(); ++k)
-        truths.push_back(truth_of_cascade(all, *chosen, static_cast<int>(k)));
-    }
+    choice.chosen = bench.renderer.choose_maps(techniques.front());
     std::vector<ScaledMap> scaled;
-    for (size_t k = 0; k < techniques.size(); ++k) scaled.push_back({techniques[k].frame, truths[k].receivers});
+    for (const Technique& technique : techniques) {
+      const auto map = static_cast<int>(truths.size());
+      truths.push_back(choice.chosen.one_map() ? all : truth_of_map(all, choice.chosen, map));
+      scaled.push_back({technique.frame, truths.back().receivers});
+    }
     scale = bias_scale(scaled, seen.receivers, settings.bias.unit);
   }
   // Its maps with other settings of the same view.
-  std::vector<Technique> at(const Scene& scene, const Settings& settings) const {
-    return cascades_of(scene, settings, visible);
+  PointMaps at(const Scene& scene, const Settings& settings) const {
+    PointMaps maps{std::make_shared<const std::vector<Technique>>(techniques_of(scene, settings, visible)), choice, {}};
+    for (const TruthStage& truth : truths) maps.truths.push_back(&truth);
+    return maps;
   }
   ViewStage seen;
   std::optional<ViewSlice> visible;  // of this picture's own pixels
-  std::vector<Technique> techniques;
   TruthStage all;
-  std::optional<ChosenCascades> chosen;  // none with one map
-  std::deque<TruthStage> truths;         // of each map; lookups refer to them
+  ChoiceStage choice;
+  std::deque<TruthStage> truths;  // of each map; lookups refer to them
   BiasScale scale;
 };
 
 // One attempt at a live picture, of the picture's size in the settings. A picture that does not fit may miss receivers.
-LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings& settings) {
+LivePicture Bench::draw_live(const SceneStage& loaded, const Settings& settings) {
   SmallPicture small(*this, loaded, settings);
+  const PointMaps of = small.at(*loaded.scene, settings);
   const BiasPart& varied = *curve_part(settings);
   LivePicture picture = empty_live_picture(small.seen.receivers.width(), small.seen.receivers.height());
-  picture.taps = small.techniques.front().taps.taps;
+  picture.taps = of.techniques().front().taps.taps;
   picture.parameter = "bias." + std::string(varied.name);
   picture.unit = find_setting("bias.unit").get(settings);
   picture.scale = small.scale;
   for (size_t i = 0; i < picture.flags.size(); ++i)
     if (small.seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
   bool fits = true;
-  for (size_t k = 0; k < small.techniques.size() && fits; ++k) {
-    const Technique& technique = small.techniques[k];
+  for (size_t k = 0; k < of.count() && fits; ++k) {
+    const Technique& technique = of.techniques()[k];
     TruthStage& truth = small.truths[k];
     for (size_t i = 0; i < truth.receivers.share.size(); ++i)  // without a blend band each receiver is of one map
       if (truth.receivers.share[i] == 0) truth.receivers.facing[i] = 0;
@@ -97,8 +96,7 @@ LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings&
 constexpr double usual_reduction = 0.1;
 
 // One attempt at a stack of pictures.
-PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Settings& settings,
-                                         const std::vector<double>& marks) {
+PictureStack Bench::draw_stack(const SceneStage& loaded, const Settings& settings, const std::vector<double>& marks) {
   const BiasPart* const part = stacked_part(settings);
   const std::string parameter = part ? "bias." + std::string(part->name) : "lookup.reduction";
   const double as_set = part ? settings.bias[part->name] : settings.lookup["reduction"];
@@ -110,7 +108,7 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
     otherwise = 1 / (scale->texels_per_depth * scale->depth_per_unit);
   }
   KeptMaps kept;
-  kept.each.resize(small.techniques.size());
+  kept.each.resize(small.truths.size());
   std::optional<PictureStack> stack;
   Settings at = settings;
   for (const double value : stack_values(part ? part->most : most_reduction, as_set, marks, otherwise)) {
@@ -118,18 +116,16 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
       at.bias[part->name] = value;
     else
       at.lookup["reduction"] = value;
-    const std::vector<Technique> techniques = small.at(*loaded.scene, at);
-    std::vector<const TruthStage*> truths;
-    for (const TruthStage& truth : small.truths) truths.push_back(&truth);
-    const ChosenCascades* const of_receivers = small.chosen ? &*small.chosen : nullptr;
-    ShownMaps shown = show_maps({loaded, techniques.front(), StageKeys(at)}, small.seen, kept, truths, techniques,
-                                of_receivers, MetricSet::searched, false, Checks::none);
+    const PointMaps of = small.at(*loaded.scene, at);
+    const std::vector<Technique>& techniques = of.techniques();
+    ShownMaps shown = show_maps({loaded, techniques.front(), StageKeys(at)}, small.seen, kept, of, MetricSet::searched,
+                                false, Checks::none);
     std::optional<Ladder> ladder;
     for (size_t k = 0; k < techniques.size(); ++k) {
       const TruthStage& truth = small.truths[k];
       LookupStage& asked = *kept.each[k].lookup.value();
       if (!part && !asked.kept_steps) asked.kept_steps.emplace();  // the pictures differ in the reduction alone
-      const ShownStage one = shown.take(of_receivers, k);
+      const ShownStage one = shown.take(small.choice.chosen, k);
       Climbed climbed = stages->climb_strips(renderer, asked, small.seen, truth, one, techniques[k], nullptr);
       if (!stack) stack = empty_picture_stack(small.seen.receivers, small.all.receivers, asked.probe, parameter);
       if (ladder)
@@ -146,7 +142,7 @@ PictureStack Workbench::Impl::draw_stack(const SceneStage& loaded, const Setting
 }
 
 template <class Draw, class Write>
-auto Workbench::Impl::draw_small(const Settings& settings, const Draw& draw, const Write& write) {
+auto Bench::draw_small(const Settings& settings, const Draw& draw, const Write& write) {
   const SceneStage& loaded = load(settings);
   // The picture needs a map and a lookup of its own. There may be no memory for two of each.
   if (!fits_waiting(memory(settings, false, true), memory_of_program(true))) forget_maps();
@@ -165,16 +161,16 @@ auto Workbench::Impl::draw_small(const Settings& settings, const Draw& draw, con
 std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
   validate(settings);
   if (!why_no_live_picture(settings).empty()) return std::nullopt;
-  return impl_->draw_small(
-      settings, [&](const SceneStage& loaded, const Settings& small) { return impl_->draw_live(loaded, small); },
+  return bench_->draw_small(
+      settings, [&](const SceneStage& loaded, const Settings& small) { return bench_->draw_live(loaded, small); },
       live_file);
 }
 
 PictureStack Workbench::picture_stack(const Settings& settings, const std::vector<double>& marks) {
   validate(settings);
-  return impl_->draw_small(
+  return bench_->draw_small(
       settings,
-      [&](const SceneStage& loaded, const Settings& small) { return impl_->draw_stack(loaded, small, marks); },
+      [&](const SceneStage& loaded, const Settings& small) { return bench_->draw_stack(loaded, small, marks); },
       stack_file);
 }
 

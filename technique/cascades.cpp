@@ -24,18 +24,6 @@ CameraFrame camera_of(const Scene& scene, const Settings& settings) {
 
 }  // namespace
 
-std::optional<ViewSlice> visible_depths(const Settings& settings, const ReceiverImage& receivers,
-                                        const Camera& camera) {
-  if (settings.cascades.count == 1 || settings.cascades.depths == CascadeDepths::planes) return std::nullopt;
-  const CameraFrame frame = make_camera_frame(camera, receivers.width(), receivers.height());
-  DepthSpan seen;
-  for (size_t i = 0; i < receivers.primitive.size(); ++i)
-    if (receivers.primitive[i] != no_primitive) seen.add(frame.in_axes(receivers.position[i]).z);
-  seen.most_m = std::min(seen.most_m, settings.map.reach_m.value_or(seen.most_m));
-  if (!(seen.least_m < seen.most_m)) return std::nullopt;
-  return ViewSlice{seen.least_m, seen.most_m};
-}
-
 std::vector<ViewSlice> view_slices(const Scene& scene, const Settings& settings,
                                    const std::optional<ViewSlice>& visible) {
   const CameraFrame camera = camera_of(scene, settings);
@@ -141,8 +129,8 @@ std::vector<ViewSlice> fitted_slices(const Scene& scene, const Settings& setting
   return fitted;
 }
 
-std::vector<Technique> cascades_of(const Scene& scene, const Settings& settings,
-                                   const std::optional<ViewSlice>& visible) {
+std::vector<Technique> techniques_of(const Scene& scene, const Settings& settings,
+                                     const std::optional<ViewSlice>& visible) {
   Technique whole(scene, settings);
   if (settings.cascades.count == 1) return {whole};
   CascadePlace place;
@@ -187,32 +175,6 @@ CascadeChoice choose_cascade(const CascadePlace& place, glm::dvec3 eye_m, glm::d
     if (at <= 1) return {k, place.blend > 0 ? weight_of_next(place, at) : 0};
   }
   return {place.last(), 0};
-}
-
-Image<float> result_in_map(const MapResults& results, const ChosenCascades* chosen, int cascade) {
-  if (!chosen) {
-    // In one cascade alone a receiver has at most one of both: it is looked up in it as its own, or as the next.
-    Image<float> one = results.own;
-    for (size_t i = 0; i < results.next.size(); ++i) one[i] += results.next[i];
-    return one;
-  }
-  Image<float> one(results.own.width, results.own.height, 0);
-  for (size_t i = 0; i < one.size(); ++i)
-    one[i] = chosen->of[i] == cascade ? results.own[i] : chosen->of[i] + 1 == cascade ? results.next[i] : 0;
-  return one;
-}
-
-Image<float> mixed_results(const MapResults& results, const ChosenCascades* chosen) {
-  Image<float> all = results.own;
-  if (!chosen || !chosen->blends()) return all;
-  for (size_t i = 0; i < all.size(); ++i) {
-    const double later = static_cast<double>(chosen->next[i]);
-    if (!(later > 0)) continue;
-    // In two steps of float, as the maps come one after the other.
-    const auto own = static_cast<float>((1 - later) * static_cast<double>(all[i]));
-    all[i] = static_cast<float>(static_cast<double>(own) + later * static_cast<double>(results.next[i]));
-  }
-  return all;
 }
 
 double choice_excess(const CascadePlace& place, glm::dvec3 eye_m, glm::vec3 position, CascadeChoice made) {

@@ -64,7 +64,7 @@ std::optional<MapPlace> laid_in(const std::string& engine, Workbench& bench, con
       std::find_if(all.begin(), all.end(), [&](const EngineAdvice& one) { return one.engine == engine; });
   if (found == all.end() || !found->emulated) return std::nullopt;
   Settings laid = *found->emulated;
-  if (laid.bias["constant"] == 0 || scale_with_texels(cascades_of(scene, laid))) {
+  if (laid.bias["constant"] == 0 || scale_with_texels(techniques_of(scene, laid))) {
     laid.bias.unit = BiasUnit::texel;
     laid.cascades.bias_scales.clear();
   }

@@ -203,7 +203,7 @@ class Trial {
     if (!promised) return;
     const Image<float> ours =
         GivenLookup(scene, tracer)
-            .visibility(verdict.receivers, effective_camera(scene, shown.view).eye_m, cascades_of(scene, *promised));
+            .visibility(verdict.receivers, effective_camera(scene, shown.view).eye_m, techniques_of(scene, *promised));
     for (size_t i = 0; i < ours.size(); ++i)
       if (verdict.counted[i]) frame.visibility[i] = ours[i];
     view.promise = shares(judge_frame(scene, tracer, frame, rules));

@@ -108,11 +108,10 @@ Image<Color> tinted(const Measurement& m) {
   return paint(m, [&](size_t i) {
     const bool facing = m.ladder.flags[i] & flag_facing;
     const glm::vec3 clay_there(grey(clay(m, i, facing ? m.ladder.shown()[i] : 0)));
-    if (m.cascades.of[i] >= m.maps.size()) return Color(clay_there);
+    if (m.choice.of[i] >= m.maps.size()) return Color(clay_there);
     glm::vec3 tint(0);
     for (size_t k = 0; k < m.maps.size(); ++k)
-      tint +=
-          static_cast<float>(m.cascades.share(i, static_cast<int>(k))) * glm::vec3(cascade_colors[k].color) / 255.0f;
+      tint += static_cast<float>(m.choice.share(i, static_cast<int>(k))) * glm::vec3(cascade_colors[k].color) / 255.0f;
     return Color(glm::mix(clay_there, clay_there * tint, 0.75f) + 0.5f);
   });
 }
@@ -378,8 +377,7 @@ std::vector<PictureRecord> write_debug_pictures(const Measurement& m, const std:
               for (size_t i = 0; i < facing.size(); ++i) facing[i] = (m.ladder.flags[i] & flag_facing) != 0;
               std::vector<const LightFrame*> frames;
               for (const MeasuredMap& map : m.maps) frames.push_back(&map.technique.frame);
-              const TexelFootprint footprint =
-                  texel_footprint(m.receivers, camera, frames, m.maps.size() > 1 ? &m.cascades.of : nullptr, facing);
+              const TexelFootprint footprint = texel_footprint(m.receivers, camera, frames, m.choice, facing);
               return paint(m, [&](size_t i) { return texel_color(footprint.pixels[i]); });
             });
   return files.write();

@@ -221,13 +221,13 @@ std::vector<ImageRecord> write_images(const Measurement& m, const std::string& f
   add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
   for (const Ladder::RungImage& rung : m.ladder.rungs) add(rung.name, rung.lit);
   Image<float> reference = m.map().probe.reference;
-  for (size_t i = 0; i < m.cascades.of.size(); ++i)
+  for (size_t i = 0; i < m.choice.of.size(); ++i)
     if (m.receivers.primitive[i] != no_primitive) reference[i] = m.map_of(i).probe.reference[i];
   add("depth.reference", std::move(reference));
   add("depth.stored", stored_depths(m));
   add("depth.exact", depth_read(m, [](const MeasuredMap& map) -> const MapDepths& { return map.exact; }));
-  if (m.maps.size() > 1) add("cascade", channel_of(m.cascades.of, [](uint8_t c) { return c == no_cascade ? -1 : c; }));
-  if (m.cascades.blends()) add("cascade_next", channel_of(m.cascades.next, [](float share) { return share; }));
+  if (m.maps.size() > 1) add("cascade", channel_of(m.choice.of, [](uint8_t c) { return c == no_map ? -1 : c; }));
+  if (m.choice.blends()) add("cascade_next", channel_of(m.choice.next, [](float share) { return share; }));
   add("cause", channel_of(m.ladder.cause, [](uint8_t c) { return c; }));
   add("flags", channel_of(m.ladder.flags, [](uint8_t f) { return f; }));
   for (size_t c = 1; c < m.ladder.causes.size(); ++c)

@@ -10,6 +10,7 @@
 #include "compare/results/records.h"
 #include "scenes/receivers.h"
 #include "technique/light_frame.h"
+#include "technique/point_maps.h"
 
 namespace noonmark {
 
@@ -24,13 +25,13 @@ struct LookedUpMap {
 struct MeasureInput {
   const Ladder& ladder;
   const ReceiverImage& receivers;
-  std::vector<LookedUpMap> maps;             // one, or one for each cascade
-  const Image<float>& occluder_distance_m;   // read only at the pixels of peter_panning_mask
-  bool casters_moved = false;                // moves_casters(), technique/casters.h
-  std::span<const uint32_t> surfaces = {};   // surfaces_of() (scenes/surfaces.h); empty: all receivers are of one
-  const Image<uint8_t>* cascades = nullptr;  // the map that each receiver is looked up in; null: the only one
+  std::vector<LookedUpMap> maps;            // one or more
+  const Image<float>& occluder_distance_m;  // read only at the pixels of peter_panning_mask
+  bool casters_moved = false;               // moves_casters(), technique/casters.h
+  std::span<const uint32_t> surfaces = {};  // surfaces_of() (scenes/surfaces.h); empty: all receivers are of one
+  const MapChoice& choice = only_map;
 
-  const LookedUpMap& map_of(size_t i) const { return maps[cascades ? (*cascades)[i] : 0]; }
+  const LookedUpMap& map_of(size_t i) const { return maps[choice.map_of(i)]; }
 };
 
 // The largest distance before a receiver, in metres along its light ray, at which Peter Panning can occur. It is the

@@ -18,7 +18,7 @@ double mix(double here, double next, double share) { return (1 - share) * here +
 
 std::vector<Ladder> ladders_apart(MapsApart& apart, const Settings& s) {
   std::vector<Ladder> ladders;
-  for (Technique alone : cascades_of(apart.scene(), s)) {
+  for (Technique alone : techniques_of(apart.scene(), s)) {
     alone.cascade.reset();
     ladders.push_back(apart.climb(alone, apart.truth_of(alone)));
   }
@@ -49,8 +49,8 @@ TEST_P(BlendedCase, IsTheMixOfItsTwoMaps) {
   Seam seam;
   for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
     if (!is_counted(m.ladder, i)) continue;
-    const size_t k = m.cascades.of[i];
-    const double share = m.cascades.next[i];
+    const size_t k = m.choice.of[i];
+    const double share = m.choice.next[i];
     const Ladder &here = ladders[k], &next = ladders[std::min(k + 1, ladders.size() - 1)];
     double worst = 0;
     for (const Ladder* one : {&here, &next})
@@ -70,7 +70,7 @@ TEST_P(BlendedCase, IsTheMixOfItsTwoMaps) {
     ASSERT_EQ(m.ladder.cause[i] != 0, off != 0);
     error += off;
     ++counted;
-    if (!m.cascades.seam[i]) continue;
+    if (!m.choice.seam[i]) continue;
     ++seam.points;
     seam.jump += std::abs(static_cast<double>(next.shown()[i]) - here.shown()[i]);
   }
@@ -89,7 +89,7 @@ TEST_P(BlendedCase, IsTheMixOfItsTwoMaps) {
   // The band costs a second lookup.
   double lookups = 0;
   for (size_t i = 0; i < m.ladder.flags.size(); ++i)
-    if (m.ladder.flags[i] & flag_facing) lookups += m.cascades.next[i] > 0 ? 2 : 1;
+    if (m.ladder.flags[i] & flag_facing) lookups += m.choice.next[i] > 0 ? 2 : 1;
   const FrameCost cost = frame_cost(s, 1, static_cast<int64_t>(metric(m, "map_texels")), static_cast<int64_t>(lookups),
                                     static_cast<int64_t>(m.scene.triangles.size()));
   EXPECT_EQ(metric(m, "texel_work"), static_cast<double>(cost.texel_work));
@@ -122,19 +122,19 @@ TEST(Seams, AreWhatTheNextCascadeWouldShow) {
   EXPECT_EQ(metric(m, "contract"), 0);
   MapsApart apart(s);
   const std::vector<Ladder> ladders = ladders_apart(apart, s);
-  const std::vector<Technique> cascades = cascades_of(apart.scene(), s);
+  const std::vector<Technique> cascades = techniques_of(apart.scene(), s);
   const CascadePlace& place = *cascades.front().cascade;
   std::map<std::string, double> expected;
   double points = 0;
   std::array<double, 4> jumps{}, of_each{};
   for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
-    const size_t k = m.cascades.of[i];
+    const size_t k = m.choice.of[i];
     if (!is_counted(m.ladder, i) || k >= 3) continue;
     const double at =
         place.selection->place_in_double(place, static_cast<int>(k), m.camera.eye_m, m.receivers.position[i]);
     if (std::abs(at - seam_from) < 1e-5) continue;  // float may choose otherwise
-    ASSERT_EQ(m.cascades.seam[i] != 0, at > static_cast<double>(seam_from)) << at;
-    if (!m.cascades.seam[i]) continue;
+    ASSERT_EQ(m.choice.seam[i] != 0, at > static_cast<double>(seam_from)) << at;
+    if (!m.choice.seam[i]) continue;
     ++points;
     ++of_each[k];
     const Ladder &here = ladders[k], &next = ladders[k + 1];
@@ -224,7 +224,7 @@ TEST(BlendedCascades, CountEachCascadeAtItsOwnWorstPlacement) {
     MapsApart apart(s);
     const Placements placements(3);
     double mean = 0, worst = 0, counted = 0;
-    for (const Technique& cascade : cascades_of(apart.scene(), s)) {
+    for (const Technique& cascade : techniques_of(apart.scene(), s)) {
       const int k = cascade.cascade->index;
       double own_worst = 0;
       for (int p = 0; p < placements.count(); ++p) {
@@ -234,7 +234,7 @@ TEST(BlendedCascades, CountEachCascadeAtItsOwnWorstPlacement) {
         double error = 0;
         for (size_t i = 0; i < ladder.flags.size(); ++i) {
           if (!is_counted(ladder, i)) continue;
-          const double share = m.cascades.share(i, k);
+          const double share = m.choice.share(i, k);
           if (p == 0) counted += share;
           error += share * std::abs(static_cast<double>(ladder[Rung::on_exact_map][i]) - ladder.truth()[i]);
         }
@@ -268,14 +268,14 @@ TEST(BlendedCascades, HaveSectionsOfTheMapThatErrs) {
   std::vector<double> shares;
   for (const bool next_errs : {true, false})
     for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
-      const int k = m.cascades.of[i];
-      if (!is_counted(m.ladder, i) || !(m.cascades.next[i] > 0)) continue;
+      const int k = m.choice.of[i];
+      if (!is_counted(m.ladder, i) || !(m.choice.next[i] > 0)) continue;
       const auto errs = [&](int of) { return ladders[static_cast<size_t>(of)].shown()[i] != m.ladder.truth()[i]; };
       if (errs(k + 1) != next_errs || errs(k) == next_errs) continue;
-      const int width = m.cascades.of.width, at = static_cast<int>(i);
+      const int width = m.choice.of.width, at = static_cast<int>(i);
       pixels.emplace_back(at % width, at / width);
       cascades.push_back(next_errs ? k + 1 : k);
-      shares.push_back(m.cascades.share(i, cascades.back()));
+      shares.push_back(m.choice.share(i, cascades.back()));
       break;
     }
   ASSERT_EQ(pixels.size(), 2u);
@@ -302,12 +302,12 @@ TEST(ScaledCascades, HaveTheBiasOfTheirFactor) {
     Settings own = with({{"cascades.bias_scales", "auto"}}, s);
     own.bias["constant"] *= factor;
     own.bias["slope"] *= factor;
-    Technique alone = cascades_of(apart.scene(), own)[k];
+    Technique alone = techniques_of(apart.scene(), own)[k];
     alone.cascade.reset();
     const Ladder ladder = apart.climb(alone, apart.truth_of(alone));
     size_t differ = 0, receivers = 0;
     for (size_t i = 0; i < ladder.flags.size(); ++i) {
-      if (m.cascades.of[i] != k || !is_counted(ladder, i)) continue;
+      if (m.choice.of[i] != k || !is_counted(ladder, i)) continue;
       ++receivers;
       differ += m.ladder.shown()[i] != ladder.shown()[i];
     }

@@ -35,8 +35,8 @@ TEST_P(CascadeCase, EqualsSeparateMapsOverTheSameReceivers) {
   EXPECT_LE(metric(m, "rounding_excess"), 1);
 
   MapsApart apart(s);
-  std::vector<Technique> techniques = cascades_of(apart.scene(), s);
-  ASSERT_EQ(m.cascades.of.pixels, apart.renderer.choose_cascades(techniques[0]).of.pixels);
+  std::vector<Technique> techniques = techniques_of(apart.scene(), s);
+  ASSERT_EQ(m.choice.of.pixels, apart.renderer.choose_maps(techniques[0]).of.pixels);
   std::array<uint64_t, 4> counted{};
   double error = 0;
   for (size_t k = 0; k < techniques.size(); ++k) {
@@ -45,7 +45,7 @@ TEST_P(CascadeCase, EqualsSeparateMapsOverTheSameReceivers) {
     const Ladder ladder = apart.climb(alone, apart.truth_of(alone));
     double own_error = 0;
     for (size_t i = 0; i < ladder.flags.size(); ++i) {
-      if (m.cascades.of[i] != k) continue;
+      if (m.choice.of[i] != k) continue;
       ASSERT_EQ(m.ladder.flags[i], ladder.flags[i]) << k << " " << i;
       for (size_t n = 0; n < ladder.rungs.size(); ++n)
         ASSERT_EQ(m.ladder.rungs[n].lit[i], ladder.rungs[n].lit[i]) << k << " " << ladder.rungs[n].name << " " << i;
@@ -152,10 +152,10 @@ TEST(CascadedPoint, CountsEachCascadeAtItsOwnWorstPlacement) {
     MapsApart apart(s);
     const Placements placements(3);
     double mean = 0, worst = 0, acne_worst = 0, counted = 0;
-    for (const Technique& cascade : cascades_of(apart.scene(), s)) {
+    for (const Technique& cascade : techniques_of(apart.scene(), s)) {
       TruthStage truth = apart.truth_of(cascade);
-      for (size_t i = 0; i < m.cascades.of.size(); ++i)
-        if (m.cascades.of[i] != cascade.cascade->index) truth.receivers.facing[i] = 0;
+      for (size_t i = 0; i < m.choice.of.size(); ++i)
+        if (m.choice.of[i] != cascade.cascade->index) truth.receivers.facing[i] = 0;
       double own_worst = 0, own_acne = 0, receivers = 0;
       for (int p = 0; p < placements.count(); ++p) {
         const Technique moved = cascade.at(placements.frame(cascade.frame, p));
@@ -198,9 +198,9 @@ TEST(CascadedPoint, HasSectionsInTheCascadeOfEachPixel) {
   std::vector<glm::ivec2> pixels;
   std::vector<size_t> cascades;
   for (size_t k = 0; k < m.maps.size(); ++k)
-    for (size_t i = 0; i < m.cascades.of.size(); ++i)
-      if (m.cascades.of[i] == k && is_counted(m.ladder, i)) {
-        pixels.emplace_back(static_cast<int>(i) % m.cascades.of.width, static_cast<int>(i) / m.cascades.of.width);
+    for (size_t i = 0; i < m.choice.of.size(); ++i)
+      if (m.choice.of[i] == k && is_counted(m.ladder, i)) {
+        pixels.emplace_back(static_cast<int>(i) % m.choice.of.width, static_cast<int>(i) / m.choice.of.width);
         cascades.push_back(k);
         break;
       }
@@ -213,7 +213,7 @@ TEST(CascadedPoint, HasSectionsInTheCascadeOfEachPixel) {
   const auto empty = std::find(m.receivers.primitive.pixels.begin(), m.receivers.primitive.pixels.end(), no_primitive);
   ASSERT_NE(empty, m.receivers.primitive.pixels.end());
   const int at = static_cast<int>(empty - m.receivers.primitive.pixels.begin());
-  const glm::ivec2 sky[] = {{at % m.cascades.of.width, at / m.cascades.of.width}};
+  const glm::ivec2 sky[] = {{at % m.choice.of.width, at / m.choice.of.width}};
   EXPECT_THROW(bench.sections(m, sky), Error);
 }
 

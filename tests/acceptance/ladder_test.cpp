@@ -69,7 +69,7 @@ TEST(LookupAtReceivers, IsThePointsOwnPicture) {
     const Measurement m = bench.measure(settings, std::nullopt);
     const raytrace::Tracer tracer(m.scene);
     const Image<float> found =
-        GivenLookup(m.scene, tracer).visibility(m.receivers, m.camera.eye_m, cascades_of(m.scene, settings));
+        GivenLookup(m.scene, tracer).visibility(m.receivers, m.camera.eye_m, techniques_of(m.scene, settings));
     size_t facing = 0;
     for (size_t i = 0; i < found.size(); ++i) {
       if (!(m.ladder.flags[i] & flag_facing)) continue;

@@ -69,7 +69,7 @@ TEST(CascadePlaces, OfAnEngineAreItsOwn) {
       if (advice.engine != names[i]) continue;
       ASSERT_TRUE(advice.emulated) << advice.why_not_emulated;
       const double reach = there.filter == advice.emulated->filter ? 1 : 2;  // Hard reads twice as far as a single tap
-      const std::vector<Technique> asked = cascades_of(scene, there), typed = cascades_of(scene, *advice.emulated);
+      const std::vector<Technique> asked = techniques_of(scene, there), typed = techniques_of(scene, *advice.emulated);
       for (size_t k = 0; k < typed.size(); ++k) {
         EXPECT_NEAR(typed[k].frame.extent_m / asked[k].frame.extent_m, 1, 0.02) << k;
         const auto metres = [&](const Technique& one) {

@@ -71,7 +71,7 @@ double corner_radius(const ViewSlice& s) { return std::hypot((s.end_m - s.begin_
 
 struct Slices {
   explicit Slices(const Settings& settings) : scene(make_scene(settings.scene)) {
-    for (const Technique& one : cascades_of(scene, settings)) texel_m.push_back(one.frame.extent_m / resolution);
+    for (const Technique& one : techniques_of(scene, settings)) texel_m.push_back(one.frame.extent_m / resolution);
     slices = view_slices(scene, settings);
   }
   // The bias that is needed where the engine's texels are this wide: never less than the recommended one.
@@ -141,7 +141,7 @@ TEST(EngineCascades, BabylonsBiasIsEnoughInEach) {
   laid.cascades.radius_round_m = 0.0625;
   double least = 1e9;
   for (size_t k = 0; k < 4; ++k) {
-    const LightFrame frame = cascades_of(known.scene, laid)[k].frame;
+    const LightFrame frame = techniques_of(known.scene, laid)[k].frame;
     const double radius = std::ceil(corner_radius(known.slices[k]) * 16) / 16;
     expect_written(frame.extent_m, 2 * radius);
     const double given = typed(found, "shadowGenerator.bias = ") * (frame.far_m - frame.near_m);
@@ -297,7 +297,7 @@ std::vector<double> emulated_m(const EngineAdvice& found, const Scene& scene) {
   EXPECT_TRUE(found.emulated) << found.engine << ": " << found.why_not_emulated;
   if (!found.emulated) return {};
   std::vector<double> metres;
-  for (const Technique& one : cascades_of(scene, *found.emulated)) {
+  for (const Technique& one : techniques_of(scene, *found.emulated)) {
     const BiasSettings& bias = one.settings.bias;
     const double unit = bias.unit == BiasUnit::depth ? one.frame.far_m - one.frame.near_m : 1;
     EXPECT_NE(bias.unit, BiasUnit::texel);
@@ -316,7 +316,7 @@ TEST(EngineCascades, TheEmulationHasTheTypedBias) {
                                const std::function<double(const ViewSlice&)>& width) {
     const std::vector<double> has = emulated_m(found, known.scene);
     ASSERT_EQ(has.size(), 4u);
-    const std::vector<Technique> cascades = cascades_of(known.scene, *found.emulated);
+    const std::vector<Technique> cascades = techniques_of(known.scene, *found.emulated);
     for (size_t k = 0; k < 4; ++k) {
       SCOPED_TRACE(found.engine + ", cascade " + std::to_string(k + 1));
       expect_written(has[k], metres(k));
@@ -331,7 +331,7 @@ TEST(EngineCascades, TheEmulationHasTheTypedBias) {
   expect_each(
       three, [&](size_t k) { return -each[k] * depth; }, nullptr);
   const EngineAdvice babylon = of("Babylon.js");
-  const std::vector<Technique> spheres = cascades_of(known.scene, *babylon.emulated);
+  const std::vector<Technique> spheres = techniques_of(known.scene, *babylon.emulated);
   expect_each(
       babylon,
       [&](size_t k) {
@@ -393,7 +393,7 @@ TEST(EngineCascades, LinesServeEveryView) {
     Settings there = as_engine(near_by, settings);
     const double angle = glm::radians(turn);
     there.view.eye_m = glm::dvec3(0, 1.6, 0), there.view.target_m = glm::dvec3(std::sin(angle), 1.6, -std::cos(angle));
-    for (const Technique& one : cascades_of(scene, there)) {
+    for (const Technique& one : techniques_of(scene, there)) {
       double first = 1e9, last = -1e9;  // of the slice, along the light
       const CameraFrame camera = make_camera_frame(effective_camera(scene, there.view), 1280, 720);
       for (const glm::dvec3& corner :

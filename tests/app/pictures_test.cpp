@@ -159,7 +159,7 @@ class PicturesOfCascades : public Pictures {
     }
     far_map = MapDepths(far_exact);
     cascades = Image<uint8_t>(3, 2);
-    cascades.pixels = {0, 0, 1, 1, 0, no_cascade};
+    cascades.pixels = {0, 0, 1, 1, 0, no_map};
   }
   Measurement measurement() const {
     Measurement m = Pictures::measurement();
@@ -171,7 +171,7 @@ class PicturesOfCascades : public Pictures {
       return band;
     };
     m.maps.push_back({{settings, far_frame}, probe, MapDepths(far_stored), far_map, rows});
-    m.cascades.of = cascades;
+    m.choice.of = cascades;
     m.record.cascades = {{0.25, 4, {{"error", 0.125}}, 0.5}, {4, 32, {{"error", nan_value}}, std::nullopt}};
     return m;
   }

@@ -44,7 +44,7 @@ class CascadeMaps : public testing::TestWithParam<CascadeCase> {
   CascadeMaps()
       : settings(street(GetParam().settings)),
         scene(make_scene(settings.scene)),
-        techniques(cascades_of(scene, settings)) {
+        techniques(techniques_of(scene, settings)) {
     renderer.load_scene(scene);
   }
   Renderer::CastersOf casters() const {
@@ -88,14 +88,14 @@ TEST_P(CascadeMaps, AreLookedUpInOnePassAsEachAlone) {
   const Camera camera = effective_camera(scene, settings.view);
   renderer.load_receivers(resolve_receivers(scene, camera, renderer.render_primitives(camera, 200, 120)), camera.eye_m);
   const ShadowMap all = renderer.render_maps(techniques, nullptr, casters());
-  const ChosenCascades chosen = renderer.choose_cascades(techniques.front());
+  const MapChoice chosen = renderer.choose_maps(techniques.front());
   double ms = 0;
   const MapResults results = renderer.lookup_maps(all, techniques, &ms);
   EXPECT_GT(ms, 0);
   size_t receivers = 0, looked_up_next = 0, partly = 0;
   std::vector<Image<float>> by_map;
   for (size_t k = 0; k < techniques.size(); ++k) {
-    const Image<float> one = result_in_map(results, &chosen, static_cast<int>(k));
+    const Image<float> one = result_in_map(results, chosen, static_cast<int>(k));
     const ShadowMap map = renderer.render_map(techniques[k], nullptr, casters());
     EXPECT_TRUE(renderer.lookup(map, techniques[k]).pixels == one.pixels) << "of its receivers, cascade " << k;
     Technique without = techniques[k];
@@ -115,7 +115,7 @@ TEST_P(CascadeMaps, AreLookedUpInOnePassAsEachAlone) {
   EXPECT_GT(looked_up_next, 100u);
   EXPECT_EQ(partly > 50, techniques.front().taps.taps > 1);
   // The mix that is shown.
-  const Image<float> mixed = mixed_results(results, &chosen);
+  const Image<float> mixed = mixed_results(results, chosen);
   for (size_t i = 0; i < mixed.size(); ++i) {
     double sum = 0;
     for (size_t k = 0; k < techniques.size(); ++k)
@@ -193,7 +193,7 @@ TEST_F(GlTest, MapsOfAnotherNumberAreRefused) {
   const Settings settings = street({});
   const Scene scene = make_scene(settings.scene);
   renderer.load_scene(scene);
-  const std::vector<Technique> techniques = cascades_of(scene, settings);
+  const std::vector<Technique> techniques = techniques_of(scene, settings);
   ReceiverImage receivers = resolve_receivers(scene, effective_camera(scene, settings.view), Image<uint32_t>(2, 2, 0));
   renderer.load_receivers(receivers, {});
   const ShadowMap maps = renderer.render_maps(techniques);

@@ -206,14 +206,14 @@ TEST(Cascades, HaveTheMapsOfTheirSlices) {
       Settings s = cascaded(1, fit);
       s.map.snap = snap;
       s.map.reach_m = 40;
-      const std::vector<Technique> one = cascades_of(scene, s);
+      const std::vector<Technique> one = techniques_of(scene, s);
       ASSERT_EQ(one.size(), 1u);
       EXPECT_FALSE(one[0].cascade);
       EXPECT_EQ(one[0].frame, make_light_frame(scene, s));
 
       Settings four = s;
       four.cascades.count = 4;
-      const std::vector<Technique> cascades = cascades_of(scene, four);
+      const std::vector<Technique> cascades = techniques_of(scene, four);
       ASSERT_EQ(cascades.size(), 4u);
       const std::vector<ViewSlice> slices = view_slices(scene, four);
       std::mt19937 random(63);
@@ -263,7 +263,8 @@ TEST(Cascades, SayWhichSliceIsEmpty) {
                 "laid over the whole scene"),
             std::string::npos)
       << notes();
-  EXPECT_EQ(cascades_of(scene, s)[0].frame.extent_m, cascades_of(scene, s)[2].frame.extent_m) << "of the whole scene";
+  EXPECT_EQ(techniques_of(scene, s)[0].frame.extent_m, techniques_of(scene, s)[2].frame.extent_m)
+      << "of the whole scene";
   s.cascades.bounds_m = {10, 65};
   EXPECT_NE(notes().find("cascade 3 (65 to 70 m), so its map is laid"), std::string::npos) << notes();
   s.cascades.bounds_m = {10, 30};
@@ -469,7 +470,7 @@ TEST(Cascades, CoverTheBandInWhichTheyAreBlendedIn) {
     for (const bool cover : {true, false}) {
       s.cascades.blend_of = of;
       s.cascades.cover_band = cover;
-      const std::vector<Technique> cascades = cascades_of(scene, s);
+      const std::vector<Technique> cascades = techniques_of(scene, s);
       for (size_t k = 1; k < slices.size(); ++k) {
         const double begin = slices[k - 1].begin_m, end = slices[k - 1].end_m;
         const double band = of == CascadeBlendOf::slice ? 0.2 * (end - begin) : 0.2 * end;
@@ -496,7 +497,7 @@ TEST(Cascades, BlendOverABandOfTheSquareOfTheEnd) {
   const Scene scene = make_scene(s.scene);
   const double widths[] = {0.25 * 400 / 80, 0.25 * 1600 / 80, 0.25 * 82 * 82 / 80};
   const auto weight = [&](double depth) {
-    const CascadePlace place = *cascades_of(scene, s).front().cascade;
+    const CascadePlace place = *techniques_of(scene, s).front().cascade;
     const glm::dvec3 eye = effective_camera(scene, s.view).eye_m;
     const CascadeChoice chosen = choose_cascade(place, eye, eye + depth * glm::dvec3(place.view_forward));
     return chosen.cascade + chosen.next;
@@ -509,9 +510,9 @@ TEST(Cascades, BlendOverABandOfTheSquareOfTheEnd) {
     EXPECT_NEAR(weight(end + half / 2), k + 0.75, 1e-4);
     EXPECT_EQ(weight(end + half + 0.001), k + 1);
   }
-  const std::vector<Technique> wider = cascades_of(scene, s);
+  const std::vector<Technique> wider = techniques_of(scene, s);
   s.cascades.cover_band = false;
-  const std::vector<Technique> own = cascades_of(scene, s);
+  const std::vector<Technique> own = techniques_of(scene, s);
   for (size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(wider[k].frame.extent_m - own[k].frame.extent_m, widths[k], 1e-9);
     EXPECT_EQ(wider[k].cascade->slices[k].end_m, k < 2 ? s.cascades.bounds_m[k] : 82);
@@ -520,7 +521,7 @@ TEST(Cascades, BlendOverABandOfTheSquareOfTheEnd) {
   s.cascades.cover_band = true;
   s.map.fit = MapFit::sphere;
   const ViewSlice fitted{20 - widths[0] / 2, 40 + widths[1] / 2};
-  EXPECT_EQ(cascades_of(scene, s)[1].frame, make_light_frame(scene, s, &fitted));
+  EXPECT_EQ(techniques_of(scene, s)[1].frame, make_light_frame(scene, s, &fitted));
 }
 
 // A picture of 2 x 2 pixels that shows points at these depths, one of them of no surface.
@@ -546,12 +547,12 @@ TEST(Cascades, ReachFromTheNearestToTheFarthestVisiblePoint) {
   by_hand.map.reach_m = visible->end_m;
   for (const MapFit fit : {MapFit::sphere, MapFit::corner_square, MapFit::view}) {
     s.map.fit = by_hand.map.fit = fit;
-    const std::vector<Technique> found = cascades_of(scene, s, visible), given = cascades_of(scene, by_hand);
+    const std::vector<Technique> found = techniques_of(scene, s, visible), given = techniques_of(scene, by_hand);
     for (size_t k = 0; k < 3; ++k) {
       EXPECT_EQ(found[k].frame, given[k].frame) << k;
       EXPECT_EQ(found[k].cascade->depths, given[k].cascade->depths) << k;
     }
-    EXPECT_NE(found[0].frame, cascades_of(scene, s)[0].frame) << "the planes' are others";
+    EXPECT_NE(found[0].frame, techniques_of(scene, s)[0].frame) << "the planes' are others";
   }
   s.map.reach_m = 20;
   EXPECT_EQ(visible_depths(s, seen, camera)->end_m, 20);
@@ -570,17 +571,17 @@ TEST(Cascades, KeepTheirSizesUnderAZoomWithAnAngleToFitTo) {
       s.view.near_m = 0.5;
       s.map.reach_m = 50;
       s.view.fov_deg = 60;
-      const std::vector<Technique> widest = cascades_of(scene, s);
+      const std::vector<Technique> widest = techniques_of(scene, s);
       if (given) s.map.fit_fov_deg = 60;
       s.view.motion.zoom = 1.3;
       s.view.motion.frame = 2;
-      const std::vector<Technique> zoomed = cascades_of(scene, s);
+      const std::vector<Technique> zoomed = techniques_of(scene, s);
       for (size_t k = 0; k < 3; ++k) EXPECT_EQ(zoomed[k].frame.extent_m == widest[k].frame.extent_m, given) << k;
       if (given) {
         for (size_t k = 0; k < 3; ++k) EXPECT_EQ(zoomed[k].frame, widest[k].frame) << k;
         // A camera that zooms out further is still covered.
         s.view.motion.zoom = 0.8;
-        EXPECT_GT(cascades_of(scene, s)[0].frame.extent_m, widest[0].frame.extent_m);
+        EXPECT_GT(techniques_of(scene, s)[0].frame.extent_m, widest[0].frame.extent_m);
       }
     }
 }
@@ -594,10 +595,10 @@ TEST(Cascades, NeedRoomForTheTapsWhereTheMapIsChosenByIt) {
   s.filter.kind = "box";
   s.filter["size"] = 7;
   s.cascades.count = 3;
-  EXPECT_EQ(cascades_of(make_scene(s.scene), s).size(), 3u);
+  EXPECT_EQ(techniques_of(make_scene(s.scene), s).size(), 3u);
   s.cascades.select = "map";
   try {
-    cascades_of(make_scene(s.scene), s);
+    techniques_of(make_scene(s.scene), s);
     ADD_FAILURE() << "it is not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -613,7 +614,7 @@ TEST(Cascades, MayHaveAResolutionEach) {
   s.map.fit = MapFit::sphere;
   s.cascades.count = 3;
   s.cascades.resolutions = {1024, 512, 256};
-  const std::vector<Technique> cascades = cascades_of(make_scene(s.scene), s);
+  const std::vector<Technique> cascades = techniques_of(make_scene(s.scene), s);
   for (size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(cascades[k].frame.resolution, s.cascades.resolutions[k]);
     EXPECT_EQ(cascades[k].settings.map.resolution, s.cascades.resolutions[k]);
@@ -640,7 +641,7 @@ TEST(Cascades, SettingsThatAreIdleChangeNothing) {
   };
   const auto seen = [&](const Settings& s) {
     std::ostringstream text;
-    const std::vector<Technique> all = cascades_of(scene, s);
+    const std::vector<Technique> all = techniques_of(scene, s);
     const Camera camera = effective_camera(scene, s.view);
     for (const Technique& one : all)
       text << one.frame.extent_m << ' ' << one.frame.centre_m.x << ' ' << one.frame.centre_m.y << ' ' << one.frame.far_m

@@ -344,14 +344,14 @@ double depth_along(const Scene& scene, glm::dvec3 way) {
 EngineAdvice advice_of_cascades(const Engine& engine, const Settings& settings, const Scene& scene,
                                 const SeenDepths& in_views) {
   if (std::string none = no_cascades(engine, settings); !none.empty()) return without_lines(engine, std::move(none));
-  const std::vector<Technique> recommended = cascades_of(scene, settings);
+  const std::vector<Technique> recommended = techniques_of(scene, settings);
   AdvisedCascades cascades;
   for (const ViewSlice& slice : recommended.front().cascade->slices) cascades.ends_m.push_back(slice.end_m);
   cascades.blend = blend_in(*engine.cascades, settings.cascades);
   // The lines set one near plane for all views. One beyond that of another view would cut open what stands close to its camera.
   cascades.near_m = std::min(recommended.front().cascade->slices.front().begin_m, in_views.nearest_m);
   cascades.laid = laid_by(*engine.cascades, settings, cascades.near_m, cascades.ends_m);
-  const std::vector<Technique> laid = cascades_of(scene, cascades.laid);
+  const std::vector<Technique> laid = techniques_of(scene, cascades.laid);
   std::vector<std::vector<AdvisedPart>> parts;
   for (size_t k = 0; k < laid.size(); ++k) {
     const AdvicePlace asked = advice_place(settings, recommended[k].frame, scene);

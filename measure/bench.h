@@ -1,15 +1,16 @@
 // The inside of the workbench, for its own files alone: workbench.cpp (what a bench is asked besides measuring),
-// workbench_measure.cpp (one point) and workbench_pictures.cpp (small pictures for a page).
+// workbench_measure.cpp (one point: its maps, joined), point_record.cpp (the numbers of its ladder), extra.h (what else it was
+// asked for) and workbench_pictures.cpp (small pictures for a page).
 #pragma once
 #include <deque>
 #include <map>
 #include <optional>
 #include <string>
 
-#include "measure/placement_stage.h"
 #include "measure/stage_keys.h"
+#include "measure/stages.h"
 #include "measure/workbench.h"
-#include "technique/cascades.h"
+#include "technique/point_maps.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -39,9 +40,9 @@ class Remembered {
   std::optional<T> value_;
 };
 
-// Of one map: the only one, or that of a cascade.
+// Of one map of a point.
 struct MapStages {
-  Remembered<TruthStage> truth;  // of a cascade: that of its receivers alone, which the lookup's rays refer to
+  Remembered<TruthStage> truth;  // of several maps: that of its receivers alone, which the lookup's rays refer to
   Remembered<LookupStage> lookup;
 };
 
@@ -52,11 +53,28 @@ struct KeptMaps {
   Remembered<std::optional<gl::ShadowMap>> exact;  // on the device, of the lookups' exact depths, once it was looked up
 };
 
-// The truth of the receivers that a cascade has a part in, and of the seam before it; the others do not face the light.
-TruthStage truth_of_cascade(const TruthStage& all, const ChosenCascades& choice, int cascade);
+// The truth of the receivers that one of several maps has a part in, and of the seam before it; the others do not face the light.
+TruthStage truth_of_map(const TruthStage& all, const MapChoice& choice, int map);
 
-// One map of a point: what it shows to its receivers, and why. truth: of these receivers.
-struct OneMap {
+// In which map each receiver is looked up, as the lookup chooses it, and how far that is off (compare/results/metrics.cpp:
+// cascade_choice_excess); 0 of one map.
+struct ChoiceStage {
+  MapChoice chosen;
+  double excess = 0;
+};
+
+// The maps of a point, each with the truth of its receivers.
+struct PointMaps {
+  std::shared_ptr<const std::vector<Technique>> all;
+  const ChoiceStage& choice;
+  std::vector<const TruthStage*> truths;
+
+  const std::vector<Technique>& techniques() const { return *all; }
+  size_t count() const { return all->size(); }
+};
+
+// What one of them shows to its receivers, and why.
+struct ClimbedMap {
   LookupStage& lookup;
   const Technique& technique;
   const TruthStage& truth;
@@ -64,21 +82,16 @@ struct OneMap {
   Climbed climbed;
 };
 
-// The cascades of the receivers as the lookup chooses them, how far that is off (compare/results/metrics.cpp:
-// cascade_choice_excess).
-struct ChoiceStage {
-  ChosenCascades chosen;
-  double excess = 0;
-};
-
-// What a curve says, and of each cascade the least amount of the varied part from which on it has no acne.
+// What a curve says, and of each map the least amount of the varied part from which on it has no acne.
 struct CurveStage {
   BiasCurve curve;
-  std::vector<double> needed_by_cascade;
+  std::vector<double> needed;
 };
 
-struct Workbench::Impl {
-  Impl(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> all)
+struct Extras;
+
+struct Bench {
+  Bench(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> all)
       : renderer(debug, std::move(shaders)), stages(std::move(all)) {}
 
   const SceneStage& load(const Settings& settings) { return load(settings, scene_key_of(settings)); }
@@ -147,7 +160,7 @@ struct Workbench::Impl {
     maps.exact.forget();
   }
 
-  // The map of a point, or those of its cascades.
+  // The drawn maps of a point.
   MapStage& drawn(KeptMaps& of, const Scene& drawn_scene, std::span<const Technique> techniques,
                   const std::string& key) {
     MapStage& stage = of.drawn.get(key, [&] { return stages->draw_maps(renderer, drawn_scene, techniques); });
@@ -155,17 +168,16 @@ struct Workbench::Impl {
     return stage;
   }
 
-  // The cascades of the receivers.
-  const ChoiceStage& choose(const Asked& asked, const ViewStage& seen, const Technique& of_any_cascade);
+  // The maps of the point.
+  PointMaps maps_of(const Asked& asked, const Looked& looked);
 
-  // The truth of the receivers of this map: of a cascade those that it has a part in, and those of the seam before it.
-  const TruthStage& truth_of(const Asked& asked, const Looked& looked, MapStages& kept, const Technique& technique);
+  // The lookups of all maps, and what OpenGL shows in them.
+  ShownMaps show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept, const PointMaps& maps,
+                      MetricSet metrics, bool keep_fetched = false, Checks checks = Checks::all);
 
-  // The lookups of all maps, and what OpenGL shows in them. truths: of each map. of_receivers: null with one map.
-  ShownMaps show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept,
-                      std::span<const TruthStage* const> truths, std::span<const Technique> techniques,
-                      const ChosenCascades* of_receivers, MetricSet metrics, bool keep_fetched = false,
-                      Checks checks = Checks::all);
+  // Each map of a point with its ladder. Fills `extras` with what they read on the way.
+  std::vector<ClimbedMap> climb(const Asked& asked, const ViewStage& seen, const PointMaps& maps, Extras& extras,
+                                MetricSet metrics, Checks checks);
 
   // Frees the receivers of a large picture on the device; see() brings them back.
   void free_large_picture(const ReceiverImage& receivers) {
@@ -178,16 +190,6 @@ struct Workbench::Impl {
   void free_large_maps(KeptMaps& of) {
     if (MapStage* const kept = of.drawn.value()) keep_small(renderer, kept->map);
   }
-
-  struct WorstPlacement {
-    double error_shown = 0;  // mean |R5 - R1| over the map's receivers
-    std::map<std::string, double> soundness;
-  };
-  WorstPlacement render_worst(const Asked& asked, const ViewStage& seen, const OneMap& map, PlacementStage& placements,
-                              Checks checks);
-  void add_placements(PointRecord& record, std::span<const OneMap> maps,
-                      std::span<const std::unique_ptr<PlacementStage>> placements,
-                      std::map<std::string, double> of_maps, const ViewStage& seen, const Asked& asked, Checks checks);
 
   struct SmallPicture;
   LivePicture draw_live(const SceneStage& loaded, const Settings& settings);

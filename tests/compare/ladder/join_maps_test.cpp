@@ -1,5 +1,5 @@
-// The numbers of a point that come from those of its cascades, against values calculated by hand.
-#include "compare/ladder/join_cascades.h"
+// The numbers of a point that come from those of its maps, against values calculated by hand.
+#include "compare/ladder/join_maps.h"
 
 #include <gtest/gtest.h>
 
@@ -14,21 +14,21 @@
 namespace noonmark {
 namespace {
 
-using Cascades = std::vector<PointRecord::Cascade>;
+using Maps = std::vector<std::map<std::string, double>>;
 
-// Three cascades with 300, 100 and 0 counted receivers. In the last one 10 receivers face the light, but none is counted. So
+// Three maps with 300, 100 and 0 counted receivers. In the last one 10 receivers face the light, but none is counted. So
 // each number that needs a counted receiver is NaN there.
-Cascades three(const std::map<std::string, std::array<double, 3>>& rows) {
-  Cascades all(3);
+Maps three(const std::map<std::string, std::array<double, 3>>& rows) {
+  Maps all(3);
   for (size_t k = 0; k < 3; ++k) {
-    all[k].metrics = {{"counted", std::array{300.0, 100.0, 0.0}[k]}, {"facing", std::array{310.0, 130.0, 10.0}[k]}};
-    for (const auto& [name, values] : rows) all[k].metrics[name] = values[k];
+    all[k] = {{"counted", std::array{300.0, 100.0, 0.0}[k]}, {"facing", std::array{310.0, 130.0, 10.0}[k]}};
+    for (const auto& [name, values] : rows) all[k][name] = values[k];
   }
   return all;
 }
 
 // The metrics that join_laws() reads.
-Cascades with_laws() {
+Maps with_laws() {
   return three({{"texel_m", {0.02, 0.05, 0.4}},
                 {"map_range_m", {10, 30, 20}},
                 {"depth_quantum_m", {1e-7, 3e-7, 2e-7}},
@@ -44,7 +44,7 @@ Cascades with_laws() {
                 {"peter_panning_area_m2", {1, 2, not_a_number}}});
 }
 
-TEST(JoinCascades, LawsAreTheLargestAndAreasAreSums) {
+TEST(JoinMaps, LawsAreTheLargestAndAreasAreSums) {
   const std::map<std::string, double> joined = join_laws(with_laws(), false);
   const std::map<std::string, double> expected = {{"texel_m", 0.02},  // of the 200th of 400 receivers
                                                   {"map_range_m", 30},
@@ -62,11 +62,11 @@ TEST(JoinCascades, LawsAreTheLargestAndAreasAreSums) {
   EXPECT_EQ(joined, expected);
 }
 
-// Absence fails: a metric that one cascade does not have is not taken from the others.
-TEST(JoinCascades, EveryCascadeHasEveryLawMetric) {
+// Absence fails: a metric that one map does not have is not taken from the others.
+TEST(JoinMaps, EveryMapHasEveryLawMetric) {
   for (const LawMetric& metric : law_metrics) {
-    Cascades all = with_laws();
-    all[1].metrics.erase(metric.name);
+    Maps all = with_laws();
+    all[1].erase(metric.name);
     EXPECT_THROW(join_laws(all, false), std::out_of_range) << metric.name;
     if (metric.of_comparisons) {
       EXPECT_FALSE(join_laws(all, true).contains(metric.name));
@@ -74,19 +74,19 @@ TEST(JoinCascades, EveryCascadeHasEveryLawMetric) {
   }
 }
 
-TEST(JoinCascades, TexelIsThatOfTheMedianReceiver) {
-  Cascades all = with_laws();
-  all[1].metrics["counted"] = 301;
+TEST(JoinMaps, TexelIsThatOfTheMedianReceiver) {
+  Maps all = with_laws();
+  all[1]["counted"] = 301;
   EXPECT_EQ(join_laws(all, false).at("texel_m"), 0.05);
   std::swap(all[0], all[1]);  // the median is by size, whatever the order
   EXPECT_EQ(join_laws(all, false).at("texel_m"), 0.05);
-  all[0].metrics["counted"] = 299;
+  all[0]["counted"] = 299;
   EXPECT_EQ(join_laws(all, false).at("texel_m"), 0.02);
 }
 
-TEST(JoinCascades, WithoutAReceiverNothingIsMeasured) {
-  Cascades all = with_laws();
-  for (PointRecord::Cascade& cascade : all) cascade.metrics["counted"] = cascade.metrics["facing"] = 0;
+TEST(JoinMaps, WithoutAReceiverNothingIsMeasured) {
+  Maps all = with_laws();
+  for (auto& map : all) map["counted"] = map["facing"] = 0;
   const std::map<std::string, double> joined = join_laws(all, false);
   for (const char* metric : {"texel_m", "acne_free_bias_law_depth", "acne_free_bias_law_m", "counted_area_m2",
                              "filter_area_m2", "aliasing_area_m2"})
@@ -94,23 +94,23 @@ TEST(JoinCascades, WithoutAReceiverNothingIsMeasured) {
   EXPECT_EQ(joined.at("map_range_m"), 30) << "the map is there without a receiver";
 }
 
-// NaN in a cascade with receivers is a fault, and no larger number hides it.
-TEST(JoinCascades, WhatIsNotFiniteStays) {
+// NaN in a map with receivers is a fault, and no larger number hides it.
+TEST(JoinMaps, WhatIsNotFiniteStays) {
   for (const char* metric : {"acne_free_bias_law_m", "counted_area_m2", "map_range_m"})
     for (const size_t k : {0, 1}) {
-      Cascades all = with_laws();
-      all[k].metrics[metric] = not_a_number;
-      EXPECT_TRUE(std::isnan(join_laws(all, false).at(metric))) << metric << " of cascade " << k;
+      Maps all = with_laws();
+      all[k][metric] = not_a_number;
+      EXPECT_TRUE(std::isnan(join_laws(all, false).at(metric))) << metric << " of map " << k;
     }
 }
 
-TEST(JoinCascades, SoundnessIsThatOfTheWorst) {
-  Cascades all = three({{"rounding_excess", {0.5, 0.25, 0.75}},
-                        {"address_error_texels", {1e-4, 2e-4, 3e-4}},
-                        {"reference_error_m", {4e-6, 2e-6, 1e-6}},
-                        {"map_error_quanta", {0, 1, 0.5}},
-                        {"map_bits", {16, 24, 16}},
-                        {"contract", {0, 0.1, 0.5}}});
+TEST(JoinMaps, SoundnessIsThatOfTheWorst) {
+  Maps all = three({{"rounding_excess", {0.5, 0.25, 0.75}},
+                    {"address_error_texels", {1e-4, 2e-4, 3e-4}},
+                    {"reference_error_m", {4e-6, 2e-6, 1e-6}},
+                    {"map_error_quanta", {0, 1, 0.5}},
+                    {"map_bits", {16, 24, 16}},
+                    {"contract", {0, 0.1, 0.5}}});
   const std::map<std::string, double> expected = {
       {"rounding_excess", 0.75},  // its receivers face the light, though not counted
       {"address_error_texels", 3e-4},
@@ -119,26 +119,26 @@ TEST(JoinCascades, SoundnessIsThatOfTheWorst) {
       {"map_bits", 24},
       {"contract", (0.1 * 130 + 0.5 * 10) / 450}};
   EXPECT_EQ(join_soundness(all, expected), expected);
-  all[2].metrics["facing"] = 0;  // then its numbers say nothing
-  all[2].metrics["rounding_excess"] = all[2].metrics["contract"] = not_a_number;
+  all[2]["facing"] = 0;  // then its numbers say nothing
+  all[2]["rounding_excess"] = all[2]["contract"] = not_a_number;
   EXPECT_EQ(join_soundness(all, expected).at("rounding_excess"), 0.5);
   EXPECT_DOUBLE_EQ(join_soundness(all, expected).at("contract"), 0.1 * 130 / 440);
-  for (PointRecord::Cascade& cascade : all) cascade.metrics["facing"] = 0;
+  for (auto& map : all) map["facing"] = 0;
   EXPECT_TRUE(std::isnan(join_soundness(all, expected).at("contract")));
   EXPECT_TRUE(std::isnan(join_soundness(all, expected).at("map_bits")));
 }
 
 // Shares are weighted by the receivers; a root mean square by its squares. In a blend band a receiver counts with a share in each
-// cascade, so the weights need not be whole.
-TEST(JoinCascades, PlacementsAddOverTheReceivers) {
+// map, so the weights need not be whole.
+TEST(JoinMaps, PlacementsAddOverTheReceivers) {
   ASSERT_TRUE(find_metric("error_worst").of_placements && find_metric("aliasing_rms_mean").of_placements);
-  const Cascades all = three({{"error_worst", {0.1, 0.5, not_a_number}},
-                              {"acne_mean", {0, 0.25, not_a_number}},
-                              {"wrong_worst", {0.1, 0.5, not_a_number}},
-                              {"aliasing_rms_mean", {0.2, 0.4, not_a_number}}});
+  const Maps all = three({{"error_worst", {0.1, 0.5, not_a_number}},
+                          {"acne_mean", {0, 0.25, not_a_number}},
+                          {"wrong_worst", {0.1, 0.5, not_a_number}},
+                          {"aliasing_rms_mean", {0.2, 0.4, not_a_number}}});
   const std::array<double, 3> whole = {300, 100, 0}, parts = {249.5, 249.5, 0}, none = {0, 0, 0};
   const std::map<std::string, double> joined = join_placements(all, whole, false);
-  EXPECT_EQ(joined.size(), 4u) << "only what the cascades have";
+  EXPECT_EQ(joined.size(), 4u) << "only what the maps have";
   EXPECT_DOUBLE_EQ(joined.at("error_worst"), 0.75 * 0.1 + 0.25 * 0.5);
   EXPECT_DOUBLE_EQ(joined.at("acne_mean"), 0.25 * 0.25);
   EXPECT_DOUBLE_EQ(joined.at("wrong_worst"), 0.75 * 0.1 + 0.25 * 0.5);
@@ -149,13 +149,20 @@ TEST(JoinCascades, PlacementsAddOverTheReceivers) {
   EXPECT_TRUE(std::isnan(join_placements(all, none, false).at("error_worst")));
 }
 
-TEST(JoinCascades, ARecordKeepsItsOwnMetricsOnly) {
-  Cascades all(1);
-  for (const char* metric : cascade_metrics) all[0].metrics[metric] = 1;
-  const std::map<std::string, double> kept = all[0].metrics;
-  all[0].metrics["contract"] = 0;
-  keep_cascade_metrics(all);
-  EXPECT_EQ(all[0].metrics, kept);
+// Bit for bit: (r v) / r is not always v.
+TEST(JoinMaps, OneMapHandsItsPlacementsOn) {
+  const Maps one = {{{"error_worst", 0.1}, {"placement_worst", 7}}};
+  EXPECT_EQ(join_placements(one, std::array{3.0}, true), one.front());
+}
+
+TEST(JoinMaps, ARecordKeepsItsOwnMetricsOnly) {
+  std::map<std::string, double> metrics;
+  for (const char* metric : cascade_metrics) metrics[metric] = 1;
+  const std::map<std::string, double> kept = metrics;
+  metrics["contract"] = 0;
+  EXPECT_EQ(kept_of_cascade(metrics), kept);
+  metrics.erase("error");
+  EXPECT_TRUE(std::isnan(kept_of_cascade(metrics).at("error")));
 }
 
 }  // namespace
