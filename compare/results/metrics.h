@@ -7,17 +7,34 @@
 namespace noonmark {
 
 struct Metric {
+  // What its row says of it: whether a chart over the sweep makes sense, and of what alone it is measured.
+  enum Is : unsigned {
+    number = 0,
+    plot = 1,
+    placements = 2,  // map.placements above 1
+    motion = 4,      // a [motion]
+    frames = 8,      // another renderer's frame (frames/judge.h)
+    lights = 16,     // a frame of several lights (measure/lights_frame.h)
+    cascades = 32,   // cascades.count above 1
+    moments = 64     // a lookup in a map of moments (lookup.kind)
+  };
+  constexpr Metric(std::string_view its_name, std::string_view its_unit, std::string_view its_help, unsigned is)
+      : name(its_name),
+        unit(its_unit),
+        help(its_help),
+        plotted(is & plot),
+        of_placements(is & placements),
+        of_motion(is & motion),
+        of_frames(is & frames),
+        of_lights(is & lights),
+        of_cascades(is & cascades),
+        of_moments(is & moments) {}
+
   std::string_view name;
   std::string_view
       unit;  // "fraction", "m", "depth", "texels", "pixels", "deg", "count", "bytes", "ms"; "": a plain number
-  std::string_view help;       // one sentence
-  bool plotted;                // whether a chart over the sweep makes sense
-  bool of_placements = false;  // measured only with map.placements above 1
-  bool of_motion = false;      // measured only with a [motion]
-  bool of_frames = false;      // measured only of another renderer's frame (frames/judge.h)
-  bool of_lights = false;      // measured only in a frame of several lights (measure/lights_frame.h)
-  bool of_cascades = false;    // measured only with cascades.count above 1
-  bool of_moments = false;     // measured only of a lookup in a map of moments (lookup.kind)
+  std::string_view help;  // one sentence
+  bool plotted, of_placements, of_motion, of_frames, of_lights, of_cascades, of_moments;
   bool optional() const { return of_placements || of_motion || of_frames || of_lights || of_cascades || of_moments; }
 };
 
