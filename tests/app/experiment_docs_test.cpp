@@ -151,5 +151,31 @@ TEST(ExperimentDocuments, EveryMistakeIsRefusedWithTheMessageGiven) {
   EXPECT_GT(mistakes, 0);
 }
 
+// What a mistake in the file says: where, what, and what to write.
+TEST(ExperimentDocuments, EachMistakeHasItsPlaceAndItsMend) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"[map]\nresolution = 99999\n",
+       "shadows.toml:2:14: map.resolution = '99999' is not allowed; it takes 1 ... 16384 texels"},
+      {"[map]\nresolution = \"512\"\n",
+       "shadows.toml:2:14: map.resolution = \"512\" is a string; it takes 1 ... 16384, written without quotes"},
+      {"[sweep]\nmap.resolution = {min = 512, max = 1024, steps = 4}\n",
+       "shadows.toml:2:18: map.resolution takes integers, and the range gives 682.6666666666666; list the values "
+       "instead"},
+      {"[sweep]\nbias.constant = {min = 0, max = 1, steps = 3, scale = \"log\"}\n",
+       "shadows.toml:2:17: bias.constant: a logarithmic range needs min above 0, not 0"},
+      {"[[bound]]\nmetric = \"acne\"\nmax = 0.01\nwhere = {\"map.resolution\" = 512}\n",
+       "shadows.toml:4:29: no point has map.resolution = 512; it is 1024"},
+      {"[curve]\nenabled = false\n[[bound]]\nmetric = \"window_width_depth\"\nmin = 0.001\n",
+       "shadows.toml:4:10: 'window_width_depth' is read off the bias curve, and curve.enabled is false"},
+      {"[[law]]\nname = \"x\"\nmeasured = \"acne\"\nequals = \"acne_free\"\n",
+       "shadows.toml:1:1: law 'x': there is no setting, metric or definition 'acne_free'; did you mean "
+       "'acne_free_bias_m'?"},
+      {"[let]\nk = \"1 / 2\"\n[[part]]\nname = \"a\"\n[part.let]\nk = \"2\"\n",
+       "shadows.toml:6:1: let defines 'k' twice"},
+      {"[[part]]\nname = \"a\"\n[sweep]\nmap.resolution = [512, 1024]\n",
+       "shadows.toml:3:1: in a file with parts, sweep, over, bounds and laws must stand inside a [[part]]"}};
+  for (const auto& [toml, message] : mistakes) EXPECT_EQ(refusal(toml), message) << toml;
+}
+
 }  // namespace
 }  // namespace noonmark

@@ -150,7 +150,7 @@ bool nothing(const std::string&) { return false; }
 bool part_of_a_bias(const std::string& row) { return row.starts_with("| `bias."); }
 
 TEST(ReferenceTables, ScenesAreThoseOfTheRows) {
-  expect_from_rows("scene-light-map", "scenes", scenes_table_lines(), nothing);
+  expect_from_rows("scenes", "scenes", scenes_table_lines(), nothing);
 }
 TEST(ReferenceTables, PartsOfABiasAreThoseOfTheRows) {
   expect_from_rows("techniques", "bias", bias_table_lines(), part_of_a_bias);
