@@ -171,8 +171,15 @@ Markup checks_section() {
 }  // namespace
 
 std::string settings_page(const std::string& version) {
+  using report::section_link;
+  const Markup links = report::joined(
+      {section_link("settings", "Settings"), section_link("metrics", "Metrics"),
+       section_link("quantities", "Quantities of the bias curve"), section_link("experiment", "Keys of an experiment"),
+       section_link("frame", "Keys of frame.json"), section_link("checks", "Checks of a frame")},
+      " · ");
   return report::plain_page({.title = "Settings, metrics and keys",
-                             .body = settings_section() + numbers_section("metrics", "Metrics", metrics_table()) +
+                             .body = report::paragraph(links) + settings_section() +
+                                     numbers_section("metrics", "Metrics", metrics_table()) +
                                      numbers_section("quantities", "Quantities of the bias curve", curve_quantities()) +
                                      experiment_section() + frame_section() + checks_section(),
                              .version = version});
