@@ -98,7 +98,8 @@ std::vector<Setting> cascade_rows() {
   return {
       integer(
           "cascades.count", "", 1, most_cascades,
-          "directional: how many maps share the view, each for a slice of its depth, from the camera's near plane to "
+          "directional: cascaded shadow maps (CSM), how many maps share the view, each for a slice of its depth, from "
+          "the camera's near plane to "
           "map.reach_m or the camera's far plane. Each has map.resolution, and is fitted to its slice by map.fit = "
           "sphere, view or corner_*; by sphere where no map.fit is given. What lies beyond the last slice is looked up "
           "in the last map.",

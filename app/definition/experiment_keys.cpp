@@ -44,11 +44,14 @@ const std::vector<ExperimentKey>& root_keys() {
       {"law", Kind::tables, "What one number must be, given others; check judges it."},
       of_part("name", Kind::text, "The part's name; different for every part."),
       of_file("title", Kind::text, "The heading of the report."),
-      of_file("pictures", Kind::choice, "Which points get pictures.",
+      of_file("pictures", Kind::choice, "Which points get pictures; default: first.",
               {"first", "all", "none", "worst", "extremes", "answers"}),
-      of_file("exr", Kind::flag,
-              "Whether points with pictures also have their numbers as OpenEXR files; those with a broken bound have."),
-      of_file("times", Kind::flag, "Whether map and lookup are timed."),
+      of_file(
+          "exr", Kind::flag,
+          "Whether points with pictures also have their numbers as OpenEXR files; default: false. Those with a broken "
+          "bound have."),
+      of_file("times", Kind::flag,
+              "Whether map and lookup are timed; default: where a metric that is named is a time."),
       of_file("plot", Kind::table, "Which metrics stand at the top of the report's list."),
       of_file("answer", Kind::table, "What the answer makes small, and what it counts as cost."),
       of_file("atlas", Kind::table, "The known failure that the file is about."),
@@ -68,12 +71,13 @@ const std::vector<ExperimentKey>& plot_keys() {
 }
 
 const std::vector<ExperimentKey>& answer_keys() {
-  static const std::vector<ExperimentKey> keys = {{"cost", Kind::metric, "The cost: the least is recommended."},
-                                                  {"accuracy", Kind::metric, "The error: the least among equal costs."},
-                                                  {"choose",
-                                                   Kind::names,
-                                                   "What recommend may choose although the file gives it.",
-                                                   {"map.resolution", "map.fit", "bias", "filter"}}};
+  static const std::vector<ExperimentKey> keys = {
+      {"cost", Kind::metric, "The cost: the least is recommended; default: texel_work."},
+      {"accuracy", Kind::metric, "The error: the least among equal costs; default: error_soft."},
+      {"choose",
+       Kind::names,
+       "What recommend may choose although the file gives it.",
+       {"map.resolution", "map.fit", "bias", "filter"}}};
   return keys;
 }
 
@@ -93,10 +97,13 @@ const std::vector<ExperimentKey>& atlas_keys() {
 
 const std::vector<ExperimentKey>& curve_keys() {
   static const std::vector<ExperimentKey> keys = {
-      {"enabled", Kind::flag, "Whether bias curves are made."},
-      {"acne_bound", Kind::fraction, "How much acne a usable bias may leave, a fraction of the counted receivers."},
-      {"peter_panning_bound", Kind::fraction, "How much Peter Panning a usable bias may make."},
-      {"bias_depth", Kind::amounts, "At which biases, in window depth, the curve is stored; 0 or more, ascending."},
+      {"enabled", Kind::flag, "Whether bias curves are made; default: true."},
+      {"acne_bound", Kind::fraction,
+       "How much acne a usable bias may leave, a fraction of the counted receivers; default: 0.001."},
+      {"peter_panning_bound", Kind::fraction, "How much Peter Panning a usable bias may make; default: 0.001."},
+      {"bias_depth", Kind::amounts,
+       "At which biases, in window depth, the curve is stored; 0 or more, ascending; default: 0 and 20 a decade from "
+       "1e-7."},
       {"over",
        Kind::choice,
        "Of filtered maps: a setting that has a curve besides lookup.reduction.",
@@ -107,12 +114,15 @@ const std::vector<ExperimentKey>& curve_keys() {
 
 const std::vector<ExperimentKey>& phase_keys() {
   static const std::vector<ExperimentKey> keys = {
-      {"enabled", Kind::flag, "Whether there is a diagram."},
+      {"enabled", Kind::flag, "Whether there is a diagram; default: true where the table stands."},
       {"acne_bound", Kind::fraction, "How much acne a usable pair may leave; default: that of [curve]."},
-      {"peter_panning_bound", Kind::fraction, "How much Peter Panning a usable pair may make."},
-      whole("placements", "S: each texel size is measured at S x S placements.", 1, Placements::most),
-      whole("texel_sizes", "How many texel sizes.", 2, most_phase_rows),
-      whole("width_px", "Width of the picture whose receivers are counted, in pixels.", 1, 8192)};
+      {"peter_panning_bound", Kind::fraction,
+       "How much Peter Panning a usable pair may make; default: that of [curve]."},
+      whole("placements", "S: each texel size is measured at S x S placements; default: 8.", 1, Placements::most),
+      whole("texel_sizes", "How many texel sizes, in equal steps of their logarithm; default: 25.", 2, most_phase_rows),
+      whole("width_px",
+            "Width of the picture whose receivers are counted, in pixels; at most view.width_px; default: 640.", 1,
+            8192)};
   return keys;
 }
 
@@ -137,10 +147,16 @@ const std::vector<ExperimentKey>& bound_keys() {
       {"max", Kind::limit,
        "The largest value that is allowed, in the metric's unit; a share also in percent: \"0.5%\"."},
       {"min", Kind::limit, "The smallest value that is allowed."},
-      {"join", Kind::choice, "What is compared when several points match.", {"worst", "mean", "median"}},
-      {"placement", Kind::choice, "Which placement of the grid is judged.", {"worst", "first"}},
-      {"level", Kind::choice, "warn: a broken bound is a warning.", {"error", "warn"}},
-      {"where", Kind::conditions, "Which points match."}};
+      {"join",
+       Kind::choice,
+       "What is compared when several points match; default: worst.",
+       {"worst", "mean", "median"}},
+      {"placement", Kind::choice, "Which placement of the grid is judged; default: worst.", {"worst", "first"}},
+      {"level",
+       Kind::choice,
+       "warn: a broken bound is a warning, and the exit code stays 0; default: error.",
+       {"error", "warn"}},
+      {"where", Kind::conditions, "Which points match; default: all."}};
   return keys;
 }
 
@@ -153,9 +169,9 @@ const std::vector<ExperimentKey>& law_keys() {
       {"equals", Kind::formula, "What it must be."},
       {"at_most", Kind::formula, "What it must not exceed."},
       {"at_least", Kind::formula, "What it must reach."},
-      {"within", Kind::number, "Tolerance as a fraction of the predicted number.", {}, 0},
-      {"slack", Kind::formula, "Tolerance in the measured number's unit."},
-      {"join", Kind::choice, "What one sample of the law is.", {"each", "mean", "slope"}},
+      {"within", Kind::number, "Tolerance as a fraction of the predicted number; default: 0.", {}, 0},
+      {"slack", Kind::formula, "Tolerance in the measured number's unit; default: 0."},
+      {"join", Kind::choice, "What one sample of the law is; default: each.", {"each", "mean", "slope"}},
       {"over", Kind::setting, "With join = slope: the setting on the horizontal axis."},
       {"where", Kind::conditions, "Which points are measured."},
       {"against", Kind::conditions, "At which other point the predicted side is read."}};
@@ -167,7 +183,7 @@ const std::vector<ExperimentKey>& range_keys() {
       required({"min", Kind::number, "The first value."}),
       required({"max", Kind::number, "The last value."}),
       whole("steps", "How many values, both ends among them.", 2, static_cast<double>(max_points), true),
-      {"scale", Kind::choice, "How the values between are spaced.", {"linear", "log"}}};
+      {"scale", Kind::choice, "How the values between are spaced; default: linear.", {"linear", "log"}}};
   return keys;
 }
 

@@ -1,6 +1,6 @@
 // The keys of an experiment file that are not settings, described once. The reader takes from here which keys a table has
-// and which words a key takes, the JSON schema (app/definition/experiment_schema.h) is made from it, and a test compares it with
-// docs/reference/experiment.md.
+// and which words a key takes; the JSON schema (app/definition/experiment_schema.h) and the tables of `noonmark settings --html`
+// (app/verbs/settings_page.h) are made from it.
 //
 //   for (const ExperimentKey& key : experiment_keys("bound")) ...
 #pragma once

@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
+#include "app/verbs/settings_page.h"
 #include "app/verbs/verbs.h"
+#include "base/build_facts.h"
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
 #include "technique/settings.h"
@@ -26,8 +30,15 @@ int list_settings() {
   return 0;
 }
 
-RunVerb add_settings(CLI::App&) {
-  return [](const std::string&) { return list_settings(); };
+RunVerb add_settings(CLI::App& verb) {
+  const auto html = std::make_shared<bool>(false);
+  verb.add_flag("--html", *html,
+                "Print them, and the keys of experiments and of frame.json, as tables of one HTML page");
+  return [html](const std::string&) {
+    if (!*html) return list_settings();
+    fmt::print("{}", settings_page(std::string(build_facts().version)));
+    return 0;
+  };
 }
 
 }  // namespace

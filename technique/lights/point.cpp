@@ -68,7 +68,7 @@ glm::dquat sampled_rotation(int side, int placement) {
 class Point final : public KindOfLight {
  public:
   std::string_view name() const override { return "point"; }
-  std::string_view help() const override { return "a cube map of distances"; }
+  std::string_view help() const override { return "a cube map of distances (omnidirectional shadow map)"; }
   MapShape map_shape() const override { return MapShape::cube; }
   bool is_aimed() const override { return false; }
 

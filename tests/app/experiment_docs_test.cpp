@@ -1,5 +1,5 @@
-// docs/reference/experiment.md is the reference of the keys of an experiment file. The program must read its examples like a
-// user's file, and it must name every key, choice and function that the program knows.
+// The documents on experiment files. The program must read their examples like a user's file, and refuse their mistakes with the
+// message that stands there.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -151,73 +151,30 @@ TEST(ExperimentDocuments, EveryMistakeIsRefusedWithTheMessageGiven) {
   EXPECT_GT(mistakes, 0);
 }
 
-// The words of an error message between `from` and `to`.
-std::vector<std::string> words(std::string message, const std::string& from, const std::string& to) {
-  const size_t begin = message.find(from);
-  EXPECT_NE(begin, std::string::npos) << message;
-  if (begin == std::string::npos) return {};
-  message = message.substr(begin + from.size());
-  message = message.substr(0, message.find(to));
-  std::replace_if(
-      message.begin(), message.end(), [](char c) { return c == ',' || c == '|'; }, ' ');
-  std::istringstream stream(message);
-  return {std::istream_iterator<std::string>(stream), {}};
-}
-
-// The first cell of every table row in one chapter of the document.
-std::string first_cells(const std::string& markdown, const std::string& chapter) {
-  const size_t begin = markdown.find("\n## " + chapter + "\n");
-  EXPECT_NE(begin, std::string::npos) << chapter;
-  if (begin == std::string::npos) return "";
-  std::istringstream lines(markdown.substr(begin + 1, markdown.find("\n## ", begin + 1) - begin));
-  std::string cells;
-  for (std::string line; std::getline(lines, line);)
-    if (line.starts_with("| ")) cells += line.substr(0, line.find(" | ")) + "\n";
-  return cells;
-}
-
-// If a word is similar to no known word, the error message lists all known words.
-TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
-  const std::string text = document("docs/reference/experiment.md");
-  const auto named = [&](const std::string& where, const std::vector<std::string>& words, size_t least) {
-    EXPECT_GE(words.size(), least);
-    for (const std::string& word : words)
-      EXPECT_NE(where.find("`" + word + "`"), std::string::npos)
-          << "docs/reference/experiment.md does not explain `" << word << "`";
-  };
-  const auto keys = [&](const std::string& chapter, const std::string& toml, size_t least) {
-    named(first_cells(text, chapter), words(refusal(toml + "qqqqqqqqq = 1"), "known: ", "\n"), least);
-  };
-  const std::string bound = "[[bound]]\nmetric = \"acne\"\nmax = 1\n";
-  const std::string law = "[[law]]\nname = \"x\"\nmeasured = \"acne\"\nequals = 0\n";
-  keys("The keys of the file", "", 20);
-  keys("Sweeps", "[sweep.map.extent_m]\n", 4);
-  keys("The answer", "[answer]\n", 2);
-  keys("Charts and bias curves", "[plot]\n", 1);
-  keys("Charts and bias curves", "[curve]\n", 4);
-  keys("The phase diagram", "[phase]\n", 6);
-  keys("Bounds", bound, 7);
-  keys("Laws", law, 13);
-  keys("Several experiments in one file", "[[part]]\n", 14);
-
-  const auto choices = [&](const std::string& toml, size_t least) {
-    named(text, words(refusal(toml + " = \"qqqqqqqqq\""), "is not one of ", "\n"), least);
-  };
-  choices("pictures", 5);
-  choices("[sweep.map.extent_m]\nscale", 2);
-  choices(bound + "join", 3);
-  choices(bound + "placement", 2);
-  choices(law + "join", 3);
-  named(first_cells(text, "Laws"), words(refusal("[let]\nx = \"1 +\""), "(functions: ", ")"), 20);
-}
-
-// The document lists the groups, with one setting of each as an example. `noonmark settings` lists all settings.
-TEST(ExperimentDocuments, EveryGroupOfSettingsHasItsTable) {
-  const std::string text = document("docs/reference/experiment.md");
-  for (const Setting& row : settings_table()) {
-    const std::string group(row.name.substr(0, row.name.find('.')));
-    EXPECT_NE(text.find("`[" + group + "]`"), std::string::npos) << group;
-  }
+// What a mistake in the file says: where, what, and what to write.
+TEST(ExperimentDocuments, EachMistakeHasItsPlaceAndItsMend) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"[map]\nresolution = 99999\n",
+       "shadows.toml:2:14: map.resolution = '99999' is not allowed; it takes 1 ... 16384 texels"},
+      {"[map]\nresolution = \"512\"\n",
+       "shadows.toml:2:14: map.resolution = \"512\" is a string; it takes 1 ... 16384, written without quotes"},
+      {"[sweep]\nmap.resolution = {min = 512, max = 1024, steps = 4}\n",
+       "shadows.toml:2:18: map.resolution takes integers, and the range gives 682.6666666666666; list the values "
+       "instead"},
+      {"[sweep]\nbias.constant = {min = 0, max = 1, steps = 3, scale = \"log\"}\n",
+       "shadows.toml:2:17: bias.constant: a logarithmic range needs min above 0, not 0"},
+      {"[[bound]]\nmetric = \"acne\"\nmax = 0.01\nwhere = {\"map.resolution\" = 512}\n",
+       "shadows.toml:4:29: no point has map.resolution = 512; it is 1024"},
+      {"[curve]\nenabled = false\n[[bound]]\nmetric = \"window_width_depth\"\nmin = 0.001\n",
+       "shadows.toml:4:10: 'window_width_depth' is read off the bias curve, and curve.enabled is false"},
+      {"[[law]]\nname = \"x\"\nmeasured = \"acne\"\nequals = \"acne_free\"\n",
+       "shadows.toml:1:1: law 'x': there is no setting, metric or definition 'acne_free'; did you mean "
+       "'acne_free_bias_m'?"},
+      {"[let]\nk = \"1 / 2\"\n[[part]]\nname = \"a\"\n[part.let]\nk = \"2\"\n",
+       "shadows.toml:6:1: let defines 'k' twice"},
+      {"[[part]]\nname = \"a\"\n[sweep]\nmap.resolution = [512, 1024]\n",
+       "shadows.toml:3:1: in a file with parts, sweep, over, bounds and laws must stand inside a [[part]]"}};
+  for (const auto& [toml, message] : mistakes) EXPECT_EQ(refusal(toml), message) << toml;
 }
 
 }  // namespace

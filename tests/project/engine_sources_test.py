@@ -52,7 +52,7 @@ for rows, code, said in [
         bad = True
         print(f"{rows}: {found}, not {code}, {said}")
 # It reads every row of the page that the program's rows are written in.
-page = (source / "docs/reference/engines.md").read_text()
+page = (source / "docs/reference/engine-sources.md").read_text()
 rows = page.split("| engine | repository | commit or release | line | text |\n")[1].split("\n\n")[0].splitlines()[1:]
 for name in {row.split("|")[2].strip().split("/")[1] for row in rows}:
     (folder / "none" / name).mkdir(parents=True)

@@ -83,6 +83,7 @@ STAND_INS = {
     "app/sweep/survey.h": "bench experiment wanted",
     "app/verbs/command_line.h": "argc argv command",
     "app/verbs/model_report.h": "",
+    "app/verbs/settings_page.h": "",
     "base/build_facts.h": "",
     "base/child_process.h": "",
     "base/file.h": "max_picture_bytes text",

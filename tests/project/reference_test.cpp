@@ -1,6 +1,5 @@
-// The tables of docs/reference that are made from rows of the program: settings, metrics, quantities of the curve,
-// built-in scenes, parts of a bias, filters, keys and checks of a frame. scripts/reference-tables runs this test with NOONMARK_WRITE_REFERENCE set,
-// and then the test writes them.
+// The tables of docs/reference that are made from rows of the program: built-in scenes, parts of a bias, lookups, filters.
+// scripts/reference-tables runs this test with NOONMARK_WRITE_REFERENCE set, and then the test writes them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,11 +13,8 @@
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
 #include "compare/results/record_fields.h"
-#include "frames/checks.h"
-#include "frames/frame_keys.h"
 #include "scenes/builtin.h"
 #include "technique/filters.h"
-#include "technique/light_kind.h"
 #include "technique/lookups.h"
 #include "technique/settings.h"
 #include "tests/support/source_dir.h"
@@ -36,38 +32,6 @@ std::string cell(std::string_view text) {
     escaped += c;
   }
   return escaped;
-}
-
-// The settings of each group below a heading.
-TableLines settings_table_lines() {
-  const Settings defaults;
-  TableLines lines;
-  std::string group;
-  for (const Setting& row : settings_table()) {
-    const std::string its(row.name.substr(0, row.name.find('.')));
-    if (its != group) {
-      if (!group.empty()) lines.emplace_back();
-      lines.insert(lines.end(), {"## " + its, "| setting | default | takes | meaning |", "|---|---|---|---|"});
-      group = its;
-    }
-    lines.push_back(fmt::format("| `{}` | `{}` | {} | {} |", row.name, row.get(defaults), cell(row.range_with_unit()),
-                                cell(row.help)));
-  }
-  return lines;
-}
-
-TableLines metrics_table_lines() {
-  TableLines lines = {"| metric | unit | meaning |", "|---|---|---|"};
-  for (const Metric& row : metrics_table())
-    lines.push_back(fmt::format("| `{}` | {} | {} |", row.name, row.unit, cell(row.help)));
-  return lines;
-}
-
-TableLines quantities_table_lines() {
-  TableLines lines = {"| quantity | unit | meaning |", "|---|---|---|"};
-  for (const CurveQuantity& row : curve_quantities())
-    lines.push_back(fmt::format("| `{}` | {} | {} |", row.name, row.unit, cell(row.help)));
-  return lines;
 }
 
 TableLines scenes_table_lines() {
@@ -119,31 +83,6 @@ TableLines lookups_table_lines() {
   return lines;
 }
 
-TableLines frame_keys_table_lines() {
-  TableLines lines = {"| key | takes | meaning |", "|---|---|---|"};
-  for (const FrameKey& key : frame_keys()) {
-    constexpr std::string_view takes[] = {// in the order of FrameKeyKind
-                                          "object",        "text",       "",           "number",           "boolean",
-                                          "three numbers", "three axes", "16 numbers", "settings by name", "1",
-                                          "list of texts"};
-    const std::string_view choices = key.choices;
-    std::string kind(takes[static_cast<size_t>(key.kind)]);
-    for (const char c : choices) kind += c == '|' ? " | " : std::string(1, c);
-    if (key.kind == FrameKeyKind::number || key.kind == FrameKeyKind::vector3 || key.kind == FrameKeyKind::matrix)
-      kind += (key.kind == FrameKeyKind::number ? ", " : ", each ") + range_of(key).text();
-    lines.push_back(fmt::format("| `{}{}{}` | {} | {} |", key.object, key.object.empty() ? "" : ".", key.name,
-                                cell(kind), cell(key.help)));
-  }
-  return lines;
-}
-
-TableLines frame_checks_table_lines() {
-  TableLines lines = {"| check | what holds |", "|---|---|"};
-  for (const FrameCheck& check : frame_checks())
-    lines.push_back(fmt::format("| `{}` | {} |", check.name, cell(check.asks)));
-  return lines;
-}
-
 // A page of docs/reference, and the lines between the two comments that enclose a table in it.
 class Page {
  public:
@@ -156,11 +95,6 @@ class Page {
   TableLines table(const std::string& name) {
     const auto [begin, end] = place_of(name);
     return {begin, end};
-  }
-  std::string text() const {
-    std::string text;
-    for (const std::string& line : lines_) text += line + '\n';
-    return text;
   }
   // Writes the table if the environment asks for it.
   void bring_up_to_date(const std::string& name, const TableLines& table) {
@@ -215,17 +149,8 @@ bool nothing(const std::string&) { return false; }
 // A new part of a bias needs only its own file, its row and its laws, so its lines in the documents may come later.
 bool part_of_a_bias(const std::string& row) { return row.starts_with("| `bias."); }
 
-TEST(ReferenceTables, SettingsAreThoseOfTheRows) {
-  expect_from_rows("settings", "settings", settings_table_lines(), part_of_a_bias);
-}
-TEST(ReferenceTables, MetricsAreThoseOfTheRows) {
-  expect_from_rows("metrics", "metrics", metrics_table_lines(), nothing);
-}
-TEST(ReferenceTables, QuantitiesOfTheCurveAreThoseOfTheRows) {
-  expect_from_rows("metrics", "quantities", quantities_table_lines(), nothing);
-}
 TEST(ReferenceTables, ScenesAreThoseOfTheRows) {
-  expect_from_rows("scene-light-map", "scenes", scenes_table_lines(), nothing);
+  expect_from_rows("scenes", "scenes", scenes_table_lines(), nothing);
 }
 TEST(ReferenceTables, PartsOfABiasAreThoseOfTheRows) {
   expect_from_rows("techniques", "bias", bias_table_lines(), part_of_a_bias);
@@ -234,22 +159,6 @@ TEST(ReferenceTables, PartsOfABiasAreThoseOfTheRows) {
 TEST(ReferenceTables, FiltersAreThoseOfTheRows) {
   expect_from_rows("techniques", "filters", filters_table_lines(), nothing);
   expect_from_rows("techniques", "lookups", lookups_table_lines(), nothing);
-}
-
-TEST(ReferenceTables, KeysOfAFrameAreThoseOfTheRows) {
-  expect_from_rows("frame", "keys", frame_keys_table_lines(), nothing);
-}
-TEST(ReferenceTables, ChecksOfAFrameAreThoseOfTheRows) {
-  expect_from_rows("frame", "checks", frame_checks_table_lines(), nothing);
-}
-
-TEST(Reference, NamesEveryTechnique) {
-  const std::string text = Page("techniques").text();
-  for (const char* name : {"map.format", "map.wrap", "map.cull", "map.cube_pass"})
-    for (std::string_view choice : find_setting(name).choices)
-      EXPECT_NE(text.find("`" + std::string(choice)), std::string::npos) << name << " = " << choice;
-  for (const KindOfLight* kind : kinds_of_light())
-    EXPECT_NE(text.find("| `" + std::string(kind->name()) + "`"), std::string::npos) << kind->name();
 }
 
 TEST(TechniqueRows, SayWhatTheLawsSay) {

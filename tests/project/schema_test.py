@@ -41,8 +41,7 @@ for file in experiments:
     found = mistake(tomllib.loads(file.read_text()))
     expect(found is None, f"{file}: {found}")
 
-# The examples of the documents: the program takes those of ```toml, and refuses those of ```toml refused.
-refused_by_schema = 0
+# The examples of the documents that the program takes.
 for document in [*sorted((source / "docs").rglob("*.md")), *sorted((source / "examples").rglob("*.md"))]:
     for block in document.read_text().split("\n```toml")[1:]:
         head, _, rest = block.partition("\n")
@@ -53,9 +52,6 @@ for document in [*sorted((source / "docs").rglob("*.md")), *sorted((source / "ex
             found = str(error)
         if head == "":
             expect(found is None, f"{document}: {found}\n{text}")
-        elif found:
-            refused_by_schema += 1
-expect(refused_by_schema >= 4, f"mistakes of the documents that the schema finds: {refused_by_schema}")
 
 # A printed configuration has every setting, so every setting is in the schema.
 for file in experiments:

@@ -168,6 +168,9 @@ def main():
     subprocess.run([source / "scripts/docs", work], env={**os.environ, "NOONMARK_SETUP": "skip"}, check=True)
     pages = [page for page in (work / "docs").rglob("*.html") if not page.name.startswith("live-cube-room")]
     check(len(pages) == len(list((source / "docs").rglob("*.md"))), f"the site has {len(pages)} pages of docs/")
+    if (work / "live-cube-room.html").is_file():  # the program is there
+        for page, row in (("settings", "scene.theta_deg"), ("metrics", "map_seen"), ("frame", "camera.fov_y_deg"), ("frame", "samples")):
+            check(f"<code>{row}</code></th>" in (work / f"docs/reference/{page}.html").read_text(encoding="utf-8"), f"{page}.html has no row {row}")
     for picture in (source / "docs").rglob("*.png"):
         check((work / picture.relative_to(source)).is_file(), f"the site lacks {picture}")
     program = next(filter(None, map(shutil.which, (os.environ.get("CHROMIUM", "chromium"), "chromium-browser", "google-chrome"))), None)

@@ -100,7 +100,7 @@ struct EngineField {
 std::vector<EngineField> engine_fields();
 
 // A line of an engine's source that its row states. scripts/engine-sources reads them again, from the table in
-// docs/reference/engines.md.
+// docs/reference/engine-sources.md.
 struct EngineSource {
   std::string repository;  // of github.com: "mrdoob/three.js"
   std::string commit;      // or the tag of a release, or a branch

@@ -1,0 +1,188 @@
+#include "app/verbs/settings_page.h"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include "app/definition/experiment_keys.h"
+#include "compare/report/blocks.h"
+#include "compare/report/page_parts.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
+#include "frames/checks.h"
+#include "frames/frame_keys.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+using report::Markup;
+
+Markup tabled(const Markup& head, const Markup& rows) {
+  using namespace report;
+  return div(css("scroll"), table("", head, rows)) + "\n";
+}
+
+Markup group_heading(std::string_view id, const Markup& text) {
+  return report::element("h3", report::Attribute("id", id), text) + "\n";
+}
+
+Markup name_cell(std::string_view name) {
+  return report::row_head(report::Attribute("style", "white-space: nowrap"), report::code(name));
+}
+
+Markup settings_section() {
+  using namespace report;
+  const Settings defaults;
+  Markup tables, rows;
+  std::string group;
+  const auto end_group = [&] {
+    if (!rows.empty())
+      tables += group_heading(group, group) + tabled(heads({"Setting", "Default", "Takes", "Meaning"}), rows);
+    rows = {};
+  };
+  for (const Setting& row : settings_table()) {
+    if (std::string its(row.name.substr(0, row.name.find('.'))); its != group) {
+      end_group();
+      group = std::move(its);
+    }
+    rows += tr(Attribute("id", row.name), name_cell(row.name), td(code(row.get(defaults))), td(row.range_with_unit()),
+               td(row.help));
+  }
+  end_group();
+  return section("settings", "Settings", tables);
+}
+
+template <class Row>
+Markup numbers_section(std::string_view id, const Markup& title, std::span<const Row> table) {
+  using namespace report;
+  Markup rows;
+  for (const Row& row : table) rows += tr(Attribute("id", row.name), name_cell(row.name), td(row.unit), td(row.help));
+  return section(id, title, tabled(heads({"Name", "Unit", "Meaning"}), rows));
+}
+
+std::string with_bars(const std::vector<std::string_view>& words) { return fmt::format("{}", fmt::join(words, " | ")); }
+
+std::string taken_by(const ExperimentKey& key) {
+  using Kind = ExperimentKey::Kind;
+  switch (key.kind) {
+    case Kind::text:
+      return "text";
+    case Kind::names:
+      return key.choices.empty() ? "a list of texts" : "a list of " + with_bars(key.choices);
+    case Kind::choice:
+      return with_bars(key.choices);
+    case Kind::flag:
+      return "true | false";
+    case Kind::number:
+      return key.least > -1e300 ? fmt::format("a number, {} or more", key.least) : "a number";
+    case Kind::fraction:
+      return "0 ... 1, or text with %";
+    case Kind::limit:
+      return "a number; of a share also text with %";
+    case Kind::whole:
+      return fmt::format("a whole number, {} ... {}", key.least, key.most);
+    case Kind::quantity:
+      return "a metric or a quantity of the curve";
+    case Kind::quantities:
+      return "a list of metrics or quantities of the curve";
+    case Kind::pattern:
+      return "a metric, a quantity of the curve, or a pattern";
+    case Kind::metric:
+      return "a metric";
+    case Kind::formula:
+      return "a formula or a number";
+    case Kind::formulas:
+      return "a table of formulas";
+    case Kind::setting:
+      return "a setting";
+    case Kind::sweep:
+      return "a table of settings, each with a list or a range";
+    case Kind::conditions:
+      return "a table of settings, each with a value or a list";
+    case Kind::limits:
+      return "a table of metrics, each with a number";
+    case Kind::amounts:
+      return "a list of numbers, or a range";
+    case Kind::table:
+      return fmt::format("a table [{}]", key.name);
+    case Kind::tables:
+      return fmt::format("tables [[{}]]", key.name);
+    case Kind::lights:
+      return "\"all\", \"parts\", a list of names, or tables [[lights]]";
+  }
+  return "";
+}
+
+Markup experiment_section() {
+  using namespace report;
+  constexpr std::pair<std::string_view, std::string_view> tables[] = {
+      {"root", "The file, and a [[part]]"},
+      {"range", "A range of values: {min = 1, max = 8, steps = 4}"},
+      {"answer", "[answer]"},
+      {"plot", "[plot]"},
+      {"curve", "[curve]"},
+      {"phase", "[phase]"},
+      {"bound", "[[bound]]"},
+      {"law", "[[law]]"},
+      {"lights", "[[lights]], beside the settings of the light"},
+      {"frame", "[[frame]]"},
+      {"atlas", "[atlas]"}};
+  Markup all;
+  for (const auto& [name, title] : tables) {
+    Markup rows;
+    for (const ExperimentKey& key : experiment_keys(name))
+      rows += tr(name_cell(key.name), td(taken_by(key)), td(key.help, key.required ? " Required." : ""));
+    all += group_heading(fmt::format("key-{}", name), title) + tabled(heads({"Key", "Takes", "Meaning"}), rows);
+  }
+  return section("experiment", "Keys of an experiment file", all);
+}
+
+std::string taken_by(const FrameKey& key) {
+  constexpr std::string_view kinds[] = {// in the order of FrameKeyKind
+                                        "object",        "text",       "",           "number",           "boolean",
+                                        "three numbers", "three axes", "16 numbers", "settings by name", "1",
+                                        "list of texts"};
+  std::string kind(kinds[static_cast<size_t>(key.kind)]);
+  if (key.kind == FrameKeyKind::choice) kind = with_bars(choices_of(key));
+  if (key.kind == FrameKeyKind::number) kind += ", " + range_of(key).text();
+  if (key.kind == FrameKeyKind::vector3 || key.kind == FrameKeyKind::matrix) kind += ", each " + range_of(key).text();
+  return kind;
+}
+
+Markup frame_section() {
+  using namespace report;
+  Markup rows;
+  for (const FrameKey& key : frame_keys())
+    rows +=
+        tr(name_cell(key.object.empty() ? std::string(key.name) : key.full_name()), td(taken_by(key)), td(key.help));
+  return section("frame", "Keys of frame.json", tabled(heads({"Key", "Takes", "Meaning"}), rows));
+}
+
+Markup checks_section() {
+  using namespace report;
+  Markup rows;
+  for (const FrameCheck& check : frame_checks()) rows += tr(name_cell(check.name), td(check.asks));
+  return section("checks", "Checks of a delivered frame", tabled(heads({"Check", "What holds"}), rows));
+}
+
+}  // namespace
+
+std::string settings_page(const std::string& version) {
+  using report::section_link;
+  const Markup links = report::joined(
+      {section_link("settings", "Settings"), section_link("metrics", "Metrics"),
+       section_link("quantities", "Quantities of the bias curve"), section_link("experiment", "Keys of an experiment"),
+       section_link("frame", "Keys of frame.json"), section_link("checks", "Checks of a frame")},
+      " · ");
+  return report::plain_page({.title = "Settings, metrics and keys",
+                             .body = report::paragraph(links) + settings_section() +
+                                     numbers_section("metrics", "Metrics", metrics_table()) +
+                                     numbers_section("quantities", "Quantities of the bias curve", curve_quantities()) +
+                                     experiment_section() + frame_section() + checks_section(),
+                             .version = version});
+}
+
+}  // namespace noonmark
