@@ -14,10 +14,6 @@ namespace noonmark::in_double {
 namespace noonmark::in_bounds {
 #include "bias_formulas.inc"
 }
-namespace noonmark::in_counts {
-#include "bias_formulas.inc"
-#include "reference_formulas.inc"
-}  // namespace noonmark::in_counts
 #undef precise
 
 namespace noonmark {
@@ -32,10 +28,8 @@ constexpr std::string_view law_35 =
 
 constexpr double most_units = 1e6;
 
-#define FACTOR(name) \
-  { .factor = in_float::name##_factor, .counted_factor = in_counts::name##_factor }
-#define WAY(name) \
-  { .way = in_double::name##_way, .bounded_way = in_bounds::name##_way, .counted_way = in_counts::name##_way }
+#define FACTOR(name) .factor = in_float::name##_factor
+#define WAY(name) .way = in_double::name##_way, .bounded_way = in_bounds::name##_way
 
 constexpr BiasPart parts[] = {
     {.name = "constant",
@@ -44,7 +38,7 @@ constexpr BiasPart parts[] = {
      .most = most_units,
      .help = "The same bias at every receiver.",
      .law = "law 1: free of acne from k·w·A·tan θ; law 2: a gap of b·sin θ − t / cos ψ at the foot of a wall",
-     .formula = FACTOR(constant)},
+     .formula = {FACTOR(constant), .operations = 0}},
     {.name = "slope",
      .acts_on = BiasTarget::compared_depth,
      .unit = "bias.unit",
@@ -52,7 +46,7 @@ constexpr BiasPart parts[] = {
      .help = "Slope-scaled bias: max(bias.slope * (1 - N.L), bias.slope_floor).",
      .law = "law 1 at each receiver",
      .floor_help = "Smallest value of the slope-scaled bias.",
-     .formula = FACTOR(slope)},
+     .formula = {FACTOR(slope), .operations = 1}},
     {.name = "tan",
      .acts_on = BiasTarget::compared_depth,
      .unit = "bias.unit",
@@ -61,7 +55,7 @@ constexpr BiasPart parts[] = {
      .law = "law 1: free of acne at every slope from tan = k·w·A",
      .floor_help = "Smallest value of the bias by tan(theta).",
      .cap_help = "Largest value of the bias by tan(theta); auto: no limit.",
-     .formula = FACTOR(tan)},
+     .formula = {FACTOR(tan), .operations = 0}},
     {.name = "normal_offset",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -70,7 +64,7 @@ constexpr BiasPart parts[] = {
              "is texel_m metres wide).",
      .law = "law 3: free of acne from k·w·A·sin θ; shadows move by d·tan θ",
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset)},
+     .formula = {WAY(normal_offset), .operations = 0}},
     {.name = "normal_offset_sin",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -78,7 +72,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.normal_offset, multiplied by sin(theta).",
      .law = law_35,
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset_sin)},
+     .formula = {WAY(normal_offset_sin), .operations = 8}},
     {.name = "normal_offset_turned",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -86,7 +80,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.normal_offset, multiplied by (1 - N.L).",
      .law = law_35,
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset_turned)},
+     .formula = {WAY(normal_offset_turned), .operations = 4}},
     {.name = "normal_offset_lateral",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -94,7 +88,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.normal_offset_turned, but without the component along the light.",
      .law = law_35,
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset_lateral)},
+     .formula = {WAY(normal_offset_lateral), .operations = 10}},
     {.name = "normal_offset_axes",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -102,7 +96,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.normal_offset, multiplied by |N.u| + |N.v|, where u and v are the texel's two axes.",
      .law = law_35,
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset_axes)},
+     .formula = {WAY(normal_offset_axes), .operations = 14}},
     {.name = "caster_offset",
      .acts_on = BiasTarget::caster,
      .unit = "bias.offset_unit",
@@ -112,7 +106,7 @@ constexpr BiasPart parts[] = {
          "are at the vertex.",
      .law = law_35,
      .no_curve = is_in_the_map,
-     .formula = WAY(caster_offset)},
+     .formula = {WAY(caster_offset)}},
     {.name = "caster_normal_offset",
      .acts_on = BiasTarget::caster,
      .unit = "bias.offset_unit",
@@ -122,7 +116,7 @@ constexpr BiasPart parts[] = {
          "mean of its faces' normals, weighted by their areas.",
      .law = law_35,
      .no_curve = is_in_the_map,
-     .formula = WAY(caster_normal_offset)},
+     .formula = {WAY(caster_normal_offset)}},
     {.name = "caster_normal_offset_sin",
      .acts_on = BiasTarget::caster,
      .unit = "bias.offset_unit",
@@ -130,7 +124,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.caster_normal_offset, multiplied by sin(theta) at the vertex.",
      .law = law_35,
      .no_curve = is_in_the_map,
-     .formula = WAY(caster_normal_offset_sin)},
+     .formula = {WAY(caster_normal_offset_sin)}},
     {.name = "caster_normal_offset_turned",
      .acts_on = BiasTarget::caster,
      .unit = "bias.offset_unit",
@@ -138,7 +132,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.caster_normal_offset, multiplied by (1 - N.L) at the vertex.",
      .law = law_35,
      .no_curve = is_in_the_map,
-     .formula = WAY(caster_normal_offset_turned)},
+     .formula = {WAY(caster_normal_offset_turned)}},
     {.name = "polygon_factor",
      .acts_on = BiasTarget::caster,
      .unit = "",
@@ -166,20 +160,19 @@ constexpr TapReference references[] = {
     {.name = "own_depth",
      .help = "the receiver's own depth",
      .law = "law 1: needs k·w·A·tan θ",
-     .depth = in_float::own_depth,
-     .counted_depth = in_counts::own_depth},
+     .depth = in_float::own_depth},
     {.name = "receiver_plane",
      .help = "the depth of the receiver's plane at the tap",
      .law = "needs w/2·A·tan θ with any filter; over creases the plane is carried too far, up to bias.plane_cap",
      .depth = in_float::receiver_plane,
-     .counted_depth = in_counts::receiver_plane,
+     .operations = 6,
      .plane = true,
      .reads_cap = true},
     {.name = "texel_plane",
      .help = "the depth of the receiver's plane at the centre of the tap's texel",
      .law = "needs the rounding alone on planes, with any filter; over creases as receiver_plane",
      .depth = in_float::texel_plane,
-     .counted_depth = in_counts::texel_plane,
+     .operations = 4,
      .plane = true,
      .at_texel = true},
 };

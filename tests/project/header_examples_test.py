@@ -120,7 +120,6 @@ STAND_INS = {
     "technique/cascade_blends.h": "",
     "technique/cascade_splits.h": "",
     "technique/chosen_light.h": "",
-    "technique/counted.h": "",
     "technique/depth_format.h": "depths",
     "technique/filters.h": "",
     "technique/lookup_parameters.h": "",
