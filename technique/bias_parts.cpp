@@ -1,7 +1,6 @@
 #include "technique/bias_parts.h"
 
-#include <algorithm>
-#include <stdexcept>
+#include "base/find_row.h"
 
 #define precise
 namespace noonmark::in_float {
@@ -195,17 +194,10 @@ std::vector<BiasParameter> make_bias_parameters() {
   return all;
 }
 
-template <class Rows>
-const auto& row_of(const Rows& rows, std::string_view name, const char* what) {
-  for (const auto& row : rows)
-    if (row.name == name) return row;
-  throw std::logic_error("there is no " + std::string(what) + " '" + std::string(name) + "'");
-}
-
 }  // namespace
 
 std::span<const BiasPart> bias_parts() { return parts; }
-const BiasPart& bias_part(std::string_view name) { return row_of(parts, name, "part of a bias"); }
+const BiasPart& bias_part(std::string_view name) { return find_row(parts, name, "part of a bias"); }
 
 std::span<const BiasParameter> bias_parameters() {
   static const std::vector<BiasParameter> all = make_bias_parameters();
@@ -214,10 +206,10 @@ std::span<const BiasParameter> bias_parameters() {
 
 size_t bias_parameter_index(std::string_view name) {
   const std::span<const BiasParameter> all = bias_parameters();
-  return static_cast<size_t>(&row_of(all, name, "parameter of a bias") - all.data());
+  return static_cast<size_t>(&find_row(all, name, "parameter of a bias") - all.data());
 }
 
 std::span<const TapReference> tap_references() { return references; }
-const TapReference& tap_reference(std::string_view name) { return row_of(references, name, "reference of a tap"); }
+const TapReference& tap_reference(std::string_view name) { return find_row(references, name, "reference of a tap"); }
 
 }  // namespace noonmark

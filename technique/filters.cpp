@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "base/find_row.h"
 #include "technique/filters/patterns.h"
 
 namespace noonmark {
@@ -199,10 +199,6 @@ std::span<const Filter> filters() {
   return all;
 }
 
-const Filter& find_filter(std::string_view name) {
-  for (const Filter& filter : filters())
-    if (filter.name == name) return filter;
-  throw std::logic_error("there is no filter '" + std::string(name) + "'");
-}
+const Filter& find_filter(std::string_view name) { return find_row(filters(), name, "filter"); }
 
 }  // namespace noonmark

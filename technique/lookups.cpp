@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <stdexcept>
 #include <string>
 
+#include "base/find_row.h"
 #include "technique/filters/patterns.h"
 #include "technique/lookup_formulas.h"
 #include "technique/spread_blur.h"
@@ -265,11 +265,7 @@ std::span<const LookupKind> lookups() {
   return all;
 }
 
-const LookupKind& find_lookup(std::string_view name) {
-  for (const LookupKind& lookup : lookups())
-    if (lookup.name == name) return lookup;
-  throw std::logic_error("there is no lookup '" + std::string(name) + "'");
-}
+const LookupKind& find_lookup(std::string_view name) { return find_row(lookups(), name, "lookup"); }
 
 std::span<const KindParameter* const> LookupTable::parameters() {
   static const std::vector<const KindParameter*> all = parameters_of(lookups());
