@@ -102,7 +102,6 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
       // The report says why the picture cannot be read.
     }
   }
-  if (!outcome.interrupted) page.atlas().add(experiment, out, results, passes(verdict));
   checked.exit_code = exit_code_of(verdict);
   if (under_github_actions() && !outcome.interrupted) checked.annotations = github_annotations(path, results);
   if (arguments.json)
@@ -267,7 +266,7 @@ int check_all(const ExperimentList& list, const CheckOptions& options) {
     if (answers.stopped()) break;
   }
   try {
-    page.write(list.unreadable, !answers.stopped());
+    page.write(list.unreadable);
   } catch (...) {
     answers.add(current_failure());
   }
