@@ -301,8 +301,7 @@ RunVerb add_check(CLI::App& verb) {
   add_parts(verb, arguments);
   add_threads(verb, arguments);
   add_results_folder(verb, arguments, "Folder for the results; several experiments get a subfolder each");
-  add_sweep_options(verb, arguments,
-                    "Only print each experiment's points, the memory that each takes, and an estimate of the time");
+  add_sweep_options(verb, arguments, "Only print each experiment's points and the memory that each takes");
   verb.add_option("--baseline", baseline.file,
                   "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
       ->check(not_empty())
