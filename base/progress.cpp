@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 #include "base/terminal.h"
 #include "base/text.h"
@@ -44,45 +43,35 @@ void Progress::end_line() {
   line_open_ = false;
 }
 
-Progress::Work Progress::add(std::vector<double> expected_s) {
-  Known work;
-  work.left_expected_s = std::accumulate(expected_s.begin(), expected_s.end(), 0.0);
-  work.expected_s = std::move(expected_s);
-  works_.push_back(std::move(work));
+Progress::Work Progress::add(size_t steps) {
+  works_.push_back({.steps = steps});
+  if (!main_ && steps > 0) main_ = works_.size() - 1;
   return works_.size() - 1;
 }
 
-void Progress::set_left(Work work, size_t steps) {
-  Known& known = works_[work];
-  const double each = known.expected_s.empty() ? 0 : known.expected_s.back();
-  known.expected_s.resize(known.done + steps, each);
-  known.left_expected_s =
-      std::accumulate(known.expected_s.begin() + static_cast<std::ptrdiff_t>(known.done), known.expected_s.end(), 0.0);
-}
+void Progress::set_left(Work work, size_t steps) { works_[work].steps = works_[work].done + steps; }
 
-double Progress::left_s() const {
-  double took = 0, expected = 0;
-  for (const Known& work : works_) took += work.took_s, expected += work.done_expected_s;
-  const double of_all = expected > 0 ? took / expected : 1;
-  double left = 0;
-  for (const Known& work : works_)
-    left += work.left_expected_s * (work.done_expected_s > 0 ? work.took_s / work.done_expected_s : of_all);
+std::optional<double> Progress::left_s() const {
+  if (!main_ || works_[*main_].done < std::min<size_t>(2, works_[*main_].steps)) return std::nullopt;
+  double took = 0, done = 0, left = 0;
+  for (const Known& work : works_) took += work.took_s, done += static_cast<double>(work.done);
+  for (const Known& work : works_) {
+    const double rate = work.done > 0 ? work.took_s / static_cast<double>(work.done) : done > 0 ? took / done : 0;
+    left += rate * static_cast<double>(work.steps - std::min(work.steps, work.done));
+  }
   return left;
 }
 
 double Progress::done_share() const {
-  const double took = last_s_ - start_s_, left = left_s();
-  return left > 0 ? took / (took + left) : 1;
+  const std::optional<double> left = left_s();
+  const double took = last_s_ - start_s_;
+  return !left ? 0 : *left > 0 ? took / (took + *left) : 1;
 }
 
 void Progress::count(Work work) {
-  Known& known = works_[work];
-  const double now = now_(), expected = known.done < known.expected_s.size() ? known.expected_s[known.done] : 0;
-  known.took_s += now - last_s_;
-  known.done_expected_s += expected;
-  known.left_expected_s = std::max(0.0, known.left_expected_s - expected);
-  ++known.done;
-  if (known.done >= known.expected_s.size()) known.left_expected_s = 0;  // not what rounding leaves
+  const double now = now_();
+  works_[work].took_s += now - last_s_;
+  ++works_[work].done;
   last_s_ = now;
 }
 
@@ -105,13 +94,14 @@ void Progress::print(const std::string& what) {
   printed_s_ = last_s_;
   if (quiet_) return;
   const double so_far = last_s_ - start_s_;
-  const std::string left = works_.empty() ? "" : fmt::format(", about {} left", about(left_s()));
+  const std::optional<double> left_s = this->left_s();
+  const std::string left = left_s ? fmt::format("about {} left", about(*left_s)) : "";
   if (!terminal_) {
-    fmt::print(stderr, "{} ({:.1f} s so far{})\n", printable(what), so_far, left);
+    fmt::print(stderr, "{} ({:.1f} s so far{}{})\n", printable(what), so_far, left.empty() ? "" : ", ", left);
     return;
   }
   line_open_ = true;
-  if (works_.empty()) {
+  if (!left_s) {
     write_to_terminal(fmt::format("\r{:.0f} s so far  {:.60}\x1b[K", so_far, printable(what)));
     return;
   }
@@ -119,7 +109,7 @@ void Progress::print(const std::string& what) {
   const int filled = static_cast<int>(std::lround(width * done_share()));
   // Clears the rest of the line and stays within 79 columns.
   write_to_terminal(fmt::format("\r[{:=<{}}{: <{}}] {} left  {:.40}\x1b[K", "", filled, "", width - filled,
-                                about(left_s()), printable(what)));
+                                about(*left_s), printable(what)));
 }
 
 }  // namespace noonmark

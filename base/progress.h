@@ -2,15 +2,17 @@
 // on a terminal, plain lines elsewhere. It uses standard error, because standard output is for results.
 //
 //   Progress progress(quiet);
-//   const Progress::Work rows = progress.add(25, 1.0);   // 25 steps, each expected to take a second
+//   const Progress::Work rows = progress.add(25);   // 25 steps
 //   progress.say("the phase diagram");                         // what begins
 //   for (...) progress.finished(rows, "texel size 3 of 25");
 //
-// The expected seconds are those of any machine: from the first finished step on, the steps of a work take as long as those
-// before, in proportion, and the steps of a work that has not begun are as much slower or faster as the others were.
+// The time left is the rate so far: the steps of a work that are left take as long as those that are done, and those of a work
+// that has not begun as long as the mean of all. The first step starts what the others use, so nothing is said before the main
+// work has done two.
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +28,9 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   // Work that the run will do, all of it before the first step.
-  Work add(size_t steps, double expected_s) { return add(std::vector<double>(steps, expected_s)); }
-  Work add(std::vector<double> expected_s);  // of each step, in their order
+  Work add(size_t steps);
+  // The main work; without this call the first one that has steps.
+  void set_main(Work work) { main_ = work; }
   // What is left of a work, once that is known better.
   void set_left(Work work, size_t steps);
 
@@ -40,14 +43,13 @@ class Progress {
   // Ends the line that rewrites itself, before something else is printed.
   void end_line();
 
-  double left_s() const;
-  double done_share() const;  // from 0 to 1, of the time of the whole
+  std::optional<double> left_s() const;  // empty: nothing can be said yet
+  double done_share() const;             // from 0 to 1, of the time of the whole; 0 while nothing can be said
 
  private:
   struct Known {
-    std::vector<double> expected_s;
-    size_t done = 0;
-    double done_expected_s = 0, left_expected_s = 0, took_s = 0;
+    size_t steps = 0, done = 0;
+    double took_s = 0;
   };
   static double seconds_now();
   static bool on_terminal();
@@ -60,6 +62,7 @@ class Progress {
   double printed_s_;
   bool line_open_ = false;
   std::vector<Known> works_;
+  std::optional<Work> main_;
 };
 
 }  // namespace noonmark

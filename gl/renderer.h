@@ -195,4 +195,12 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
+// Bytes of a map of so many texels on the device, of depths: the texture, and while it comes and goes its bands. kept: it stays
+// for the next lookup; then the exact map and the tie map are beside it, and of a cube the texture with which it is probed. The
+// measured bytes of a texel (VmHWM of runs of which the map takes most, Debian 12 with llvmpipe) stand in renderer_map_data.cpp.
+double map_bytes(double texels, bool kept, bool cube);
+// The same of the two textures of moments of a map, with all mip levels, and of what is read back of the texels that taps read
+// and of each pixel. settings: of a lookup that reads moments.
+double moment_bytes(const Settings& settings, double texels, double asked, double pixels);
+
 }  // namespace noonmark::gl

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
+#include "technique/lookups.h"
 
 namespace noonmark::gl {
 namespace {
@@ -186,6 +187,17 @@ MomentEvidence Renderer::read_moments(const ShadowMap& map, std::span<const Tech
   evidence.fetched = read_back<glm::vec4>(r.fetched, GL_RGBA, GL_FLOAT);
   r.context->check("read_moments");
   return evidence;
+}
+
+double moment_bytes(const Settings& settings, double texels, double asked, double pixels) {
+  constexpr double per_asked_texel = 3 * 16;  // as they are read back, of two maps one after the other
+  constexpr double per_pixel = 2 * 16;        // the moments that each receiver fetches, on both sides of OpenGL
+  const LookupKind& kind = find_lookup(settings.lookup.kind);
+  const double each = (settings.map.moments == MomentFormat::f32 ? 4 : 2) * kind.channels;
+  const double stored = kind.spread ? 4 * kind.channels : each;  // what a blur of spreads reads has 32 bits
+  const double block = texel_block(settings), level = texels / (block * block);
+  const double halved = (texels - level) / 3;  // of all levels
+  return 2 * (texels * stored + (halved + 2 * level) * each) + asked * per_asked_texel + pixels * per_pixel;
 }
 
 }  // namespace noonmark::gl

@@ -7,83 +7,35 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "compare/ladder/bias_curves.h"
+#include "compare/ladder/flicker.h"
 #include "compare/ladder/live_picture.h"
 #include "compare/ladder/picture_stack.h"
-#include "compare/ladder/receiver_taps.h"
+#include "compare/ladder/placement_counts.h"
 #include "compare/ladder/reduction_window.h"
+#include "gl/renderer.h"
 #include "raytrace/tracer.h"
-#include "scenes/scene_size.h"
-#include "technique/casters.h"
 #include "technique/lookups.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
 
-// Bytes. Found by counting the arrays that are alive at the same time, and compared with the peak (VmHWM) of runs in
-// which one of them dominates, on Debian 12 with llvmpipe. The measured numbers are in brackets.
+// Bytes of what several stages hold together, or what is made of a measurement. What one stage allocates stands beside it. Found
+// by counting the arrays that are alive at the same time, and compared with the peak (VmHWM) of runs in which one of them
+// dominates, on Debian 12 with llvmpipe. The measured numbers are in brackets.
 constexpr double program = 260e6;  // libraries, OpenGL's compiler, one empty picture [125e6]
 constexpr double per_pixel = 260;  // receivers, truth, probe, ladder, on both sides of OpenGL [236]
+// Of each cascade but the first: its probe, its truth, and the ladder of its receivers before it is joined.
+constexpr double per_cascade_pixel = 130;
+// Of a lookup in a map of moments: four more causes, and what is kept of each receiver for curve.over.
+constexpr double per_moment_pixel = 16 + 16 + 80;
 // Pictures that are painted and encoded side by side, after much of the above has been freed: 3 bytes and the encoded ones
 // on each thread, and rows of the EXR files [7 on 2 threads].
 constexpr double per_picture_pixel = 60;
-// Of the map on the device. If it is small, the exact map, the tie map and, of a cube, the texture with which it is
-// probed are beside it; a large one is alone. The set of the texels that are asked for takes 2 bits of each.
-constexpr double per_kept_texel = 14, per_index_texel = 4, per_large_texel = 5;  // [12.6] [4] [4.3]
-constexpr double per_band_texel = 12, most_bands = 60e6;                         // a map is uploaded and read in bands
-// For each tap in the batch whose thresholds are being listed (batch_taps): a threshold of the error and one of its
-// cause, 4 bytes each, and again while they are sorted. Not every tap has both; the difference covers the growth of the
-// lists.
-constexpr double per_curve_tap = 16;
-constexpr double per_blended_tap = 56;  // with a weight of 8 each
-// For each tap, the sums over different thresholds: 12 bytes for the error, 12 for the cause, 12 while strips are
-// joined. The total is limited to 28 million of them, because differences of float depths repeat: 52 million taps had
-// 1.6 million different ones, 885 million taps had 10.5 million.
-constexpr double per_summed_tap = 2, most_sums = 1e9;  // [1.1]
-// For each texel that a tap reads: its first hit, its depth in three maps and the error of one.
-constexpr double per_asked_texel = 26;    // [24]
-constexpr double per_outside_texel = 32;  // texels beside the map: two lists of 16 bytes while they are made
-constexpr double per_open_edge = 240;     // as a shadow's edge: the edge, its pieces, the cells that list it [220]
-constexpr double per_closed_edge = 70;    // a third of them may be such edges too, if the light sees a fold
-// Certified squares of the light's plane (raytrace/light_cells.h), which are made where receivers lie: under 192 MiB.
-constexpr double per_cell_pixel = 40, most_cells = 202e6;  // [11, FlightHelmet at 1280 x 720]
-constexpr double per_kept_triangle = 150;                  // the second tree for the rays, without the culled faces
-// As scan conversion reads it, and in lists of tiles, while the first hits of a map are found.
-constexpr double per_raster_triangle = 130;  // [112]
-// The scene as a second light sees it (400), and through the lattice of the last placements (260).
-constexpr double per_light_triangle = 660;
 // Per byte of the scene's parts. point.json lists each part in up to 135 bytes and its name; the part itself has 40
 // bytes, and those of a long name.
 constexpr double per_listed_part_byte = 3.5;
-// All placements of the map's grid: where each placement looks up, the points of the lattice that are held at a time with
-// their tiles, and the sums by cause, placement and bias of each thread and of the whole.
-// Placements that form no lattice are measured one by one, beside the point itself: a probe, an exact map and taps each.
-// Of a map of moments also the receivers of a ReductionWindow, in a list of up to twice their size and a copy of it.
-constexpr double per_listed_receiver = 4.0 * sizeof(ReductionWindow::Receiver);
-constexpr double per_placed_pixel = 8, per_lattice_triangle = 260, per_placement = 10 * 8 * 512.0 * 12;
-constexpr double lattice_points = 9e6 * 28;
-constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
-// The live picture, which is drawn beside the point's own images: for each of its pixels a receiver as above and an
-// answer for each threshold, which are two for each tap (compare/ladder/live_picture.h), in a list that grows by doubling.
-// A stack of pictures (compare/ladder/picture_stack.h) has an answer for each picture in its place.
-constexpr double per_live_answer = 2 * sizeof(LiveAnswer), per_stacked_answer = 2 * sizeof(PictureStack::Answer);
-// Of each cascade but the first: its probe, its truth, and the ladder of its receivers before it is joined.
-constexpr double per_cascade_pixel = 130;
-// Of the flicker to the next frame: four lookups and what is booked of them, which pixels see a receiver and which light
-// reaches it there, and the receivers as they are uploaded again.
-constexpr double per_flicker_pixel = 90;
-// Of a lookup in a map of moments: four more causes, the moments that each receiver fetches, on both sides of OpenGL and kept for
-// curve.over, and what another reduction would give, also of what OpenGL shows, in a list of up to twice its size.
-constexpr double per_moment_pixel = 16 + 32 + 16 + 80 + 2 * sizeof(ReductionWindow::Shown);
-constexpr double per_asked_moments = 3 * 16;  // as they are read back, of two maps one after the other
-constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
-
-// asked: the texels that taps read.
-double map_bytes(double texels, double asked, bool cube) {
-  const bool kept = texels * sizeof(float) <= static_cast<double>(most_kept_map_bytes);
-  const double each = kept ? per_kept_texel + (cube ? per_index_texel : 0) : per_large_texel;
-  return texels * each + std::min(texels * per_band_texel, most_bands) + asked * per_asked_texel;
-}
 
 }  // namespace
 
@@ -108,68 +60,43 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double texels = widest * widest * s.map.rows() / s.map.resolution * faces;
   const TapPattern pattern = tap_pattern(s);
   const double taps = pixels * pattern.taps;
-  const double map =
-      map_bytes(texels, std::min(taps, texels), kind_of_light(input.light).map_shape() == MapShape::cube);
-
-  const double edges = 3.0 * static_cast<double>(input.scene.triangles);
-  const double open = std::min(edges, static_cast<double>(input.open_edges));
-  double scene = scene_bytes(input.scene) + per_open_edge * open + per_closed_edge * (edges - open);
-  scene += per_grid_cell * faces * std::clamp(16 * edges, least_grid_cells, most_grid_cells);
-  if (s.map.cull != CulledFaces::none) scene += per_kept_triangle * static_cast<double>(input.scene.triangles);
-  // The scene once more with moved vertices: its triangles, its places in the light's frame, and a tree of its own.
-  if (moves_casters(s.map, Bias(s.bias)))
-    scene += scene_bytes(input.scene) + per_kept_triangle * static_cast<double>(input.scene.triangles);
-
-  if (kind_of_light(input.light).map_shape() == MapShape::flat)
-    scene += per_raster_triangle * static_cast<double>(input.scene.triangles);
-  const bool two_lights = input.scene.triangles <= raytrace::most_triangles_of_two_lights;
-  if (kind_of_light(input.light).rays().have_one_direction())
-    scene += (two_lights ? 2 : 1) * std::min(per_cell_pixel * pixels, most_cells);
-  if (two_lights) scene += per_light_triangle * static_cast<double>(input.scene.triangles);
+  const double asked = std::min(taps, texels);
+  const bool cube = kind_of_light(input.light).map_shape() == MapShape::cube;
+  const bool kept_map = texels * sizeof(float) <= static_cast<double>(most_kept_map_bytes);
+  const double map = gl::map_bytes(texels, kept_map, cube) + asked * raytrace::bytes_per_asked_texel;
+  double scene = raytrace::truth_bytes(s, input.light, input.scene, input.open_edges);
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
-
-  double moments = 0;
-  if (reads_moments(s)) {
-    const LookupKind& kind = find_lookup(s.lookup.kind);
-    const double each = (s.map.moments == MomentFormat::f32 ? 4 : 2) * kind.channels;
-    const double stored = kind.spread ? 4 * kind.channels : each;  // what a blur of spreads reads has 32 bits
-    const double level = texels / (pattern.block * pattern.block), halved = (texels - level) / 3;  // of all levels
-    moments = 2 * (texels * stored + (halved + 2 * level) * each) + std::min(taps, texels) * per_asked_moments +
-              pixels * per_moment_pixel;
-  }
+  const double moments = !reads_moments(s) ? 0
+                                           : gl::moment_bytes(s, texels, asked, pixels) +
+                                                 pixels * (per_moment_pixel + ReductionWindow::shown_bytes());
   const double maps = s.cascades.count;
   if (maps > 1) scene += pixels * sizeof(double) * maps;  // ReceiverTruth::share
-  double curve = 0;
-  if (input.curve && curve_part(s))
-    curve = std::min<double>(taps, batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +
-            std::min(taps * per_summed_tap, most_sums);
+  const double curve = input.curve && curve_part(s) ? bias_curve_bytes(taps, pattern.bilinear()) : 0;
   const double all_taps = taps * static_cast<double>(bytes_per_tap(input.light)), row = all_taps / s.view.height_px;
   const double strip =
       all_taps <= most_kept_tap_bytes ? all_taps : std::max<double>(most_kept_tap_bytes / strips_in_kept_taps, row);
   // The lists of texels beside the map are freed when the curve is made, except those that later strips read.
-  const double outside = per_outside_texel * std::min(taps, input.outside_texels);
+  const double outside = raytrace::bytes_per_outside_texel * std::min(taps, input.outside_texels);
   const double beside = strip < all_taps ? curve + outside : std::max(curve, outside);
   const double side = s.map.placements;
   double placements = 0;
-  if (side > 1) {                                    // of each map
-    placements = side * side * per_placement + map;  // the worst placement is rendered too
+  if (side > 1) {                                           // of each map
+    placements = placement_count_bytes(side * side) + map;  // the worst placement is rendered too
     if (kind_of_light(input.light).placements_form_lattice() && !reads_moments(s))
-      placements += lattice_points + pixels * per_placed_pixel * side +
-                    per_lattice_triangle * static_cast<double>(input.scene.triangles);
-    else
-      placements += strip + pixels * (per_pixel + (reads_moments(s) ? per_listed_receiver : 0));
+      placements += raytrace::placement_bytes(pixels, side, static_cast<double>(input.scene.triangles));
+    else  // measured one by one, beside the point itself: a probe, an exact map and taps each
+      placements += strip + pixels * (per_pixel + (reads_moments(s) ? ReductionWindow::receiver_bytes() : 0));
   }
   placements *= maps;
   // A snapped map is drawn cell by cell and then put in order; the next frame of a motion has maps of its own.
   const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? maps : 0));
-  const double motion = s.view.motion.any() ? pixels * per_flicker_pixel : 0;
+  const double motion = s.view.motion.any() ? pixels * flicker_bytes_per_pixel : 0;
   const double kept = maps * (strip + map + moments) + more_maps;
   double live = 0;
   if (input.pictures && maps == 1) {
     const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
-    const double answers =
-        why_no_live_picture(s).empty() ? per_live_answer * (2.0 * pattern.taps + 1) : per_stacked_answer * most_stacked;
-    live = live_pixels * (per_pixel + sizeof(std::vector<LiveAnswer>) + answers);
+    const double answers = why_no_live_picture(s).empty() ? live_answer_bytes(pattern.taps) : stacked_answer_bytes;
+    live = live_pixels * (per_pixel + answers);  // a receiver as above, and its answers
   }
   return {
       {

@@ -22,6 +22,10 @@
 
 namespace noonmark::raytrace {
 
+// Bytes of the triangles as scan conversion reads them, and of the lists of tiles, while the first hits of a map are found [112
+// for each triangle].
+inline double raster_bytes(double triangles) { return 130 * triangles; }
+
 class LatticeRaster {
  public:
   static constexpr int side = 64;  // points along a tile

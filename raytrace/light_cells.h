@@ -88,6 +88,9 @@
 
 namespace noonmark {
 
+// Bytes of the cells of a light, which are made where receivers lie [11 for each pixel, FlightHelmet at 1280 x 720], under 192 MiB.
+inline double light_cell_bytes(double pixels) { return std::min(40 * pixels, 202e6); }
+
 class LightCells {
  public:
   static constexpr double least_cosine = 1.0 / 16;

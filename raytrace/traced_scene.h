@@ -61,6 +61,9 @@ class LightSide {
 
 class LatticeSide;
 
+// Bytes of what a second light sees of the scene (400 for each triangle), and of the lattice of the last placements (260).
+inline double second_light_bytes(double triangles) { return 660 * triangles; }
+
 class TracedScene {
  public:
   explicit TracedScene(const Scene& s) : scene(s), adjacency(s), embree(device, s, adjacency.without_copies()) {}

@@ -7,11 +7,13 @@
 
 #include "base/error.h"
 #include "raytrace/area_light.h"
+#include "raytrace/lattice_raster.h"
 #include "raytrace/light_view.h"
 #include "raytrace/packets.h"
 #include "raytrace/shadow_start.h"
 #include "raytrace/stage_watch.h"
 #include "raytrace/traced_scene.h"
+#include "technique/casters.h"
 
 namespace noonmark::raytrace {
 namespace {
@@ -240,6 +242,22 @@ Image<uint32_t> Tracer::first_on_the_way(const ReceiverImage& receivers, const L
     view.first_hits(traced_->embree, 1, &place, &first[i]);
   });
   return first;
+}
+
+double truth_bytes(const Settings& settings, LightKind light, const SceneSize& scene, uint64_t open_edges) {
+  constexpr double per_tree_triangle = 150;  // a second tree for the rays, without the culled faces
+  const KindOfLight& kind = kind_of_light(light);
+  const double triangles = static_cast<double>(scene.triangles), edges = 3 * triangles;
+  const double pixels = static_cast<double>(settings.view.width_px) * settings.view.height_px;
+  double bytes = scene_bytes(scene) +
+                 silhouette_bytes(edges, std::min(edges, static_cast<double>(open_edges)), kind.tiles(settings.map));
+  if (settings.map.cull != CulledFaces::none) bytes += per_tree_triangle * triangles;
+  // The scene once more with moved vertices: its triangles, its places in the light's frame, and a tree of its own.
+  if (moves_casters(settings.map, Bias(settings.bias))) bytes += scene_bytes(scene) + per_tree_triangle * triangles;
+  if (kind.map_shape() == MapShape::flat) bytes += raster_bytes(triangles);
+  const bool two_lights = scene.triangles <= most_triangles_of_two_lights;
+  if (kind.rays().have_one_direction()) bytes += (two_lights ? 2 : 1) * light_cell_bytes(pixels);
+  return bytes + (two_lights ? second_light_bytes(triangles) : 0);
 }
 
 }  // namespace noonmark::raytrace

@@ -19,10 +19,12 @@
 #include "raytrace/placement_tracer.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
+#include "scenes/scene_size.h"
 #include "scenes/view_matrix.h"
 #include "technique/bias.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
+#include "technique/light_kind.h"
 #include "technique/settings.h"
 
 namespace noonmark::raytrace {
@@ -60,6 +62,14 @@ double edge_ring(int ring);  // the radius in units; ring: from 0 on
 // Of a scene with at most so many triangles a tracer keeps what two lights see of it, otherwise what one sees. A light takes up
 // to 400 bytes for each triangle.
 inline constexpr size_t most_triangles_of_two_lights = size_t{1} << 18;
+
+// Bytes of what a tracer keeps of a scene and of its lights (two, where most_triangles_of_two_lights allows) for points with these
+// settings. open_edges: Tracer::open_edges().
+double truth_bytes(const Settings& settings, LightKind light, const SceneSize& scene, uint64_t open_edges);
+
+// Of each texel that a tap reads: its first hit, its depth in three maps and the error of one [24]. Of each texel beside the map:
+// two lists of 16 bytes while they are made.
+inline constexpr double bytes_per_asked_texel = 26, bytes_per_outside_texel = 32;
 
 class Tracer {
  public:

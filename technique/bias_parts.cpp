@@ -1,7 +1,6 @@
 #include "technique/bias_parts.h"
 
-#include <algorithm>
-#include <stdexcept>
+#include "base/find_row.h"
 
 #define precise
 namespace noonmark::in_float {
@@ -14,10 +13,6 @@ namespace noonmark::in_double {
 namespace noonmark::in_bounds {
 #include "bias_formulas.inc"
 }
-namespace noonmark::in_counts {
-#include "bias_formulas.inc"
-#include "reference_formulas.inc"
-}  // namespace noonmark::in_counts
 #undef precise
 
 namespace noonmark {
@@ -32,10 +27,8 @@ constexpr std::string_view law_35 =
 
 constexpr double most_units = 1e6;
 
-#define FACTOR(name) \
-  { .factor = in_float::name##_factor, .counted_factor = in_counts::name##_factor }
-#define WAY(name) \
-  { .way = in_double::name##_way, .bounded_way = in_bounds::name##_way, .counted_way = in_counts::name##_way }
+#define FACTOR(name) .factor = in_float::name##_factor
+#define WAY(name) .way = in_double::name##_way, .bounded_way = in_bounds::name##_way
 
 constexpr BiasPart parts[] = {
     {.name = "constant",
@@ -44,7 +37,7 @@ constexpr BiasPart parts[] = {
      .most = most_units,
      .help = "The same bias at every receiver, against acne (shadow acne: a surface shadows itself).",
      .law = "law 1: free of acne from k·w·A·tan θ; law 2: a gap of b·sin θ − t / cos ψ at the foot of a wall",
-     .formula = FACTOR(constant)},
+     .formula = {FACTOR(constant), .operations = 0}},
     {.name = "slope",
      .acts_on = BiasTarget::compared_depth,
      .unit = "bias.unit",
@@ -52,7 +45,7 @@ constexpr BiasPart parts[] = {
      .help = "Slope-scaled bias: max(bias.slope * (1 - N.L), bias.slope_floor).",
      .law = "law 1 at each receiver",
      .floor_help = "Smallest value of the slope-scaled bias.",
-     .formula = FACTOR(slope)},
+     .formula = {FACTOR(slope), .operations = 1}},
     {.name = "tan",
      .acts_on = BiasTarget::compared_depth,
      .unit = "bias.unit",
@@ -61,7 +54,7 @@ constexpr BiasPart parts[] = {
      .law = "law 1: free of acne at every slope from tan = k·w·A",
      .floor_help = "Smallest value of the bias by tan(theta).",
      .cap_help = "Largest value of the bias by tan(theta); auto: no limit.",
-     .formula = FACTOR(tan)},
+     .formula = {FACTOR(tan), .operations = 0}},
     {.name = "normal_offset",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -70,7 +63,7 @@ constexpr BiasPart parts[] = {
              "is texel_m metres wide).",
      .law = "law 3: free of acne from k·w·A·sin θ; shadows move by d·tan θ",
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset)},
+     .formula = {WAY(normal_offset), .operations = 0}},
     {.name = "normal_offset_sin",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -78,7 +71,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.normal_offset, multiplied by sin(theta).",
      .law = law_35,
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset_sin)},
+     .formula = {WAY(normal_offset_sin), .operations = 8}},
     {.name = "normal_offset_turned",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -86,7 +79,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.normal_offset, multiplied by (1 - N.L).",
      .law = law_35,
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset_turned)},
+     .formula = {WAY(normal_offset_turned), .operations = 4}},
     {.name = "normal_offset_lateral",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -94,7 +87,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.normal_offset_turned, but without the component along the light.",
      .law = law_35,
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset_lateral)},
+     .formula = {WAY(normal_offset_lateral), .operations = 10}},
     {.name = "normal_offset_axes",
      .acts_on = BiasTarget::place_looked_up,
      .unit = "bias.offset_unit",
@@ -102,7 +95,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.normal_offset, multiplied by |N.u| + |N.v|, where u and v are the texel's two axes.",
      .law = law_35,
      .no_curve = moves_the_lookup,
-     .formula = WAY(normal_offset_axes)},
+     .formula = {WAY(normal_offset_axes), .operations = 14}},
     {.name = "caster_offset",
      .acts_on = BiasTarget::caster,
      .unit = "bias.offset_unit",
@@ -112,7 +105,7 @@ constexpr BiasPart parts[] = {
          "are at the vertex.",
      .law = law_35,
      .no_curve = is_in_the_map,
-     .formula = WAY(caster_offset)},
+     .formula = {WAY(caster_offset)}},
     {.name = "caster_normal_offset",
      .acts_on = BiasTarget::caster,
      .unit = "bias.offset_unit",
@@ -122,7 +115,7 @@ constexpr BiasPart parts[] = {
          "mean of its faces' normals, weighted by their areas.",
      .law = law_35,
      .no_curve = is_in_the_map,
-     .formula = WAY(caster_normal_offset)},
+     .formula = {WAY(caster_normal_offset)}},
     {.name = "caster_normal_offset_sin",
      .acts_on = BiasTarget::caster,
      .unit = "bias.offset_unit",
@@ -130,7 +123,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.caster_normal_offset, multiplied by sin(theta) at the vertex.",
      .law = law_35,
      .no_curve = is_in_the_map,
-     .formula = WAY(caster_normal_offset_sin)},
+     .formula = {WAY(caster_normal_offset_sin)}},
     {.name = "caster_normal_offset_turned",
      .acts_on = BiasTarget::caster,
      .unit = "bias.offset_unit",
@@ -138,7 +131,7 @@ constexpr BiasPart parts[] = {
      .help = "Like bias.caster_normal_offset, multiplied by (1 - N.L) at the vertex.",
      .law = law_35,
      .no_curve = is_in_the_map,
-     .formula = WAY(caster_normal_offset_turned)},
+     .formula = {WAY(caster_normal_offset_turned)}},
     {.name = "polygon_factor",
      .acts_on = BiasTarget::caster,
      .unit = "",
@@ -166,20 +159,19 @@ constexpr TapReference references[] = {
     {.name = "own_depth",
      .help = "the receiver's own depth",
      .law = "law 1: needs k·w·A·tan θ",
-     .depth = in_float::own_depth,
-     .counted_depth = in_counts::own_depth},
+     .depth = in_float::own_depth},
     {.name = "receiver_plane",
      .help = "the depth of the receiver's plane at the tap",
      .law = "needs w/2·A·tan θ with any filter; over creases the plane is carried too far, up to bias.plane_cap",
      .depth = in_float::receiver_plane,
-     .counted_depth = in_counts::receiver_plane,
+     .operations = 6,
      .plane = true,
      .reads_cap = true},
     {.name = "texel_plane",
      .help = "the depth of the receiver's plane at the centre of the tap's texel",
      .law = "needs the rounding alone on planes, with any filter; over creases as receiver_plane",
      .depth = in_float::texel_plane,
-     .counted_depth = in_counts::texel_plane,
+     .operations = 4,
      .plane = true,
      .at_texel = true},
 };
@@ -202,17 +194,10 @@ std::vector<BiasParameter> make_bias_parameters() {
   return all;
 }
 
-template <class Rows>
-const auto& row_of(const Rows& rows, std::string_view name, const char* what) {
-  for (const auto& row : rows)
-    if (row.name == name) return row;
-  throw std::logic_error("there is no " + std::string(what) + " '" + std::string(name) + "'");
-}
-
 }  // namespace
 
 std::span<const BiasPart> bias_parts() { return parts; }
-const BiasPart& bias_part(std::string_view name) { return row_of(parts, name, "part of a bias"); }
+const BiasPart& bias_part(std::string_view name) { return find_row(parts, name, "part of a bias"); }
 
 std::span<const BiasParameter> bias_parameters() {
   static const std::vector<BiasParameter> all = make_bias_parameters();
@@ -221,10 +206,10 @@ std::span<const BiasParameter> bias_parameters() {
 
 size_t bias_parameter_index(std::string_view name) {
   const std::span<const BiasParameter> all = bias_parameters();
-  return static_cast<size_t>(&row_of(all, name, "parameter of a bias") - all.data());
+  return static_cast<size_t>(&find_row(all, name, "parameter of a bias") - all.data());
 }
 
 std::span<const TapReference> tap_references() { return references; }
-const TapReference& tap_reference(std::string_view name) { return row_of(references, name, "reference of a tap"); }
+const TapReference& tap_reference(std::string_view name) { return find_row(references, name, "reference of a tap"); }
 
 }  // namespace noonmark

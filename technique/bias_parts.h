@@ -30,9 +30,8 @@ struct BiasFormula {
   float (*factor)(in_float::Surface) = nullptr;          // compared_depth
   in_double::vec3 (*way)(in_double::Surface) = nullptr;  // place_looked_up, caster
   in_bounds::vec3 (*bounded_way)(in_bounds::Surface) = nullptr;
-  // The same formulas with counters; one of the two.
-  in_counts::real (*counted_factor)(in_counts::Surface) = nullptr;
-  in_counts::vec3 (*counted_way)(in_counts::Surface) = nullptr;
+  int operations =
+      0;  // of the factor or way, counted as LookupCost::operations (technique/cost.h); unread of a caster's
 };
 
 struct BiasPart {
@@ -75,7 +74,7 @@ struct TapReference {
   std::string_view help;
   std::string_view law;  // as of a part
   float (*depth)(in_float::TapPlace) = nullptr;
-  in_counts::real (*counted_depth)(in_counts::TapPlace) = nullptr;
+  int operations = 0;      // of the formula, as LookupCost::operations
   bool plane = false;      // the reference is the depth of the receiver's plane; this needs a flat map and a depth of
                            // its own for each texel that is read
   bool at_texel = false;   // true: TapPlace::way leads to the centre of the tap's texel; false: to its exact place

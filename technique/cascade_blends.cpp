@@ -1,9 +1,8 @@
 #include "technique/cascade_blends.h"
 
-#include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "base/find_row.h"
 #include "technique/formulas.h"
 
 #define precise
@@ -30,9 +29,7 @@ std::span<const CascadeBlend> cascade_blends() {
 }
 
 const CascadeBlend& find_cascade_blend(std::string_view name) {
-  for (const CascadeBlend& blend : cascade_blends())
-    if (blend.name == name) return blend;
-  throw std::logic_error("there is no shape of a blend band '" + std::string(name) + "'");
+  return find_row(cascade_blends(), name, "shape of a blend band");
 }
 
 }  // namespace noonmark

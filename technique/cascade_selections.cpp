@@ -1,10 +1,9 @@
 #include "technique/cascade_selections.h"
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "base/find_row.h"
 #include "technique/cascade_blends.h"
 #include "technique/formulas.h"
 #include "technique/technique.h"
@@ -81,9 +80,7 @@ std::span<const CascadeSelection> cascade_selections() {
 }
 
 const CascadeSelection& find_cascade_selection(std::string_view name) {
-  for (const CascadeSelection& selection : cascade_selections())
-    if (selection.name == name) return selection;
-  throw std::logic_error("there is no cascade selection '" + std::string(name) + "'");
+  return find_row(cascade_selections(), name, "cascade selection");
 }
 
 double weight_of_next(const CascadePlace& p, double place) {

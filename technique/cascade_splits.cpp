@@ -1,10 +1,8 @@
 #include "technique/cascade_splits.h"
 
-#include <stdexcept>
-#include <string>
-
 namespace noonmark {
 
+#include "base/find_row.h"
 #include "split_declarations.inc"
 
 std::span<const CascadeSplit> cascade_splits() {
@@ -35,9 +33,7 @@ std::span<const CascadeSplit> cascade_splits() {
 }
 
 const CascadeSplit& find_cascade_split(std::string_view name) {
-  for (const CascadeSplit& split : cascade_splits())
-    if (split.name == name) return split;
-  throw std::logic_error("there is no cascade split '" + std::string(name) + "'");
+  return find_row(cascade_splits(), name, "cascade split");
 }
 
 }  // namespace noonmark

@@ -1,5 +1,7 @@
 #include "technique/cost.h"
 
+#include <algorithm>
+
 #include "technique/bias.h"
 #include "technique/filters.h"
 #include "technique/lookups.h"
@@ -8,74 +10,35 @@
 namespace noonmark {
 namespace {
 
-using namespace counting;
-using in_counts::Surface;
-using in_counts::TapPlace;
-
-struct Counter {
-  int operations = 0;
-  Counted number() { return Counted::input(&operations); }
-  vec2 two() { return {number(), number()}; }
-  vec3 three() { return {number(), number(), number()}; }
-  Surface surface() { return {three(), three(), three(), three(), number(), number()}; }
-  TapPlace place() { return {number(), two(), two(), number()}; }
-};
-
 // The sum of the parts that act on the compared depth, each times its amount and held between its floor and its cap.
 int compared_operations(const Bias& bias) {
-  Counter counter;
-  Counted sum(0.0);
-  for (const ActivePart& active : bias.compared()) {
-    Counted value = counter.number() * active.part->formula.counted_factor(counter.surface());
-    if (!active.part->floor_help.empty()) value = max(value, Counted(0.0));
-    if (!active.part->cap_help.empty()) value = min(value, Counted(0.0));
-    sum = &active == bias.compared().data() ? value : sum + value;
-  }
-  return counter.operations;
+  int count = 0;
+  for (const ActivePart& active : bias.compared())
+    count += active.part->formula.operations + 1 + !active.part->floor_help.empty() + !active.part->cap_help.empty();
+  const int parts = static_cast<int>(bias.compared().size());
+  return count + std::max(parts - 1, 0);
 }
 
+// Each way times its amount, and its sum with the place: vectors of three numbers.
 int moving_operations(const Bias& bias) {
-  Counter counter;
-  for (const ActivePart& active : bias.moving()) {
-    const vec3 moved = counter.number() * active.part->formula.counted_way(counter.surface());
-    counter.three() + moved;
-  }
-  return counter.operations;
+  int count = 0;
+  for (const ActivePart& active : bias.moving()) count += active.part->formula.operations + 3 + 3;
+  return count;
 }
 
-int reference_operations(const TapReference& reference) {
-  Counter counter;
-  reference.counted_depth(counter.place());
-  return counter.operations;
-}
-
-// Of a filter that gives the weights of its texels, as gl/shaders/filter/fetches.glsl computes them.
+// Of a filter that gives the weights of its texels, as gl/shaders/filter/fetches.glsl computes them: a square of fetches of
+// 2 x 2 texels.
 int weight_operations(const Filter& filter, int size) {
-  Counter counter;
-  const auto weight = [&](int texel) { return filter.counted_weight(texel, counter.number(), size); };
-  for (int y = 0; y <= size; y += 2) {
-    const Counted below = weight(y), above = weight(y + 1);
-    for (int x = 0; x <= size; x += 2) {
-      const Counted left = weight(x), right = weight(x + 1);
-      const Counted across = left + right, up = below + above;  // written twice there; a compiler makes each once
-      across* up;
-      right / across;
-      above / up;
-    }
-  }
-  return counter.operations;
+  const int side = (size + 1) / 2, two_weights = 2 * filter.weight_operations;
+  const int blend = 5;  // two sums (written twice there; a compiler makes each once), their product, two divisions
+  return side * (two_weights + side * (two_weights + blend));
 }
 
-// Of a lookup in a map of moments: the formula, and light-bleed reduction where there is one.
+// Of a lookup in a map of moments: the formula, and light-bleed reduction where there is one: a difference, a product, and
+// held between 0 and 1.
 int moment_operations(const LookupKind& kind, const LookupSettings& settings) {
-  Counter counter;
-  const auto number = [&] { return counter.number(); };
-  const in_counts::LookupParameters parameters{number(), number(), number(),
-                                               number(), number(), settings.whole("moments")};
-  Counted lit = kind.moments->counted_lit({number(), number(), number(), number()}, number(), parameters);
-  if (settings["reduction"] != 0 || settings["reduction_span"] != 0)
-    lit = clamp((lit - number()) * number(), Counted(0.0), Counted(1.0));
-  return counter.operations;
+  const bool reduced = settings["reduction"] != 0 || settings["reduction_span"] != 0;
+  return kind.moments->operations(settings) + (reduced ? 4 : 0);
 }
 
 int bytes_of_moments(const Settings& settings) {
@@ -105,7 +68,7 @@ LookupCost lookup_cost(const Settings& settings) {
     if (filter.own_weights) cost.operations += weight_operations(filter, settings.filter.whole("size")) + fetches + 1;
   } else {
     // Each tap: its reference, minus the bias, compared, and counted if there are several.
-    const int tap = reference_operations(bias.reference()) + subtractions + 1;
+    const int tap = bias.reference().operations + subtractions + 1;
     cost.operations += fetches * tap + (fetches > 1 ? fetches : 0);
   }
   return cost;

@@ -14,10 +14,12 @@ namespace noonmark {
 struct LookupCost {
   int fetches = 0;  // texture instructions
   int texels = 0;   // that the fetches read: one each, or four where a comparison sampler blends
-  // Additions, products, divisions, roots, minima and maxima of the bias, the reference of each tap, the comparisons,
-  // the weights and their sum (technique/counted.h). The place in the map, N.L, tan(theta), the depth gradient and the
-  // addresses of the taps are not in it: every technique needs the first, and the others are not formulas of this
-  // program's rows.
+  // Additions, products, divisions, roots, exponentials, minima, maxima and choices of the bias, the reference of each
+  // tap, the comparisons, the weights and their sum: 1 each, counted in the formulas' text; the row of each formula has
+  // its number. A change of sign and an absolute value count nothing, because a GPU does them with the operand of another
+  // operation; nor does an operation on constants alone, because a compiler does it. The place in the map, N.L,
+  // tan(theta), the depth gradient and the addresses of the taps are not in it: every technique needs the first, and the
+  // others are not formulas of this program's rows.
   int operations = 0;
 };
 LookupCost lookup_cost(const Settings& settings);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "base/find_row.h"
 #include "technique/filters/patterns.h"
 
 namespace noonmark {
@@ -20,16 +20,6 @@ using glm::abs, glm::clamp;
 #undef precise
 
 }  // namespace filter_formulas
-
-namespace counted_filters {
-
-#define precise
-using real = Counted;
-using namespace counting;
-#include "filter_formulas.inc"
-#undef precise
-
-}  // namespace counted_filters
 
 namespace {
 
@@ -164,7 +154,7 @@ std::vector<Filter> make_filters() {
        .reads = {{&size, not_3_5_7}},
        .blended = true,
        .own_weights = true,
-       .counted_weight = counted_filters::castano_weight},
+       .weight_operations = 5},
       {.name = "tent",
        .help = "a tent whose base is N texels wide, integrated over each texel, N = 3, 5 or 7, in 4, 9 or 16 fetches",
        .law = "k = (N + 1) / 2; blur N/6 + (3N − 1)/(6N²) texels along them",
@@ -173,7 +163,7 @@ std::vector<Filter> make_filters() {
        .reads = {{&size, not_3_5_7}},
        .blended = true,
        .own_weights = true,
-       .counted_weight = counted_filters::tent_weight},
+       .weight_operations = 17},
       {.name = "vogel",
        .help = "mean of filter.taps nearest taps along a spiral in a disk",
        .law = "k from the tap furthest up the slope",
@@ -209,10 +199,6 @@ std::span<const Filter> filters() {
   return all;
 }
 
-const Filter& find_filter(std::string_view name) {
-  for (const Filter& filter : filters())
-    if (filter.name == name) return filter;
-  throw std::logic_error("there is no filter '" + std::string(name) + "'");
-}
+const Filter& find_filter(std::string_view name) { return find_row(filters(), name, "filter"); }
 
 }  // namespace noonmark

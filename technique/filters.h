@@ -14,7 +14,6 @@
 #include <string_view>
 #include <vector>
 
-#include "technique/counted.h"
 #include "technique/settings.h"
 #include "technique/tap_pattern.h"
 
@@ -34,7 +33,7 @@ struct Filter {
   bool own_weights = false;  // the file <name>.glsl gives the weights of the blend: <name>_weight
   // The kernel with which it blurs a map of moments, along each axis; null: it cannot. An odd number of weights, of sum 1.
   std::vector<double> (*blur)(const FilterSettings&) = nullptr;
-  Counted (*counted_weight)(int texel, Counted s, int size) = nullptr;  // the same with counters, for the cost
+  int weight_operations = 0;  // of <name>_weight of one texel, as LookupCost::operations (technique/cost.h)
 };
 
 std::span<const Filter> filters();

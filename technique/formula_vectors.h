@@ -1,5 +1,5 @@
-// Vectors of the numbers with which the host compiles the formulas a further time: with error bounds (bounded.h) and
-// with counters (counted.h). They have the operations that the formulas use.
+// Vectors of the numbers with error bounds (bounded.h), with which the host compiles the formulas a further time. They
+// have the operations that the formulas use.
 #pragma once
 
 namespace noonmark {

@@ -1,15 +1,14 @@
-// The formulas on the host. Those of technique/bias/*.glsl are compiled four times: in float, with the shader's
-// arithmetic (the host is built without contraction); in double, for the truth; with error bounds
-// (technique/bounded.h), for the contract check; and with counters (technique/counted.h), for the cost. Those of
-// technique/reference/*.glsl are compiled in float and with counters. Those of technique/lookups/*.glsl are compiled in
-// all of these and in long double, which is their truth (technique/lookup_formulas.h). The files use only words that GLSL
+// The formulas on the host. Those of technique/bias/*.glsl are compiled three times: in float, with the shader's
+// arithmetic (the host is built without contraction); in double, for the truth; and with error bounds
+// (technique/bounded.h), for the contract check. Those of technique/reference/*.glsl are compiled in float. Those of
+// technique/lookups/*.glsl are compiled in all of these and in long double, which is their truth
+// (technique/lookup_formulas.h). The files use only words that GLSL
 // and C++ share: vec2, vec3, vec4, dot, abs, min, max, clamp, sqrt, exp, where_less (technique/where_less.glsl), and rounded. `real`
 // is the type of a number, `precise` is GLSL's keyword, and a constant is written real(1), or rounded(0.1) if float does not hold it exactly.
 #pragma once
 #include <glm/glm.hpp>
 
 #include "technique/bounded.h"
-#include "technique/counted.h"
 
 #define precise
 namespace noonmark::in_float {
@@ -39,10 +38,4 @@ using real = Bounded;
 using namespace bounded;
 #include "technique/surface.glsl"
 }  // namespace noonmark::in_bounds
-
-namespace noonmark::in_counts {
-using real = Counted;
-using namespace counting;
-#include "technique/surface.glsl"
-}  // namespace noonmark::in_counts
 #undef precise

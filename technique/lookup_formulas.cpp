@@ -25,7 +25,4 @@ constexpr real rounded(double constant) { return static_cast<real>(constant); }
 namespace noonmark::in_bounds {
 #include "lookup_formulas.inc"
 }
-namespace noonmark::in_counts {
-#include "lookup_formulas.inc"
-}
 #undef precise

@@ -31,6 +31,3 @@ namespace noonmark::in_extended {
 namespace noonmark::in_bounds {
 #include "lookup_declarations.inc"
 }  // namespace noonmark::in_bounds
-namespace noonmark::in_counts {
-#include "lookup_declarations.inc"
-}  // namespace noonmark::in_counts

@@ -17,6 +17,3 @@ namespace noonmark::in_extended {
 namespace noonmark::in_bounds {
 #include "technique/lookups/parameters.glsl"
 }
-namespace noonmark::in_counts {
-#include "technique/lookups/parameters.glsl"
-}

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <stdexcept>
 #include <string>
 
+#include "base/find_row.h"
 #include "technique/filters/patterns.h"
 #include "technique/lookup_formulas.h"
 #include "technique/spread_blur.h"
@@ -137,9 +137,21 @@ constexpr KindParameter samples{.setting = "lookup.samples",
 bool always(const LookupSettings&) { return true; }
 bool within_one(const LookupSettings& settings) { return moment_forms[settings.whole("moments")] != "plain"; }
 
-#define MOMENT_FORMULAS(name)                                                                                  \
-  MomentFormulas {                                                                                             \
-    in_float::name##_moments, in_float::name##_lit, name##_truth, in_bounds::name##_lit, in_counts::name##_lit \
+// The operations of a lit fraction: one number, or one for each form of the moments.
+template <int count>
+int operations(const LookupSettings&) {
+  return count;
+}
+template <int plain, int of_2017, int of_2015, int plain_01>
+int operations(const LookupSettings& settings) {
+  constexpr int counts[] = {plain, of_2017, of_2015, plain_01};
+  static_assert(std::size(counts) == std::size(moment_forms));
+  return counts[settings.whole("moments")];
+}
+
+#define MOMENT_FORMULAS(name, ...)                                                                               \
+  MomentFormulas {                                                                                               \
+    in_float::name##_moments, in_float::name##_lit, name##_truth, in_bounds::name##_lit, operations<__VA_ARGS__> \
   }
 
 std::vector<LookupKind> make_lookups() {
@@ -152,7 +164,7 @@ std::vector<LookupKind> make_lookups() {
        .law = "never darker than the comparison (law 13); leak at most (a / (a + 2b))² (law 15); no bias on planes "
               "(law 17)",
        .reads = {{&v_min}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(vsm),
+       .moments = MOMENT_FORMULAS(vsm, 9),
        .channels = 2,
        .within_one = always},
       {.name = "esm",
@@ -161,7 +173,7 @@ std::vector<LookupKind> make_lookups() {
                "Markov's bound",
        .law = "never darker than the comparison (law 13); a lit gap of ln 2 / c at a contact (law 19)",
        .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(esm),
+       .moments = MOMENT_FORMULAS(esm, 4),
        .channels = 1,
        .warp_power = 1},
       {.name = "evsm2",
@@ -174,7 +186,7 @@ std::vector<LookupKind> make_lookups() {
                  {&level},
                  {&reduction},
                  {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(evsm2),
+       .moments = MOMENT_FORMULAS(evsm2, 17),
        .channels = 2,
        .warp_power = 2},
       {.name = "evsm4",
@@ -186,7 +198,7 @@ std::vector<LookupKind> make_lookups() {
                  {&level},
                  {&reduction},
                  {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(evsm4),
+       .moments = MOMENT_FORMULAS(evsm4, 35),
        .channels = 4,
        .warp_power = 2},
       {.name = "msm",
@@ -197,14 +209,14 @@ std::vector<LookupKind> make_lookups() {
               "need a "
               "bias of one standard deviation (law 17)",
        .reads = {{&moment_bias}, {&moments}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(msm),
+       .moments = MOMENT_FORMULAS(msm, 92, 102, 121, 92),
        .channels = 4,
        .within_one = within_one},
       {.name = "msm_hausdorff",
        .help = "moment shadow map over the distributions within the map's range (Hausdorff's problem)",
        .law = "never darker than the comparison (law 13), nor lighter than msm",
        .reads = {{&moment_bias}, {&moments}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(msm_hausdorff),
+       .moments = MOMENT_FORMULAS(msm_hausdorff, 151, 161, 160, 131),
        .channels = 4,
        .within_one = within_one},
       {.name = "babylon_esm",
@@ -212,7 +224,7 @@ std::vector<LookupKind> make_lookups() {
                "fraction 1 - e^(c d) E[e^(-c z)]. What is in the map itself is dark without a bias",
        .law = "no bound: a receiver in the map is lit by 1 - e^(-c b) with the bias b",
        .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(babylon_esm),
+       .moments = MOMENT_FORMULAS(babylon_esm, 8),
        .channels = 1,
        .warp_power = 1,
        .within_one = always,
@@ -223,7 +235,7 @@ std::vector<LookupKind> make_lookups() {
        .law = "no bound: shadows grow with the gap between caster and receiver; a caster that covers ln 2 / (c gap) of "
               "the blur makes half shade",
        .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(babylon_close_esm),
+       .moments = MOMENT_FORMULAS(babylon_close_esm, 7),
        .channels = 1,
        .within_one = always,
        .bound = false},
@@ -235,7 +247,7 @@ std::vector<LookupKind> make_lookups() {
               "variance, and it is no bound",
        .reads = {{&v_min}, {&radius}, {&samples}, {&reduction}, {&reduction_span, darkens_all}},
        .moments = MomentFormulas{in_float::three_vsm_moments, in_float::three_vsm_lit, LookupTruth{},
-                                 in_bounds::three_vsm_lit, in_counts::three_vsm_lit},
+                                 in_bounds::three_vsm_lit, operations<8>},
        .spread =
            SpreadFormulas{in_bounds::three_vsm_add_stored, in_bounds::three_vsm_spread, in_extended::three_vsm_lit},
        .channels = 2,
@@ -253,11 +265,7 @@ std::span<const LookupKind> lookups() {
   return all;
 }
 
-const LookupKind& find_lookup(std::string_view name) {
-  for (const LookupKind& lookup : lookups())
-    if (lookup.name == name) return lookup;
-  throw std::logic_error("there is no lookup '" + std::string(name) + "'");
-}
+const LookupKind& find_lookup(std::string_view name) { return find_row(lookups(), name, "lookup"); }
 
 std::span<const KindParameter* const> LookupTable::parameters() {
   static const std::vector<const KindParameter*> all = parameters_of(lookups());

@@ -27,7 +27,8 @@ struct MomentFormulas {
   // From the depths themselves (technique/lookup_truth.h).
   LookupTruth truth;
   Bounded (*bounded_lit)(in_bounds::vec4 moments, Bounded depth, in_bounds::LookupParameters);
-  Counted (*counted_lit)(in_counts::vec4 moments, Counted depth, in_counts::LookupParameters);
+  // Of <name>_lit, as LookupCost::operations (technique/cost.h).
+  int (*operations)(const LookupSettings&);
 };
 
 // The two passes of a lookup that blurs by itself and stores the spread of what it reads (technique/spread_blur.h).

@@ -20,7 +20,6 @@
 
 #include "base/error.h"
 #include "base/shell_words.h"
-#include "compare/judge/atlas.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
 #include "compare/ladder/bias_curves.h"
@@ -62,7 +61,6 @@ struct Experiment {
   std::string cost = RunInfo().cost, accuracy = RunInfo().accuracy;  // of [answer]
   // Of [answer], too: what recommend may choose although the file gives it. "bias" and "filter" are groups of settings.
   std::vector<std::string> choose;
-  std::optional<AtlasEntry> atlas;  // of [atlas]; it changes no measurement
   std::vector<Bound> bounds;
   std::vector<std::pair<std::string, std::string>> let;  // definitions for the laws
   std::vector<Law> laws;

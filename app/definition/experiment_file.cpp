@@ -9,7 +9,6 @@
 #include <set>
 #include <tuple>
 
-#include "app/definition/atlas_reader.h"
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_keys.h"
 #include "app/definition/promise_reader.h"
@@ -55,8 +54,6 @@ class Reader : private SettingsReader {
         times_ = item.node;
       else if (!in_part_ && item.key == "plot")
         read_plot(table(*item.node, "[plot]"));
-      else if (!in_part_ && item.key == "atlas")
-        experiment_.atlas = read_atlas_entry(table(*item.node, "[atlas]"), path());
       else if (!in_part_ && item.key == "part")
         parts_ = item.node;
       else if (!in_part_ && item.key == "lights")

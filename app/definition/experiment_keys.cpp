@@ -54,7 +54,6 @@ const std::vector<ExperimentKey>& root_keys() {
               "Whether map and lookup are timed; default: where a metric that is named is a time."),
       of_file("plot", Kind::table, "Which metrics stand at the top of the report's list."),
       of_file("answer", Kind::table, "What the answer makes small, and what it counts as cost."),
-      of_file("atlas", Kind::table, "The known failure that the file is about."),
       of_file("part", Kind::tables, "One of several experiments in one file."),
       of_file("lights", Kind::lights,
               "The lights of one frame, measured together: \"all\" of the scene, a list of names, a table [[lights]] "
@@ -78,20 +77,6 @@ const std::vector<ExperimentKey>& answer_keys() {
        Kind::names,
        "What recommend may choose although the file gives it.",
        {"map.resolution", "map.fit", "bias", "filter"}}};
-  return keys;
-}
-
-const std::vector<ExperimentKey>& atlas_keys() {
-  static const std::vector<ExperimentKey> keys = {
-      required({"failure", Kind::text, "The name of the failure."}),
-      required({"cause", Kind::metric, "The metric that carries it."}),
-      required({"driver", Kind::setting, "The setting that is swept through the cliff."}),
-      required({"cure", Kind::text, "The part that has the cure."}),
-      required({"without", Kind::text, "name=value: with it the bounds of that part break."}),
-      {"note", Kind::text, "One or two sentences for the reader."},
-      {"thread", Kind::text, "The address of a public report of this failure; needs answer."},
-      {"answer", Kind::text, "The sentence that would answer the thread."},
-      {"limit", Kind::limits, "Metrics that must not be larger at any point."}};
   return keys;
 }
 
@@ -193,8 +178,8 @@ struct NamedKeys {
 };
 constexpr NamedKeys tables[] = {{"root", root_keys},   {"plot", plot_keys},   {"answer", answer_keys},
                                 {"curve", curve_keys}, {"phase", phase_keys}, {"frame", frame_table_keys},
-                                {"bound", bound_keys}, {"atlas", atlas_keys}, {"law", law_keys},
-                                {"range", range_keys}, {"lights", light_keys}};
+                                {"bound", bound_keys}, {"law", law_keys},     {"range", range_keys},
+                                {"lights", light_keys}};
 
 }  // namespace
 

@@ -30,7 +30,6 @@ struct ExperimentKey {
     setting,     // the name of a setting
     sweep,       // a table of settings with several values
     conditions,  // a table of settings with the values that match
-    limits,      // a table of metrics, each with a number
     amounts,     // a list of numbers, or a range
     table,       // [name]: its keys are experiment_keys(name)
     tables,      // [[name]]
@@ -46,7 +45,7 @@ struct ExperimentKey {
   bool required = false;
 };
 
-// table: "root" (the file and a part), "plot", "answer", "atlas", "curve", "phase", "frame", "bound", "law",
+// table: "root" (the file and a part), "plot", "answer", "curve", "phase", "frame", "bound", "law",
 // "range", "lights" (of a [[lights]], beside its settings).
 std::span<const ExperimentKey> experiment_keys(std::string_view table);
 

@@ -183,10 +183,6 @@ Json form_of(const ExperimentKey& key) {
     case Kind::conditions:
       form = reference("conditions");
       break;
-    case Kind::limits:
-      form = {
-          {"type", "object"}, {"propertyNames", reference("metric")}, {"additionalProperties", {{"type", "number"}}}};
-      break;
     case Kind::amounts:
       form = any_of(
           {{{"type", "array"}, {"items", {{"type", "number"}, {"minimum", 0}}}, {"minItems", 1}}, reference("range")});
@@ -255,10 +251,9 @@ std::string experiment_schema() {
   definitions["quantity"] = {{"enum", quantities}};
   definitions["sweep"] = closed(settings_tables(swept_form, true));
   definitions["conditions"] = closed(settings_tables(condition_form, true));
-  for (const char* table : {"plot", "answer", "atlas", "curve", "phase", "frame", "bound", "law", "range"})
+  for (const char* table : {"plot", "answer", "curve", "phase", "frame", "bound", "law", "range"})
     definitions[table] = table_of(table);
   definitions["bound"].update(needs({"max", "min"}, "anyOf"));
-  definitions["atlas"]["dependencies"] = {{"thread", {"answer"}}, {"answer", {"thread"}}};
   definitions["law"].update(needs({"equals", "at_most", "at_least"}, "oneOf"));
   definitions["part"] = experiment_table(true);
   definitions["lights"] = table_of("lights");

@@ -58,7 +58,6 @@ class Writer {
       line("accuracy", toml_string(e.accuracy));
       if (!e.choose.empty()) line("choose", names(e.choose));
     }
-    if (e.atlas) write_atlas(*e.atlas);
     for (const FrameRequest& frame : e.frames) {
       header("[[frame]]");
       line("file", toml_string(from_folder(frame.file)));
@@ -144,14 +143,6 @@ class Writer {
     std::vector<std::string> texts;
     for (const std::string& one : values) texts.push_back(value(row, one));
     return fmt::format("[{}]", fmt::join(texts, ", "));
-  }
-
-  void write_atlas(const AtlasEntry& entry) {
-    header("[atlas]");
-    for (const auto& [key, text] : atlas_texts(entry))
-      if (!text->empty()) line(key, toml_string(*text));
-    if (!entry.limit.empty()) header("[atlas.limit]");
-    for (const auto& [metric, most] : entry.limit) line(metric, fmt::format("{}", most));
   }
 
   void write_where(std::string_view key, const Conditions& where) {

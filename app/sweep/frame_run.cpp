@@ -128,7 +128,7 @@ class FrameRun {
 
   void judge_all() {
     Progress progress(options_.quiet);
-    const Progress::Work frames = progress.add(files_.size(), 1.0);
+    const Progress::Work frames = progress.add(files_.size());
     const std::vector<Settings> planned = points(experiment_);
     for (size_t i = 0; i < files_.size() && !outcome_.interrupted; ++i) {
       judge_frame_number(i, planned[i]);

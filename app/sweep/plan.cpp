@@ -8,7 +8,6 @@
 #include "app/pictures/image_file.h"
 #include "app/sweep/survey.h"
 #include "app/sweep/sweep_phase.h"
-#include "app/sweep/time_estimate.h"
 #include "base/text.h"
 #include "measure/workbench.h"
 #include "technique/tap_pattern.h"
@@ -17,13 +16,8 @@ namespace noonmark {
 
 namespace {
 
-std::string seconds_text(double seconds) {
-  if (seconds < 9.5) return fmt::format("{:.2g} s", seconds);
-  return seconds < 120 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60);
-}
-
-// One line for each share: its points, its groups, its part of the cost and, in the same proportion, of the time.
-std::string shares_text(const std::vector<Share>& shares, const Shard& shard, std::optional<double> cpu_s) {
+// One line for each share: its points, its groups, its part of the cost.
+std::string shares_text(const std::vector<Share>& shares, const Shard& shard) {
   uint64_t all = 0, most = 0;
   for (const Share& share : shares) {
     all += share.cost;
@@ -41,7 +35,6 @@ std::string shares_text(const std::vector<Share>& shares, const Shard& shard, st
     const auto [low, high] = std::minmax_element(share.points.begin(), share.points.end());
     text += fmt::format("{} from {} to {} in {}, {:.1f}% of the cost", counted(share.points.size(), "point"), *low,
                         *high, counted(share.groups, "group"), 100 * part);
-    if (cpu_s) text += fmt::format(", about {} of processor time", seconds_text(part * *cpu_s));
     text += static_cast<int>(i) + 1 == shard.number ? " (listed above)\n" : "\n";
   }
   return text + fmt::format("a group shares scene, view, light and map; the largest share is {:.2f} times the mean\n",
@@ -79,7 +72,7 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
   }
   for (const Settings& point : planned) all_taps += taps(point);
   if (listed.empty()) {
-    fmt::print("{}", shares_text(shares, *shard, std::nullopt));
+    fmt::print("{}", shares_text(shares, *shard));
     return;
   }
   const auto most =
@@ -96,14 +89,8 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
     fmt::print("{}: {} texel sizes, each at {} placements of its grid\n", printable(plan.name()),
                plan.request.texel_sizes, plan.request.placements * plan.request.placements);
   }
-  const TimeEstimate time = estimate_time(bench, experiment, planned, diagrams);
-  fmt::print(
-      "{}, {:.3g} million taps; about {} of processor time, {} here if the machine stays as busy as now (from {} in "
-      "small "
-      "pictures, {} of processor time)\n",
-      counted(planned.size(), "point"), all_taps / 1e6, seconds_text(time.cpu_s), seconds_text(time.wall_s),
-      counted(static_cast<size_t>(time.measured), "point"), seconds_text(time.calibration_s));
-  if (shard) fmt::print("{}", shares_text(shares, *shard, time.cpu_s));
+  fmt::print("{}, {:.3g} million taps\n", counted(planned.size(), "point"), all_taps / 1e6);
+  if (shard) fmt::print("{}", shares_text(shares, *shard));
 }
 
 }  // namespace noonmark

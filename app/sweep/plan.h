@@ -1,4 +1,4 @@
-// The dry run: what a run would do, and how long it would take.
+// The dry run: what a run would do.
 #pragma once
 #include <optional>
 
@@ -7,7 +7,7 @@
 
 namespace noonmark {
 
-// Prints every point with its memory, and an estimate of the time. Writes nothing. Throws Error(usage) for a point that
+// Prints every point with its memory. Writes nothing. Throws Error(usage) for a point that
 // does not fit into memory. shard: only its points are printed, and then what each share has of the cost.
 void print_plan(const Experiment& experiment, const std::optional<Shard>& shard);
 

@@ -1,7 +1,6 @@
-// The steps of a sweep, from the first texel size of a phase diagram to the report, with the time that each is expected to
-// take: what its progress counts.
+// The steps of a sweep, from the first texel size of a phase diagram to the report: what its progress counts.
 //
-//   SweepProgress progress(experiment, planned, unmeasured, diagrams, options.quiet);
+//   SweepProgress progress(planned, ahead_of(experiment, planned, wanted, store, undrawn), options.quiet);
 //   progress.shown.finished(progress.points, "[3/48] map.resolution = 512");
 #pragma once
 #include <cstdint>
@@ -22,7 +21,7 @@ struct SweepProgress {
     std::vector<const PhasePlan*> diagrams = {};
     size_t drawn = 0;
   };
-  SweepProgress(const Experiment& experiment, const std::vector<Settings>& planned, const Ahead& ahead, bool quiet);
+  SweepProgress(const std::vector<Settings>& planned, const Ahead& ahead, bool quiet);
 
   // Says that this diagram begins, and counts its texel sizes.
   RowDone of_diagram(const PhasePlan& plan);

@@ -153,7 +153,7 @@ void SweepRun::prepare() {
       require_room_for(bench_, plan);
       undrawn_.push_back(&plan);
     }
-  progress_.emplace(experiment_, planned_, ahead_of(experiment_, planned_, wanted_, *store_, undrawn_), options_.quiet);
+  progress_.emplace(planned_, ahead_of(experiment_, planned_, wanted_, *store_, undrawn_), options_.quiet);
 }
 
 // Other programs may have taken memory since it was checked, and a scene's file may have changed.

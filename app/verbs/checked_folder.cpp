@@ -16,7 +16,7 @@ namespace noonmark {
 namespace fs = std::filesystem;
 
 namespace {
-const std::vector<std::string> pages = {"index.html", "atlas.html", "atlas.md"};
+const std::vector<std::string> pages = {"index.html"};
 }  // namespace
 
 std::string folder_above(const std::vector<std::string>& paths) {
@@ -28,8 +28,7 @@ CheckedFolder::CheckedFolder(const ExperimentList& list, const std::string& fold
     : wanted_(list.experiments.size() > 1 || std::any_of(list.experiments.begin(), list.experiments.end(),
                                                          [](const ListedExperiment& one) { return one.in_folder; })),
       folder_(folder),
-      path_(folder + "/index.html"),
-      atlas_(folder) {
+      path_(folder + "/index.html") {
   if (!wanted_) return;
   MadeFiles made(folder_);
   made.require_ours(pages);
@@ -47,20 +46,17 @@ std::string CheckedFolder::report_of(const ListedExperiment& listed) const {
   return fs::relative(listed.out, folder_, none).string() + "/report.html";
 }
 
-void CheckedFolder::write(const std::vector<UnreadableFolder>& unreadable, bool whole) {
+void CheckedFolder::write(const std::vector<UnreadableFolder>& unreadable) {
   if (!wanted_) return;
   for (const UnreadableFolder& one : unreadable) add(one.folder).words = one.error.what();
   make_folder(folder_);
   MadeFiles(folder_).add(pages);
   write_file_atomically(path_, index_page(entries_, std::string(build_facts().version)));
-  if (whole) atlas_words_ = atlas_.write();
-  MadeFiles(folder_).forget_absent(pages);
 }
 
 void CheckedFolder::print() const {
   std::error_code none;
   if (wanted_ && fs::exists(path_, none)) fmt::print("{}; the index is {}\n", index_words(entries_), printable(path_));
-  fmt::print("{}", atlas_words_);
 }
 
 }  // namespace noonmark

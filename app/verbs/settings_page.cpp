@@ -128,8 +128,7 @@ Markup experiment_section() {
       {"bound", "[[bound]]"},
       {"law", "[[law]]"},
       {"lights", "[[lights]], beside the settings of the light"},
-      {"frame", "[[frame]]"},
-      {"atlas", "[atlas]"}};
+      {"frame", "[[frame]]"}};
   Markup all;
   for (const auto& [name, title] : tables) {
     Markup rows;

@@ -102,7 +102,6 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
       // The report says why the picture cannot be read.
     }
   }
-  if (!outcome.interrupted) page.atlas().add(experiment, out, results, passes(verdict));
   checked.exit_code = exit_code_of(verdict);
   if (under_github_actions() && !outcome.interrupted) checked.annotations = github_annotations(path, results);
   if (arguments.json)
@@ -267,7 +266,7 @@ int check_all(const ExperimentList& list, const CheckOptions& options) {
     if (answers.stopped()) break;
   }
   try {
-    page.write(list.unreadable, !answers.stopped());
+    page.write(list.unreadable);
   } catch (...) {
     answers.add(current_failure());
   }
@@ -302,8 +301,7 @@ RunVerb add_check(CLI::App& verb) {
   add_parts(verb, arguments);
   add_threads(verb, arguments);
   add_results_folder(verb, arguments, "Folder for the results; several experiments get a subfolder each");
-  add_sweep_options(verb, arguments,
-                    "Only print each experiment's points, the memory that each takes, and an estimate of the time");
+  add_sweep_options(verb, arguments, "Only print each experiment's points and the memory that each takes");
   verb.add_option("--baseline", baseline.file,
                   "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
       ->check(not_empty())

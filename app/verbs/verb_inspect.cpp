@@ -34,7 +34,7 @@ int inspect_file(const std::string& model, ExperimentArguments arguments) {
   Workbench bench(gl::DebugMode::log);
   require_memory(bench.memory(settings, false, false), bench.memory_of_program(true), "this picture");
   Progress progress(arguments.quiet);
-  const Progress::Work picture_drawn = progress.add(1, 2.0);
+  const Progress::Work picture_drawn = progress.add(1);
   progress.say(fmt::format("the picture of {}", model));
   const Measurement m = bench.measure(settings, std::nullopt);
   folder.make();

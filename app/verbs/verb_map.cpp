@@ -75,7 +75,7 @@ int draw_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   coarse.map.placements = options.placements;
   require_memory(bench.memory(coarse, false, false), bench.memory_of_program(false), "this diagram");
   Progress progress(arguments.quiet);
-  const Progress::Work rows = progress.add(static_cast<size_t>(options.rows), 1.0);
+  const Progress::Work rows = progress.add(static_cast<size_t>(options.rows));
   progress.say(fmt::format("the phase diagram of {}", loaded.name));
   PhaseDiagram diagram = bench.phase(settings, options, nullptr, [&](int done) {
     progress.finished_small(rows, fmt::format("{} of {} texel sizes", done, options.rows));

@@ -76,8 +76,7 @@ RunVerb add_run(CLI::App& verb) {
   add_parts(verb, options->arguments);
   add_threads(verb, options->arguments);
   add_results_folder(verb, options->arguments, "Folder for the results");
-  add_sweep_options(verb, options->arguments,
-                    "Only print the points, the memory that each takes, and an estimate of the time");
+  add_sweep_options(verb, options->arguments, "Only print the points and the memory that each takes");
   return [options](const std::string& command) {
     ExperimentArguments& arguments = options->arguments;
     arguments.command = command;

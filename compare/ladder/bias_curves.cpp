@@ -361,4 +361,8 @@ BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const Curv
   return curve;
 }
 
+double bias_curve_bytes(double taps, bool blended) {
+  return std::min<double>(taps, batch_taps) * (blended ? 56 : 16) + std::min(2 * taps, 1e9);
+}
+
 }  // namespace noonmark

@@ -32,6 +32,10 @@ enum class FlickerClass { cascade, grid, depth, kernel, coverage };
 inline constexpr size_t flicker_classes = 5;
 inline constexpr size_t flicker_steps = 4;  // the classes that are steps from lookup to lookup
 
+// Bytes of a pixel: four lookups and what is booked of them, which pixels see a receiver and which light reaches it there, and the
+// receivers as they are uploaded again.
+inline constexpr double flicker_bytes_per_pixel = 90;
+
 // The result of each lookup at the receivers of the first frame, in the order above.
 struct FlickerLookups {
   const Image<float>&now, &choice, &grid, &depth, &next;  // with one map choice is now

@@ -44,6 +44,11 @@ struct LivePicture {
   std::vector<std::vector<LiveAnswer>> answers;  // of each pixel; empty unless it faces the light
 };
 
+// Bytes of a pixel's answers: one for each threshold, which are two for each tap, in a list that grows by doubling.
+inline double live_answer_bytes(double taps) {
+  return sizeof(std::vector<LiveAnswer>) + 2 * sizeof(LiveAnswer) * (2 * taps + 1);
+}
+
 // Whether the settings have a live picture: part of the bias with a curve, and a filter that is a mean of at most
 // most_live_taps comparisons. The reason as a sentence if not; otherwise empty.
 std::string why_no_live_picture(const Settings& settings);

@@ -68,6 +68,10 @@ struct PictureStack {
   std::vector<std::vector<Answer>> answers;  // of each pixel; empty unless it faces the light
 };
 
+// Bytes of a pixel's answers: one for each picture, in a list that grows by doubling.
+inline constexpr double stacked_answer_bytes =
+    sizeof(std::vector<PictureStack::Answer>) + 2 * sizeof(PictureStack::Answer) * most_stacked;
+
 // Without a picture. The images have the same size. parameter: what it varies.
 PictureStack empty_picture_stack(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
                                  std::string parameter);

@@ -47,6 +47,9 @@ struct PlacementEvidence {
   glm::ivec2 map_size;
 };
 
+// Bytes of the sums by cause, placement and bias, of each thread and of the whole.
+inline double placement_count_bytes(double placements) { return placements * 10 * 8 * 512 * 12; }
+
 class PlacementCounts {
  public:
   // varied: the part whose amount the edges are of, or null. Without it only the point's own bias is counted.

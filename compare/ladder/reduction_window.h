@@ -22,6 +22,10 @@ namespace noonmark {
 
 class ReductionWindow {
  public:
+  // Bytes of a receiver in a list of up to twice its size, and in a copy of it; and of what is shown of one.
+  static constexpr double receiver_bytes() { return 4.0 * sizeof(Receiver); }
+  static constexpr double shown_bytes() { return 2.0 * sizeof(Shown); }
+
   // A counted receiver: its pixel, by which the sums are ordered; R1; and the way from D to the bound.
   struct Receiver {
     size_t pixel = 0;

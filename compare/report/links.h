@@ -8,9 +8,6 @@
 
 namespace noonmark::report {
 
-// A link to an address of the web (http or https). Any other address is written as text, without a link.
-Markup web_link(std::string_view address, std::string_view text);
-
 // A link to a file beside the page, and its address, for src. path: relative to the page, any bytes.
 Markup file_link(std::string_view path, const Markup& content);
 std::string file_address(std::string_view path);

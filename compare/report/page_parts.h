@@ -22,14 +22,10 @@ struct PageParts {
 
 std::string fill_page(const PageParts& parts);
 
-// Whether a page holds its pictures itself, or shows files from folders beside it. The page allows no other pictures.
-enum class Pictures { inside, beside };
-
-// A page with the same style, without scripts.
+// A page with the same style, without scripts. It holds its pictures itself.
 struct PlainPageParts {
   Markup title, body;
   std::string version;
-  Pictures pictures = Pictures::inside;
   std::string style{};  // name of a file in page/ with rules for this page alone; empty: none
 };
 std::string plain_page(const PlainPageParts& parts);

@@ -29,8 +29,8 @@ auto facts_of(const PhaseRequest& p, const CurveOptions& c) {
 
 void expect_same(const Experiment& a, const Experiment& b) {
   EXPECT_EQ(fingerprint(a, {}), fingerprint(b, {}));
-  EXPECT_EQ(std::tie(a.title, a.plot, a.cost, a.accuracy, a.choose, a.pictures, a.part, a.atlas),
-            std::tie(b.title, b.plot, b.cost, b.accuracy, b.choose, b.pictures, b.part, b.atlas));
+  EXPECT_EQ(std::tie(a.title, a.plot, a.cost, a.accuracy, a.choose, a.pictures, a.part),
+            std::tie(b.title, b.plot, b.cost, b.accuracy, b.choose, b.pictures, b.part));
   EXPECT_EQ(facts_of(a.phase, a.curve), facts_of(b.phase, b.curve));
   ASSERT_EQ(a.bounds.size(), b.bounds.size());
   for (size_t i = 0; i < a.bounds.size(); ++i) EXPECT_EQ(facts_of(a.bounds[i]), facts_of(b.bounds[i]));

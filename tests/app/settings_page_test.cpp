@@ -44,7 +44,7 @@ TEST(SettingsPage, HasEveryRowOnce) {
   for (const FrameCheck& row : frame_checks()) once("checks", row.name);
   size_t keys = 0;
   for (const char* table :
-       {"root", "plot", "answer", "atlas", "curve", "phase", "frame", "bound", "law", "range", "lights"})
+       {"root", "plot", "answer", "curve", "phase", "frame", "bound", "law", "range", "lights"})
     keys += experiment_keys(table).size();
   EXPECT_EQ(count_of(section_of(page, "experiment"), " scope=\"row\">"), keys);
 }

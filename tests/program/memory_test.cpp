@@ -151,18 +151,6 @@ INSTANTIATE_TEST_SUITE_P(
              "64\n"}),
     [](const auto& one) { return std::string(one.param.name); });
 
-// A texture of 256 MiB has 65536 usual pages, and the kernel takes more time to give them than OpenGL to clear them.
-TEST_F(Memory, ALargeMapHasHugePages) {
-  const std::string given = read_file("/sys/kernel/mm/transparent_hugepage/enabled");
-  if (given.find("[never]") != std::string::npos) GTEST_SKIP() << "the kernel gives no huge pages";
-  const auto pages = [&](const char* side) {
-    write("x.toml",
-          std::string("pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = ") + side);
-    return usage_of({"run", (folder_ / "x.toml").string(), "--out", (folder_ / side).string()}).ru_minflt;
-  };
-  EXPECT_LT(pages("8192") - pages("16"), 65536 / 4);
-}
-
 // `render` also lists every part in point.json.
 TEST_F(Memory, TilesAreListedAsPredicted) {
   const std::string scene = grid(40, 3, std::string(200, 'n'));

@@ -154,12 +154,11 @@ TEST(Documents, EverySettingThatIsNamedIsThere) {
     }
 }
 
-// Comments may cite only documents of this repository. `check` writes summary.md and atlas.md, so they are exceptions.
+// Comments may cite only documents of this repository. `check` writes summary.md, so it is an exception.
 TEST(Documents, EveryDocumentThatIsCitedIsThere) {
   for (const fs::path& file : all_texts())
     for (const std::string& word : path_like_words(text_of(file)))
-      if (word.ends_with(".md") && word != ".md" && fs::path(word).filename() != "summary.md" &&
-          fs::path(word).filename() != "atlas.md") {
+      if (word.ends_with(".md") && word != ".md" && fs::path(word).filename() != "summary.md") {
         const std::string from_root = word.substr(word.find_first_not_of('/'));
         EXPECT_TRUE(fs::exists(root / from_root) || fs::exists(file.parent_path() / word))
             << fs::relative(file, root).string() << " cites " << word;

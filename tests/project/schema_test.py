@@ -105,8 +105,6 @@ broken = {
     "one bound that is no list": lambda d: d.update(bound={"metric": "acne", "max": 1}),
     "a law with two relations": lambda d: d["law"][0].update(at_most=1),
     "a law without a relation": lambda d: d["law"][0].pop("equals"),
-    "an atlas row without its cure": lambda d: d.update(atlas={"failure": "x", "cause": "acne", "driver": "map.resolution",
-                                                               "without": "bias.tan=0"}),
     "a cost that is no metric": lambda d: d.update(answer={"cost": "window_min_m"}),
     "a bound of the curve above 1": lambda d: d.update(curve={"acne_bound": 1.5}),
     "too many texel sizes": lambda d: d.update(phase={"texel_sizes": 1000}),

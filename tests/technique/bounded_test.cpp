@@ -1,4 +1,4 @@
-// The error bounds and the counts of the operations that the formulas of filtered maps need.
+// The error bounds of the operations that the formulas of filtered maps need.
 #include "technique/bounded.h"
 
 #include <gtest/gtest.h>
@@ -65,27 +65,6 @@ TEST(Bounded, AConstantHasTheErrorOfItsRounding) {
   const Bounded tenth = bounded::rounded(0.1);
   EXPECT_LE(std::abs(static_cast<double>(0.1f) - tenth.value), tenth.error);
   EXPECT_LE(tenth.error, 0.1 * 0x1p-24);
-}
-
-// The operations of a formula, counted by hand.
-TEST(Counted, LookupsAreCounted) {
-  int operations = 0;
-  const Counted n = Counted::input(&operations);
-  const in_counts::vec4 moments(n, n, n, n);
-  const in_counts::LookupParameters p{n, n, n, n, n, 0};
-  const auto count = [&](auto&& formula) {
-    operations = 0;
-    formula();
-    return operations;
-  };
-  EXPECT_EQ(count([&] { in_counts::vsm_moments(n, p); }), 1);  // the square
-  EXPECT_EQ(count([&] { in_counts::vsm_lit(moments, n, p); }),
-            9);                                                // variance 2, max, way, spread 2, quotient 2, choice
-  EXPECT_EQ(count([&] { in_counts::esm_moments(n, p); }), 2);  // product, exp
-  EXPECT_EQ(count([&] { in_counts::esm_lit(moments, n, p); }), 4);     // product, exp, product, choice
-  EXPECT_EQ(count([&] { in_counts::evsm2_moments(n, p); }), 5);        // z 2, warp 2, square
-  EXPECT_EQ(count([&] { in_counts::evsm2_lit(moments, n, p); }), 17);  // warp 4, floor 4, as VSM 9
-  EXPECT_EQ(count([&] { in_counts::evsm4_lit(moments, n, p); }), 35);  // twice that, choice
 }
 
 }  // namespace

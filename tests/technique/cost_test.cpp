@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <string_view>
+
 #include "technique/bias_parts.h"
 #include "technique/filters.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 namespace {
@@ -60,13 +65,17 @@ TEST(Cost, CountsTheOperationsOfTheFormulas) {
 }
 
 // castano_weight(texel, s, size): 1 - s is one operation; a weight of two kernel taps is here * (1 - s) + before * s,
-// divided: five operations. The kernel's values are constants.
+// divided: five operations. The kernel's values are constants. tent_weight: the two ends of the texel are a sum each; the area up
+// to each is held (2), divided, and 2 - |at|, its product, the sum and the division by 2; their difference: 2 + 14 + 1.
 TEST(Cost, CountsTheWeightsOfAFilterThatMakesThem) {
-  const int fetches = 4, along = 4;  // a kernel of 3: 2 fetches of 2 texels along each axis
-  const int weight = 5;
-  const int weights = weight * (along + 2 * along);  // per row of fetches: two, and two for each of its fetches
-  const int blends = 5 * fetches;                    // two sums, their product, two divisions
-  EXPECT_EQ(lookup_cost(with({"castano", {{"size", 3}}})).operations, weights + blends + 3 * fetches + 1);
+  for (const auto& [kind, weight] : {std::pair{"castano", 5}, std::pair{"tent", 17}})
+    for (const int size : {3, 5, 7}) {
+      const int along = size + 1, rows = along / 2, fetches = rows * rows;  // of 2 x 2 texels
+      const int weights = weight * (along + rows * along);  // per row of fetches: two, and two for each of its fetches
+      const int blends = 5 * fetches;                       // two sums, their product, two divisions
+      EXPECT_EQ(lookup_cost(with({kind, {{"size", size}}})).operations, weights + blends + 3 * fetches + 1)
+          << kind << size;
+    }
 }
 
 TEST(Cost, AddsTheMapAndTheLookups) {
@@ -89,7 +98,6 @@ TEST(Cost, AddsTheMapAndTheLookups) {
             int64_t{6} * 2 * 16384 * 16384);
 }
 
-// A row without its counters would cost nothing, or crash.
 // A pass stores moments and two blur them; three.js's two passes read the depths themselves.
 TEST(Cost, AddsThePassesOverAMapOfMoments) {
   Settings s = with({"box", {{"size", 5}}});
@@ -115,15 +123,68 @@ TEST(Cost, AddsThePassesOverAMapOfMoments) {
   EXPECT_EQ(three.map_bytes, vsm.map_bytes);
 }
 
-TEST(Cost, EveryRowHasItsCounters) {
+// Each part alone with one nearest tap, whose comparison is 1 operation. The parts that are not named here act on the caster.
+TEST(Cost, CountsTheOperationsOfEachPart) {
+  const std::map<std::string_view, int> of_formula = {
+      {"constant", 0},
+      {"slope", 1},              // 1 - N.L
+      {"tan", 0},                // tan(theta) is given
+      {"normal_offset", 0},      // N is given
+      {"normal_offset_sin", 8},  // N.L held between 0 and 1, squared, 1 less that, root, and the way's three products
+      {"normal_offset_turned", 4},    // 1 - N.L, three products
+      {"normal_offset_lateral", 10},  // that, three products along the light, three differences
+      {"normal_offset_axes", 14},     // two dots of 5, their sum, three products
+  };
   for (const BiasPart& part : bias_parts()) {
-    const bool polygon_offset = !part.formula.factor && !part.formula.way;
-    EXPECT_EQ(!part.formula.counted_factor, !part.formula.factor) << part.name;
-    EXPECT_EQ(!part.formula.counted_way, !part.formula.way || polygon_offset) << part.name;
+    Settings s = with({"none", {}});
+    s.bias[part.name] = 0.5;
+    int expected = 1;
+    if (part.acts_on == BiasTarget::compared_depth)  // times the amount, floor, cap, and taken from the reference
+      expected += of_formula.at(part.name) + 1 + !part.floor_help.empty() + !part.cap_help.empty() + 1;
+    else if (part.acts_on == BiasTarget::place_looked_up)  // times the amount, added to P
+      expected += of_formula.at(part.name) + 3 + 3;
+    EXPECT_EQ(lookup_cost(s).operations, expected) << part.name;
   }
-  for (const TapReference& reference : tap_references()) EXPECT_TRUE(reference.counted_depth) << reference.name;
+}
+
+TEST(Cost, CountsTheOperationsOfEachLookup) {
+  struct Row {
+    const char* kind;
+    int form, operations;
+  };
+  const Row rows[] = {
+      {"vsm", 0, 9},     // variance 2, max, way, spread 2, quotient 2, choice
+      {"esm", 0, 4},     // product, exp, product, choice
+      {"evsm2", 0, 17},  // warp 4, floor 4, as VSM 9
+      {"evsm4", 0, 35},  // twice that, choice
+      {"msm", 0, 92},
+      {"msm", 1, 102},
+      {"msm", 2, 121},
+      {"msm", 3, 92},
+      {"msm_hausdorff", 0, 151},
+      {"msm_hausdorff", 1, 161},
+      {"msm_hausdorff", 2, 160},
+      {"msm_hausdorff", 3, 131},
+      {"babylon_esm", 0, 8},
+      {"babylon_close_esm", 0, 7},
+      {"three_vsm", 0, 8},
+  };
+  for (const Row& row : rows) {
+    Settings s = with({"none", {}});
+    s.lookup.kind = row.kind;
+    s.lookup["moments"] = row.form;
+    EXPECT_EQ(lookup_cost(s).operations, row.operations) << row.kind << " " << row.form;
+    s.lookup["reduction"] = 0.3;  // less it, over the rest, held between 0 and 1
+    EXPECT_EQ(lookup_cost(s).operations, row.operations + 4) << row.kind << " " << row.form;
+  }
+  for (const LookupKind& lookup : lookups())
+    if (lookup.reads_moments())
+      EXPECT_TRUE(std::ranges::any_of(rows, [&](const Row& row) { return row.kind == lookup.name; })) << lookup.name;
+}
+
+TEST(Cost, EveryFilterFetches) {
   for (const Filter& filter : filters()) {
-    EXPECT_EQ(filter.counted_weight != nullptr, filter.own_weights) << filter.name;
+    EXPECT_EQ(filter.weight_operations != 0, filter.own_weights) << filter.name;
     EXPECT_GE(lookup_cost(with({std::string(filter.name), {}})).fetches, 1) << filter.name;
   }
 }

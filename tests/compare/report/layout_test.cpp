@@ -10,7 +10,6 @@
 #include <tuple>
 #include <vector>
 
-#include "compare/report/atlas.h"
 #include "compare/report/index_page.h"
 #include "compare/report/phase.h"
 #include "compare/report/report.h"
@@ -44,22 +43,6 @@ Results parts_and_laws() {
   law.measured = "acne_free_bias_m / (texel_m * (abs(tan_theta) + depth_quantum_m) * some_other_quantity_of_the_point)";
   results.laws.push_back(law);
   return results;
-}
-
-std::string atlas() {
-  std::vector<AtlasRow> rows;
-  for (int i = 0; i < 5; ++i) {
-    AtlasRow& row = rows.emplace_back();
-    row.entry.failure = "Acne at grazing angles, on surfaces that the light only just reaches";
-    row.entry.cause = "acne";
-    row.entry.driver = "scene.theta_deg";
-    row.entry.cure = "a bias by the slope";
-    row.report = "grazing/report.html";
-    row.command = "noonmark check mine/a-file-with-quite-a-long-name-without-spaces.toml";
-    for (const char* technique : {"constant", "slope", "receiver plane", "normal offset", "texel plane"})
-      row.cells.emplace_back().technique = technique;
-  }
-  return to_atlas_page(rows, "0.1.0");
 }
 
 std::string tornado() {
@@ -122,7 +105,6 @@ const Page pages[] = {
     {"parts", [] { return render_report(parts_and_laws(), sample_picture); }},
     {"map", [] { return render_phase(sample_phase()); }},
     {"index", index},
-    {"atlas", atlas},
     {"tornado", tornado},
 };
 
