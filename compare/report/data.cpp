@@ -19,7 +19,6 @@
 #include "compare/report/phase_section.h"
 #include "compare/report/point_data.h"
 #include "compare/report/reduction_section.h"
-#include "compare/report/rules.h"
 #include "compare/report/speed.h"
 #include "compare/report/text.h"
 #include "compare/results/curve_fields.h"
