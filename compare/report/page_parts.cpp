@@ -110,11 +110,7 @@ std::string plain_page(const PlainPageParts& parts) {
   return fill_template(page_file("report/page/plain.html"), [&](std::string_view name) -> std::string {
     if (name == "title") return parts.title.html();
     if (name == "pictures") return parts.pictures == Pictures::inside ? "data:" : "'self' file: data:";
-    if (name == "style") {
-      std::string style(page_file("report/page/style.css"));
-      if (!parts.style.empty()) style += page_file(fmt::format("report/page/{}.css", parts.style));
-      return style;
-    }
+    if (name == "style") return std::string(page_file("report/page/style.css"));
     if (name == "body") return parts.body.html();
     if (name == "version") return Markup(parts.version).html();
     throw unknown(name);

@@ -30,7 +30,6 @@ struct PlainPageParts {
   Markup title, body;
   std::string version;
   Pictures pictures = Pictures::inside;
-  std::string style{};  // name of a file in page/ with rules for this page alone; empty: none
 };
 std::string plain_page(const PlainPageParts& parts);
 

@@ -14,7 +14,6 @@
 #include "compare/report/index_page.h"
 #include "compare/report/phase.h"
 #include "compare/report/report.h"
-#include "compare/report/tornado.h"
 #include "tests/compare/report/browser.h"
 #include "tests/compare/report/sample.h"
 #include "tests/support/sample_results.h"
@@ -62,25 +61,6 @@ std::string atlas() {
   return to_atlas_page(rows, "0.1.0");
 }
 
-std::string tornado() {
-  Tornado around;
-  around.error = 0.001;
-  around.held = true;
-  around.accuracy = "error";
-  around.placements = 64;
-  for (const char* setting : {"map.resolution", "bias.constant"}) {
-    TornadoRow& row = around.rows.emplace_back();
-    row.setting = setting;
-    row.unit = "texels";
-    row.value = "1024";
-    row.half = {"512", 0.002, true, ""};
-    row.twice = {"2048", 0.0005, true, ""};
-    row.low = row.half;
-    row.high = row.twice;
-  }
-  return to_tornado_page(around, "0.1.0");
-}
-
 std::string index() {
   IndexEntry entry;
   entry.verdict = IndexEntry::Verdict::broken;
@@ -123,7 +103,6 @@ const Page pages[] = {
     {"map", [] { return render_phase(sample_phase()); }},
     {"index", index},
     {"atlas", atlas},
-    {"tornado", tornado},
 };
 
 // A page without scripts forbids them, also that of the test.
