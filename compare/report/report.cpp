@@ -95,7 +95,6 @@ constexpr Section all_sections[] = {
     {"answer", nullptr, by_point<report::answer_section>, false},
     {"lights", "Lights", lights, false},
     {"cascades", "Cascades", plain<report::cascades_section>, false},
-    {"engines", "Engines", plain<report::engines_section>, false},
     {"motion", "Motion", motion, false},
     {"bias", "Bias", by_point<report::bias_section>, false},
     {"reduction", "Reduction", by_point<report::reduction_section>, false},
