@@ -203,9 +203,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
       {"causes", cause_data(results)},
       {"frames", judges_frames(results.points) ? json(results.info.command) : json()},  // the command that judged them
       {"plot", results.info.plot},
-      {"over", results.info.over},
       {"cost", results.info.cost},
-      {"accuracy", results.info.accuracy},
       {"bias", opens_as_set(results) ? "set" : "recommended"},
       {"bias_word", bias_word(shown)},
       {"free", free_setting_words(shown.results.points)},
