@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/advise/engine_promise.h"
-#include "app/advise/experiment_engines.h"
+#include "app/advise/seen_depths.h"
 #include "technique/light_frame.h"
 
 namespace noonmark {

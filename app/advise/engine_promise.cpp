@@ -25,6 +25,12 @@ void raise(double& most, double value) {
   if (!(value <= most)) most = value;
 }
 
+// Of lines for a map of moments: in which numbers it is measured, ", measured with map.moments = 32f". Otherwise empty.
+std::string format_text(const EngineAdvice& advice) {
+  if (!advice.emulated || !reads_moments(*advice.emulated)) return "";
+  return fmt::format(", measured with map.moments = {}", find_setting("map.moments").get(*advice.emulated));
+}
+
 }  // namespace
 
 EnginePromise measured_promise(Workbench& bench, std::span<const Settings> conditions, const std::string& accuracy) {
@@ -87,11 +93,6 @@ std::string promise_text(const EngineAdvice& advice, const EnginePromise& recomm
   return fmt::format("error {} with these lines (recommended: {}){}{}", share_text(advice.promise->error),
                      share_text(recommended.error),
                      advice.promise->all_views ? "" : ", measured at the given view alone", format_text(advice));
-}
-
-std::string format_text(const EngineAdvice& advice) {
-  if (!advice.emulated || !reads_moments(*advice.emulated)) return "";
-  return fmt::format(", measured with map.moments = {}", find_setting("map.moments").get(*advice.emulated));
 }
 
 std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& bounds, std::optional<double> error) {

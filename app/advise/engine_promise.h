@@ -34,9 +34,6 @@ EnginePromise measure_promises(Workbench& bench, std::vector<EngineAdvice>& engi
 // One sentence without a full stop: the error with the lines, beside the recommended one. recommended: as measure_promises() returns it.
 std::string promise_text(const EngineAdvice& advice, const EnginePromise& recommended);
 
-// Of lines for a map of moments: in which numbers it is measured, ", measured with map.moments = 32f". Otherwise empty.
-std::string format_text(const EngineAdvice& advice);
-
 // The same of the bounds that the lines break: "these lines are not an answer: acne 0.5% (bound 0.1%)". error: the most error, if one was
 // asked for. Empty: they break none, or it is not known.
 std::string broken_promise_text(const EngineAdvice& advice, const CurveOptions& bounds, std::optional<double> error);

@@ -36,7 +36,6 @@
 #include "compare/judge/answers.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/bias_curves.h"
-#include "compare/report/tornado.h"
 #include "measure/workbench.h"
 
 namespace noonmark {
@@ -139,8 +138,6 @@ struct Advice {
   // If one constant bias is not the answer: the least resolution at which it would keep the bounds, under the first
   // condition and without a filter; negative: none up to that. Empty: not known.
   std::optional<int> least_resolution;
-  // What each setting does around the answer; only if it was asked for (app/advise/recommend_around.h).
-  std::optional<Tornado> around;
   AdviceRequest request;
 
   // The answer of a kind; null without answers. `answer`: the one that the request asks for.

@@ -9,37 +9,6 @@
 #include "scenes/library.h"
 
 namespace noonmark {
-namespace {
-
-nlohmann::json around_json(const Tornado& tornado) {
-  using nlohmann::json;
-  const auto of = [](const TornadoEnd& end) {
-    json one{{"value", end.value}, {"held", end.held}};
-    if (end.why_not.empty())
-      one["error"] = end.error;
-    else
-      one["why_not"] = end.why_not;
-    return one;
-  };
-  json rows = json::array();
-  for (const TornadoRow& row : tornado.rows) {
-    json low = of(row.low), high = of(row.high);
-    low["open"] = row.low_open, high["open"] = row.high_open;
-    rows.push_back({{"setting", row.setting},
-                    {"unit", row.unit},
-                    {"value", row.value},
-                    {"half", of(row.half)},
-                    {"double", of(row.twice)},
-                    {"usable_from", low},
-                    {"usable_to", high}});
-  }
-  return {{"error", tornado.error},           {"held", tornado.held},
-          {"accuracy", tornado.accuracy},     {"conditions", tornado.conditions},
-          {"placements", tornado.placements}, {"settings", rows}};
-}
-
-}  // namespace
-
 std::string subject_of(const Settings& settings) {
   const std::string& name = settings.scene.name;
   return names_file(name) ? std::filesystem::absolute(name).lexically_normal().string() : name;
@@ -121,7 +90,6 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
                                  {"y", advice.nearest->worst->worst.y},
                                  {"cause", advice.nearest->worst->worst.cause}};
   }
-  if (advice.around) all["around"] = around_json(*advice.around);
   all["engines"] = json::array();
   for (const EngineAdvice& engine : engines) {
     json one{{"engine", engine.engine},

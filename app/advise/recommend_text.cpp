@@ -489,8 +489,6 @@ std::vector<std::string> advice_text(const Advice& advice) {
     lines.push_back(fmt::format("Nothing cheaper was tried: the smallest map among the choices has {} texels a side.",
                                 advice.request.resolutions.front()));
   for (std::string& line : lookups_text(advice)) lines.push_back(std::move(line));
-  if (advice.around)
-    for (std::string& line : tornado_text(*advice.around)) lines.push_back(std::move(line));
   return lines;
 }
 

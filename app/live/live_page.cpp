@@ -218,10 +218,14 @@ std::string live_page(const Scene& scene, const Settings& settings, std::string_
   require_compared(settings, "a live page");
   make_light_frame(scene, settings);  // throws what is wrong with the settings
   return report::fill_template(file("live.html"), [&](std::string_view name) -> std::string {
-    if (name == "title") return report::Markup(printable(scene.name)).html();
+    if (name == "head")
+      return report::page_head(
+          {.title = printable(scene.name),
+           .style = report::colour_rules({cause_colors.begin(), cause_colors.end()}) + std::string(file("live.css")),
+           .version = std::string(version),
+           .brand = "Noonmark live",
+           .pictures = "data: blob:"});
     if (name == "version") return report::Markup(std::string(version)).html();
-    if (name == "style")
-      return report::colour_rules({cause_colors.begin(), cause_colors.end()}) + std::string(file("live.css"));
     if (name == "data") return report::data_block("live-data", page_data(scene, settings, version)).html();
     if (name == "code") return code(settings);
     if (name == "unpack") return std::string(report::page_file("report/page/data.js"));

@@ -10,7 +10,6 @@
 #include <set>
 #include <sstream>
 
-#include "app/advise/experiment_engines.h"
 #include "app/definition/definition.h"
 #include "app/sweep/identity.h"
 #include "app/sweep/judging.h"
@@ -363,10 +362,6 @@ Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder&
     merged.notes.push_back(fmt::format(
         "the points with pictures are chosen by their errors, so no share has drawn them; {} --out {} draws them",
         share_command(experiment, ""), shell_quoted(out.path())));
-  if (merged.missing.empty() && merged.results.info.engines.empty() && described_choice(merged.results))
-    merged.notes.push_back(
-        fmt::format("the lines for other engines are of one choice, and no share knows which; {} --out {} adds them",
-                    share_command(experiment, ""), shell_quoted(out.path())));
   return merged;
 }
 

@@ -54,7 +54,6 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   run.picture();
   run.picture_lights();
   run.judge();
-  run.advise();
   run.compare();  // after the last change of the run's facts
   run.show_recommended();
   run.show_failures();

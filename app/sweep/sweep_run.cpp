@@ -9,7 +9,6 @@
 #include <map>
 #include <numeric>
 
-#include "app/advise/experiment_engines.h"
 #include "app/pictures/image_file.h"
 #include "app/sweep/judging.h"
 #include "app/sweep/kept_points.h"
@@ -140,7 +139,6 @@ RunInfo SweepRun::info() {
   info.triangles = scene.triangles.size();
   info.scene_notes = survey_.scenes.notes();
   info.sweep_notes = survey_.idle.dead_sweeps();
-  info.engines = experiment_engines(bench_, experiment_, planned_);
   return info;
 }
 
@@ -252,15 +250,6 @@ void SweepRun::judge() {
   if (!options_.shard) noonmark::judge(experiment_, outcome_.results, last_bounds_);
   store_->set_bounds(outcome_.results.bounds);
   store_->set_laws(outcome_.results.laws);
-}
-
-void SweepRun::advise() {
-  Results& results = outcome_.results;
-  if (options_.shard || outcome_.interrupted) return;
-  if (std::string lines = experiment_engines(bench_, results); lines != results.info.engines) {
-    results.info.engines = std::move(lines);
-    store_->set_info(results.info, results.planned_points);
-  }
 }
 
 void SweepRun::compare() { compare_with_baseline(options_, outcome_, *store_); }

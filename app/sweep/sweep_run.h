@@ -37,7 +37,6 @@ class SweepRun {
   void picture();  // pictures of points that are chosen when all are measured
   void picture_lights();
   void judge();
-  void advise();            // the lines for other engines, of the point that the answer names
   void compare();           // with the baseline
   void show_recommended();  // the point of the head of the report, at the recommended bias
   void show_failures();     // the worst pixel of each broken bound and law, for summary.md

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* frames_folder = "frames";  // of a capture
 
 VerbOutputs outputs_of_recommend(const std::string& out) {
-  VerbOutputs outputs{out, {"engines.txt", "recommended.json", "recommended.txt", "recommended.html"}};
+  VerbOutputs outputs{out, {"engines.txt", "recommended.json", "recommended.txt"}};
   std::vector<std::string> stems = {"recommended"};
   for (const AnswerKind kind : answer_kinds) stems.push_back("recommended-" + answer_name(kind));
   for (const std::string& stem : stems) {

@@ -66,8 +66,6 @@ void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines
           "{0}/recommended-{1}.toml and {0}/recommended-{1}-*.png are of the answer \"{1}\"; --answer {1} prints its "
           "lines\n",
           printable(out), answer_name(answer.kinds.front()));
-  if (advice.around)
-    fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
 }
 
 }  // namespace noonmark

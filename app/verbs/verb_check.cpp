@@ -7,7 +7,6 @@
 
 #include "app/definition/experiment_list.h"
 #include "app/definition/experiment_text.h"
-#include "app/pictures/point_pictures.h"
 #include "app/sweep/annotations.h"
 #include "app/sweep/baseline_file.h"
 #include "app/sweep/judging.h"
@@ -95,13 +94,6 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
   entry.words =
       outcome.interrupted ? "stopped before its end" : (broken.empty() ? "" : broken + "; ") + verdict_words(results);
   if (!outcome.interrupted) entry.verdict = passes(verdict) ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
-  if (const std::string picture = picture_of_index(results); !picture.empty()) {
-    try {
-      entry.thumbnail = read_picture(out, picture, results.points);
-    } catch (const Error&) {
-      // The report says why the picture cannot be read.
-    }
-  }
   checked.exit_code = exit_code_of(verdict);
   if (under_github_actions() && !outcome.interrupted) checked.annotations = github_annotations(path, results);
   if (arguments.json)

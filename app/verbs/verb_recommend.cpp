@@ -14,7 +14,6 @@
 #include "app/advise/engine_promise.h"
 #include "app/advise/engine_trial.h"
 #include "app/advise/recommend_about.h"
-#include "app/advise/recommend_around.h"
 #include "app/advise/recommend_filtered.h"
 #include "app/advise/recommend_text.h"
 #include "app/definition/default_folder.h"
@@ -26,7 +25,6 @@
 #include "app/verbs/recommend_output.h"
 #include "app/verbs/recommend_texels.h"
 #include "app/verbs/verbs.h"
-#include "base/build_facts.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
@@ -149,7 +147,6 @@ struct RecommendOptions {
   int views = 5;                              // of a scene; 1: its own only
   std::vector<std::string> lookups;           // searched_lookups() to try; empty: those that compare
   bool cascades = false;                      // also tries cascade_counts
-  bool around = false;                        // also what each setting does around the answer
   std::vector<std::string> engines;           // to try the lines in
   std::vector<std::string> held_in;           // engine_words() in which the answer must hold
   std::optional<std::string> lines;  // the engine whose lines are printed; empty: the above, otherwise three.js
@@ -360,18 +357,16 @@ int recommend(const RecommendOptions& options) {
   const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
   const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
   if (options.texels && (options.acne || options.peter_panning || options.error || options.budget || options.edges ||
-                         options.patch || options.answer || options.lines || options.around || options.cascades ||
+                         options.patch || options.answer || options.lines || options.cascades ||
                          !options.lookups.empty() || !options.engines.empty() || !options.held_in.empty()))
     throw Error(
         ErrorKind::usage,
-        "--texels divides texels and searches nothing else; leave out the bounds, --budget, --answer, --around, "
-        "--cascades, --lookups, --lines, --for and --engine");
+        "--texels divides texels and searches nothing else; leave out the bounds, --budget, --answer, --cascades, "
+        "--lookups, --lines, --for and --engine");
   if (options.texels) return recommend_texels(whole, *options.texels, arguments, out);
   // Before anything is measured.
-  if (!options.lookups.empty() && (options.around || options.cascades))
-    throw Error(ErrorKind::usage,
-                "--lookups searches one map, and --around varies lookups that compare; leave out --lookups, or "
-                "--around and --cascades");
+  if (!options.lookups.empty() && options.cascades)
+    throw Error(ErrorKind::usage, "--lookups searches one map; leave out --lookups or --cascades");
   const Experiment& experiment = only_part(whole);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
@@ -398,9 +393,6 @@ int recommend(const RecommendOptions& options) {
   OutputFolder folder(outputs_of("recommend", options.what, out));
   folder.make();
   Advice advice = search(bench, request, say);
-  if (advice.answer() && options.around)
-    advice.around = settings_around(bench, under_conditions(advice.answer()->tried, request),
-                                    {.bounds = request.curve, .accuracy = request.accuracy}, say);
   std::vector<EngineAdvice> engines;
   if (advice.answer() && no_lines.empty()) engines = measured_engines(bench, advice.answer()->tried, request, say);
   progress.end_line();
@@ -419,9 +411,6 @@ int recommend(const RecommendOptions& options) {
     write_pictures(bench.measure(answer.tried.settings, std::nullopt, MetricSet::searched), out, ".", stem);
   }
   if (advice.answer()) write_file_atomically(out + "/recommended.txt", whole_text(advice));
-  if (advice.around)
-    write_file_atomically(out + "/recommended.html",
-                          to_tornado_page(*advice.around, std::string(build_facts().version)));
   // The whole answer is written, so that it stays whatever happens in an engine.
   if (advice.answer() && plan) {
     std::fflush(stdout);
@@ -514,9 +503,6 @@ RunVerb add_recommend(CLI::App& verb) {
       ->check(list_of(searched_lookups()))
       ->type_name(joined(searched_lookups()))
       ->default_str("compare");
-  verb.add_flag("--around", options->around,
-                "Also measure what each setting does around the answer: the error at its half and its double, and the "
-                "range in which the bounds hold");
   std::vector<std::string> names;
   for (const EngineAdapter& adapter : engine_adapters()) names.emplace_back(adapter.name);
   verb.add_option("--engine", options->engines,

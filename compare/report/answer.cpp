@@ -27,7 +27,6 @@
 #include "compare/report/laws.h"
 #include "compare/report/part_answers.h"
 #include "compare/report/recommendation_box.h"
-#include "compare/report/rules.h"
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
 #include "compare/results/metrics.h"
@@ -54,24 +53,11 @@ std::vector<bool> flags_of(const Results& results, bool (*holds)(const PointReco
 
 bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
 
-// "at 9 of 32 points", and a list of these points to follow the sentence.
-struct Where {
-  std::string count;
-  Markup list;
-};
-Where where_text(const Results& results, const std::vector<bool>& chosen, const std::vector<bool>& either_way = {}) {
-  const size_t count = static_cast<size_t>(std::count(chosen.begin(), chosen.end(), true));
-  if (count == chosen.size())
-    return {results.points.size() == 1 ? "here" : fmt::format("at every one of the {}", points_text(count)), ""};
-  constexpr size_t most_rules = 4;  // more rules are harder to read than the table
-  RuleSearch search{.most_rules = most_rules + 1};
-  const std::vector<Rule> rules = describe_points(results, chosen, either_way, &search);
-  Markup list;
-  for (size_t i = 0; i < std::min(rules.size(), most_rules); ++i)
-    list += element("li", with_small(rule_phrase(rules[i]), rules.size() > 1 ? points_text(rules[i].points) : ""));
-  if (rules.size() > most_rules) list += element("li", "and others: see the table of windows");
-  return {fmt::format("at {} of {}", count, points_text(chosen.size())),
-          list.empty() ? "" : element("ul", css("rules"), list)};
+// "at 9 of 32 points"
+std::string where_text(const std::vector<bool>& chosen) {
+  const auto count = static_cast<size_t>(std::count(chosen.begin(), chosen.end(), true));
+  if (count < chosen.size()) return fmt::format("at {} of {}", count, points_text(chosen.size()));
+  return count == 1 ? "here" : fmt::format("at every one of the {}", points_text(count));
 }
 
 // The window is the one that the recommendation uses: of all placements if there are several.
@@ -83,10 +69,9 @@ bool set_too_large(const PointRecord& point) {
   return has_usable_bias(point) && *bias_as_set(point) > usable_window(point)->high;
 }
 
-// "The method fails at 9 of 32 points: no value keeps ..., with" and the list of these points.
-Markup bad_item(std::string_view what, const Markup& how, const Where& where) {
-  return item("bad", prose("{}{}{}{}", bold(prose("{} {}", what, where.count)), how,
-                           where.list.empty() ? "." : ", with", where.list));
+// "The method fails at 9 of 32 points: no value keeps ... ."
+Markup bad_item(std::string_view what, const Markup& how, const std::vector<bool>& chosen) {
+  return item("bad", prose("{}{}.", bold(prose("{} {}", what, where_text(chosen))), how));
 }
 
 // The same of the points whose free setting is this one.
@@ -163,7 +148,7 @@ Markup window_items_of(const Results& results) {
   const auto fails = flags_of(results, of_setting<setting, lacks_window>);
   if (any(fails)) {
     out += bad_item(setting == FreeSetting::bias ? "The method fails" : "No reduction is usable",
-                    prose(": no value of {} keeps {}", parameter, words.keeps), where_text(results, fails));
+                    prose(": no value of {} keeps {}", parameter, words.keeps), fails);
     if (setting == FreeSetting::reduction) out += item("note", prose("What breaks it:{}", why_no_reductions(results)));
   } else {
     const bool all = std::all_of(results.points.begin(), results.points.end(), is_of);
@@ -175,12 +160,8 @@ Markup window_items_of(const Results& results) {
   }
   const auto low = flags_of(results, of_setting<setting, set_too_small>),
              high = flags_of(results, of_setting<setting, set_too_large>);
-  if (any(low))
-    out += bad_item(fmt::format("The {} as set is too small", words.name), words.too_small,
-                    where_text(results, low, fails));
-  if (any(high))
-    out += bad_item(fmt::format("The {} as set is too large", words.name), words.too_large,
-                    where_text(results, high, fails));
+  if (any(low)) out += bad_item(fmt::format("The {} as set is too small", words.name), words.too_small, low);
+  if (any(high)) out += bad_item(fmt::format("The {} as set is too large", words.name), words.too_large, high);
   if (!any(low) && !any(high) && any(flags_of(results, of_setting<setting, has_usable_bias>)))
     out += item("good", prose("The {} as set lies within the usable window at every point that has one.", words.name));
   return out;

@@ -14,12 +14,10 @@
 #include "compare/report/broken.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/laws.h"
+#include "compare/report/lookup_section.h"
 #include "compare/report/opening.h"
-#include "compare/report/over_section.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/point_data.h"
-#include "compare/report/reduction_section.h"
-#include "compare/report/rules.h"
 #include "compare/report/speed.h"
 #include "compare/report/text.h"
 #include "compare/results/curve_fields.h"
@@ -171,7 +169,10 @@ json point_data(const PointRecord& point, const Results& results, const std::set
 }
 
 json points_data(const Results& results, const ShownPoints& shown, const std::set<std::string>& shared) {
-  const size_t entries = curve_entries(shown.results), reductions = points_with_reductions(shown.results.points);
+  const size_t entries = curve_entries(shown.results);
+  const auto reductions =
+      static_cast<size_t>(std::count_if(shown.results.points.begin(), shown.results.points.end(),
+                                        [](const PointRecord& point) { return !point.lookup_curve.empty(); }));
   const std::map<int64_t, double> biases = recommended_biases(shown.groups);
   json out = json::array();
   for (const PointRecord& point : shown.results.points) {
@@ -202,9 +203,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
       {"causes", cause_data(results)},
       {"frames", judges_frames(results.points) ? json(results.info.command) : json()},  // the command that judged them
       {"plot", results.info.plot},
-      {"over", results.info.over},
       {"cost", results.info.cost},
-      {"accuracy", results.info.accuracy},
       {"bias", opens_as_set(results) ? "set" : "recommended"},
       {"bias_word", bias_word(shown)},
       {"free", free_setting_words(shown.results.points)},

@@ -7,7 +7,6 @@
 
 #include "compare/judge/curve_reading.h"
 #include "compare/report/cause_colors.h"
-#include "compare/report/rules.h"
 #include "compare/results/curve_fields.h"
 #include "compare/results/quantities.h"
 

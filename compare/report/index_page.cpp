@@ -11,7 +11,6 @@
 #include "compare/report/links.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/text.h"
-#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {
@@ -35,12 +34,10 @@ Markup row(const IndexEntry& entry) {
                            : entry.verdict == Listed::broken ? "broken"
                                                              : "warning";
   const std::string name = entry.title.empty() ? entry.experiment : entry.title;
-  const Markup thumbnail = element("img", css("thumb"), Attribute("alt", "What the shadow map showed in " + name),
-                                   Attribute("src", "data:image/png;base64," + base64(entry.thumbnail)));
   return tr(
       css(kind), td(mark),
       row_head(entry.report.empty() ? name : file_link(entry.report, name), line_break(), small(entry.experiment)),
-      td(entry.words), td(entry.numbers), td(entry.thumbnail.empty() ? "–" : thumbnail));
+      td(entry.words), td(entry.numbers));
 }
 
 }  // namespace
@@ -63,20 +60,6 @@ std::string worst_numbers(const Results& results) {
 
 std::string broken_in_words(const Results& results) { return report::broken_words(results); }
 
-std::string picture_of_index(const Results& results) {
-  const PointRecord* chosen = nullptr;
-  const auto error = [](const PointRecord& point) {
-    const double value = metric_of(point, error_metric({&point, 1}));
-    return std::isfinite(value) ? value : -1;
-  };
-  for (const PointRecord& point : results.points)
-    if (!point.pictures.empty() && (!chosen || error(point) > error(*chosen))) chosen = &point;
-  if (!chosen) return "";
-  for (const PictureRecord& picture : chosen->pictures)
-    if (picture.name == "map" || picture.name == "frame") return picture.path;
-  return chosen->pictures.front().path;
-}
-
 std::string index_words(const std::vector<IndexEntry>& entries) {
   std::string out = fmt::format("{} experiment{}: {} held", entries.size(), entries.size() == 1 ? "" : "s",
                                 count(entries, Listed::held));
@@ -93,7 +76,7 @@ std::string index_page(const std::vector<IndexEntry>& entries, const std::string
   Markup rows;
   for (const IndexEntry& entry : ordered) rows += row(entry);
   const bool all = count(entries, Listed::held) == entries.size();
-  const Markup head = heads({"Verdict", "Experiment", "In words", "Worst numbers", "Picture"});
+  const Markup head = heads({"Verdict", "Experiment", "In words", "Worst numbers"});
   return plain_page(
       {.title = "Checked experiments",
        .body = paragraph(css("verdict"), span(css(all ? "pill held" : "pill broken"), index_words(entries))) +

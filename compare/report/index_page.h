@@ -13,10 +13,9 @@ struct IndexEntry {
   enum class Verdict { held, broken, not_judged } verdict = Verdict::not_judged;
   std::string experiment;  // path as given
   std::string title;
-  std::string report;     // the report's path below the index page; empty if there is none
-  std::string words;      // what is broken, with its value, then the verdict; or why nothing was judged
-  std::string numbers;    // the worst numbers in words; may be empty
-  std::string thumbnail;  // bytes of a PNG file; may be empty
+  std::string report;   // the report's path below the index page; empty if there is none
+  std::string words;    // what is broken, with its value, then the verdict; or why nothing was judged
+  std::string numbers;  // the worst numbers in words; may be empty
 };
 
 // "error at most 3.1 %, acne at most 0.2 %": the largest error, acne and Peter Panning over all points. Values that are
@@ -25,10 +24,6 @@ std::string worst_numbers(const Results& results);
 
 // "Acne 0.83 % (at most 0.5 %) at resolution 2048 texels": the first broken bound. Empty if none is broken.
 std::string broken_in_words(const Results& results);
-
-// The path of a picture that stands for the results: what the map showed at the point with the largest error of those
-// with pictures. Empty if there is none.
-std::string picture_of_index(const Results& results);
 
 // One HTML file without scripts and without other files. Broken experiments come first, then those that were not judged.
 std::string index_page(const std::vector<IndexEntry>& entries, const std::string& version);

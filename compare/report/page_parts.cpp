@@ -86,11 +86,26 @@ std::string fill_template(std::string_view page, const std::function<std::string
   }
 }
 
+std::string page_head(const PageHead& head) {
+  return fill_template(page_file("report/page/head.html"), [&](std::string_view name) -> std::string {
+    if (name == "title") return head.title.html();
+    if (name == "subtitle") return head.subtitle.html().empty() ? "" : paragraph(css("subtitle"), head.subtitle).html();
+    if (name == "brand") return Markup(head.brand).html();
+    if (name == "style") return head.style;
+    if (name == "version") return Markup(head.version).html();
+    if (name == "pictures") return head.pictures;
+    if (name == "scripts") return head.scripts ? "; script-src 'unsafe-inline'" : "";
+    throw unknown(name);
+  });
+}
+
 std::string fill_page(const PageParts& parts) {
   return fill_template(page_file("report/page/page.html"), [&](std::string_view name) -> std::string {
-    if (name == "title") return parts.title.html();
-    if (name == "subtitle") return parts.subtitle.html();
-    if (name == "style") return colour_rules(parts.causes) + std::string(page_file("report/page/style.css"));
+    if (name == "head")
+      return page_head({.title = parts.title,
+                        .subtitle = parts.subtitle,
+                        .style = colour_rules(parts.causes) + std::string(page_file("report/page/style.css")),
+                        .version = parts.version});
     if (name == "nav") return parts.navigation.html();
     if (name == "sections") return parts.sections.html();
     if (name == "data") return chart_block(parts.data).html();
@@ -108,11 +123,10 @@ std::string fill_page(const PageParts& parts) {
 
 std::string plain_page(const PlainPageParts& parts) {
   return fill_template(page_file("report/page/plain.html"), [&](std::string_view name) -> std::string {
-    if (name == "title") return parts.title.html();
-    if (name == "style") {
+    if (name == "head") {
       std::string style(page_file("report/page/style.css"));
       if (!parts.style.empty()) style += page_file(fmt::format("report/page/{}.css", parts.style));
-      return style;
+      return page_head({.title = parts.title, .style = std::move(style), .version = parts.version, .scripts = false});
     }
     if (name == "body") return parts.body.html();
     if (name == "version") return Markup(parts.version).html();

@@ -12,6 +12,17 @@
 
 namespace noonmark::report {
 
+// What every page begins with: <!doctype html> to the end of its header.
+struct PageHead {
+  Markup title, subtitle{};
+  std::string style;  // of the whole page, as CSS
+  std::string version;
+  std::string brand = "Noonmark";
+  std::string pictures = "data:";  // whence the page may load pictures: sources of its Content-Security-Policy
+  bool scripts = true;             // whether the page may run scripts of its own
+};
+std::string page_head(const PageHead& head);
+
 struct PageParts {
   Markup title, subtitle, navigation, sections;
   nlohmann::json data;               // for the scripts

@@ -129,16 +129,12 @@ nlohmann::json phase_data(const PhaseDiagram& d) {
                        {"law_steepest", finite(d.law_steepest)},
                        {"render", d.render},
                        {"per_metre", finite(1 / d.metres_per_bias)},
-                       {"placements", placements_of(d)},
                        {"rows", nlohmann::json::array()},
                        {"points", nlohmann::json::array()}};
   for (const PhaseRow& row : d.rows) {
-    nlohmann::json json{
-        {"resolution", row.resolution}, {"texel_m", finite(row.texel_m)}, {"last_acne_m", finite(row.last_acne_m)}};
+    nlohmann::json json{{"resolution", row.resolution}, {"texel_m", finite(row.texel_m)}};
     for (const PhaseSeries& one : phase_series()) json[one.name] = series(row.*one.values);
-    const Interval worst = d.usable(row), mean = d.usable_on_average(row);
-    if (!worst.empty()) json["usable"] = {worst.low, worst.high};
-    if (!mean.empty()) json["usable_mean"] = {mean.low, mean.high};
+    if (const Interval worst = d.usable(row); !worst.empty()) json["usable"] = {worst.low, worst.high};
     phase["rows"].push_back(std::move(json));
   }
   for (const PhasePoint& point : d.points)

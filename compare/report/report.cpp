@@ -14,11 +14,10 @@
 #include "compare/report/flicker_section.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/live_section.h"
-#include "compare/report/over_section.h"
+#include "compare/report/lookup_section.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/recommendation_box.h"
-#include "compare/report/reduction_section.h"
 #include "compare/report/sections.h"
 #include "compare/report/shown.h"
 #include "compare/report/speed_section.h"
@@ -95,7 +94,6 @@ constexpr Section all_sections[] = {
     {"answer", nullptr, by_point<report::answer_section>, false},
     {"lights", "Lights", lights, false},
     {"cascades", "Cascades", plain<report::cascades_section>, false},
-    {"engines", "Engines", plain<report::engines_section>, false},
     {"motion", "Motion", motion, false},
     {"bias", "Bias", by_point<report::bias_section>, false},
     {"reduction", "Reduction", by_point<report::reduction_section>, false},
@@ -165,16 +163,16 @@ std::string render_report(const Results& results,
   }
   std::vector<CauseColor> causes;
   for (const CauseColor& color : causes_of(results.points)) causes.push_back(color);
-  return report::fill_page({.title = given.empty() ? "Shadow-map errors" : given,
-                            .subtitle = subtitle(results),
-                            .navigation = links,
-                            .sections = body,
-                            .data = report::chart_data(results, shown),
-                            .causes = causes,
-                            .scripts = {"charts", "keyboard", "chart_bias", "chart_reduction", "chart_over",
-                                        "chart_sweep", "speed_marks", "chart_speed", "chart_laws", "chart_phase",
-                                        "live", "bias_choice", "save", "align", "card", "points_table", "page"},
-                            .version = results.info.version});
+  return report::fill_page(
+      {.title = given.empty() ? "Shadow-map errors" : given,
+       .subtitle = subtitle(results),
+       .navigation = links,
+       .sections = body,
+       .data = report::chart_data(results, shown),
+       .causes = causes,
+       .scripts = {"charts", "keyboard", "chart_bias", "chart_lookup", "chart_sweep", "speed_marks", "chart_speed",
+                   "chart_laws", "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
+       .version = results.info.version});
 }
 
 }  // namespace noonmark

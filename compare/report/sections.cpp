@@ -14,7 +14,6 @@
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
 #include "compare/report/part_answers.h"
-#include "compare/report/rules.h"
 #include "compare/report/text.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "compare/judge/recommendation.h"
-#include "compare/report/rules.h"
 #include "compare/report/speed.h"
 #include "compare/report/speed_reading.h"
 #include "compare/report/text.h"

@@ -159,15 +159,6 @@ Markup pictures_section(const Results& results, const ShownPoints& shown, const 
                             : folded("more", false, "Sections through the worst pixels of these points", sections)));
 }
 
-Markup engines_section(const Results& results) {
-  if (results.info.engines.empty()) return "";
-  return section(
-      "engines", "In other engines",
-      paragraph(
-          prose("The settings of this experiment in each engine's own fields, and what an engine cannot express.")) +
-          folded("glossary", true, "What to type", element("pre", css("engines"), results.info.engines)));
-}
-
 namespace {
 
 // What the table of points has columns for.

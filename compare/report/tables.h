@@ -14,8 +14,6 @@ Markup pictures_section(const Results& results, const ShownPoints& shown,
                         const std::function<std::string(const std::string&)>& read_file);
 // One picture with its caption, or why it is not shown.
 Markup picture_figure(const PictureRecord& record, const std::function<std::string(const std::string&)>& read_file);
-// What to type into other engines (RunInfo::engines); empty without.
-Markup engines_section(const Results& results);
 Markup points_section(const Results& results, const ShownPoints& shown);
 Markup meaning_section(const Results& results);
 Markup making_section(const Results& results);

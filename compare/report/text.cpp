@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/curve_reading.h"
-#include "compare/report/rules.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "technique/settings.h"
@@ -180,25 +179,6 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
 std::vector<std::string> without_curve_parameter(const PointRecord& point, std::vector<std::string> names) {
   if (has_curve(point)) std::erase(names, curve_parameter(point));
   return names;
-}
-
-std::string rule_phrase(const Rule& rule) {
-  std::string out;
-  for (const Condition& condition : rule.all) {
-    const char* is = condition.is == Condition::Is::at_most    ? "at most "
-                     : condition.is == Condition::Is::at_least ? "at least "
-                                                               : "";
-    std::string unit = setting_unit(condition.setting);
-    if (is_given_by_a_setting(unit)) unit.clear();
-    if (condition.setting == texel_size) {
-      out += fmt::format("{}texels of {}{}{}m", out.empty() ? "" : " and ", is, number(*number_of(condition.value)),
-                         thin_space);
-      continue;
-    }
-    out += fmt::format("{}{} {}{}", out.empty() ? "" : " and ", setting_label(condition.setting), is,
-                       value_phrase(condition.value, unit));
-  }
-  return out;
 }
 
 std::string bias_phrase(double depth, const BiasCurve& curve) {

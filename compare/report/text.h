@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "compare/judge/interval.h"
-#include "compare/report/rules.h"
 #include "compare/results/records.h"
 
 namespace noonmark::report {
@@ -42,8 +41,6 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
 // The names without the setting that the point's curve varies, if it has a curve: where a bias of the curve is said, the
 // bias of the point would be a second one.
 std::vector<std::string> without_curve_parameter(const PointRecord& point, std::vector<std::string> names);
-// "resolution at most 512 texels and filter none"
-std::string rule_phrase(const Rule& rule);
 // "0.0021 depth = 0.0137 m = 0.7 texels"
 std::string bias_phrase(double depth, const BiasCurve& curve);
 // "0.7 texels". unit: the text of bias.unit.

@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
+#include <unordered_set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -312,6 +314,20 @@ double metric_of(const PointRecord& point, const std::string& name) {
 std::string setting_of(const PointRecord& point, const std::string& name) {
   const auto found = point.settings.find(name);
   return found == point.settings.end() ? std::string() : found->second;
+}
+
+std::vector<std::string> values_of(const Results& results, const std::string& setting) {
+  std::vector<std::string> values;
+  std::unordered_set<std::string> seen;
+  for (const PointRecord& point : results.points)
+    if (std::string value = setting_of(point, setting); seen.insert(value).second) values.push_back(std::move(value));
+  std::vector<std::pair<double, std::string>> numbered;
+  for (const std::string& value : values)
+    if (const std::optional<double> number = number_of(value)) numbered.emplace_back(*number, value);
+  if (numbered.size() != values.size()) return values;
+  std::stable_sort(numbered.begin(), numbered.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (size_t i = 0; i < values.size(); ++i) values[i] = std::move(numbered[i].second);
+  return values;
 }
 
 bool nothing_judged(const PointRecord& point) { return quantity(point, "counted") == 0.0; }

@@ -247,10 +247,7 @@ struct RunInfo {
   std::vector<std::string> over;                 // those of them that are conditions (compare/judge/choices.h)
   std::string cost = "texel_work";               // the metric by which answers are ranked
   std::string accuracy = "error_soft";           // the metric that answers make small
-  // What to type into other engines (app/advise/experiment_engines.h): of the one choice, of the answer, or where there is none of the
-  // choice of least error, which the text names then. Empty if the choices cannot be compared, of parts, and of an unfinished sweep.
-  std::string engines;
-  std::vector<std::string> plot;  // metrics the experiment asks to plot
+  std::vector<std::string> plot;                 // metrics the experiment asks to plot
   std::string scene_name;
   uint64_t triangles = 0;
   std::vector<std::string> scene_notes;  // one line for each note of a scene (Scene::notes)

@@ -50,7 +50,6 @@ constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
     {"accuracy", &RunInfo::accuracy},
     {"definition", &RunInfo::definition},
     {"share", &RunInfo::share},
-    {"engines", &RunInfo::engines},
 };
 constexpr std::string_view library_prefix = "library.";
 

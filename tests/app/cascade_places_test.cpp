@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "app/advise/experiment_engines.h"
 #include "app/advise/recommend.h"
+#include "app/advise/seen_depths.h"
 #include "technique/cascades.h"
 
 namespace noonmark {

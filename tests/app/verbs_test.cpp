@@ -89,7 +89,7 @@ TEST(Verbs, TheVocabularyHasEveryOptionThatTakesAValue) {
   EXPECT_EQ(vocabulary.verbs.size(), verb_table().size());
   for (const char* option : {"--set", "--out", "--views", "--error", "--budget", "--baseline-times", "--shard"})
     EXPECT_TRUE(vocabulary.options_with_a_value.contains(option)) << option;
-  for (const char* flag : {"--help", "--json", "--overwrite", "--dry-run", "--around", "--cascades"})
+  for (const char* flag : {"--help", "--json", "--overwrite", "--dry-run", "--cascades"})
     EXPECT_FALSE(vocabulary.options_with_a_value.contains(flag)) << flag;
 }
 

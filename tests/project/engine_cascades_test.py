@@ -1,11 +1,11 @@
 """The cascades of engines against Noonmark's prediction: each frame of the street that an engine draws with its cascades has the
 error that Noonmark measures with the engine's splits, fit, bias and filter, to 0.05 points.
-   engine_cascades_test.py NOONMARK SOURCE FOLDER
-And the lines that a report prints for the engine lay these cascades, typed in as they are."""
+   engine_cascades_test.py NOONMARK SOURCE FOLDER ENGINE_LINES
+And the lines of Noonmark for the engine lay these cascades, typed in as they are."""
 import json
 import re
 
-from engine_predictions import able, bad, compare, end, folder, found, lines_of, missing, program, run, sets
+from engine_predictions import able, bad, compare, end, folder, found, lines_of, missing, program, run
 
 POINTS = 0.05  # of a hundred: how far the prediction may be from the frame
 
@@ -80,19 +80,17 @@ def compared(name, out, page, shot, predictions):
 for i, (name, (page, *shot), predictions) in enumerate(cases):
     compared(name, folder / str(i), page, [f"resolution={RESOLUTION}", *shot], predictions)
 
-# The lines of the report of one point: 2.3 texels of bias in each cascade, as the engine can have it.
+# The lines of one point: 2.3 texels of bias in each cascade, as the engine can have it.
 ENDS, TEXELS = [9, 20, 37], 2.3
 TYPED = ["cascades.count=4", "cascades.splits=manual", f"cascades.bounds_m={','.join(map(str, ENDS))}", "bias.unit=texel", f"bias.constant={TEXELS}"]
-(folder / "typed.toml").write_text('scene = "street"\n')
-found(run(program, "run", folder / "typed.toml", "--out", folder / "typed", *sets(PREDICTED + TYPED + ["map.fit=sphere"])), "run")
 
 
 def typed(engine, page, fit):
     """fit: the settings that predict the frame, from the text of the lines."""
-    lines = lines_of(folder / "typed/report.html", engine)
+    lines = lines_of(PREDICTED + TYPED + ["map.fit=sphere"], engine)
     (folder / "lines.txt").write_text(lines)
     # The lines' own ends and biases, by which the frame is predicted.
-    laid = compared(f"{engine}, the lines of a report", folder / f"typed-{page.split('/')[0]}", page, [f"lines={folder / 'lines.txt'}"], [TYPED + fit(lines)])
+    laid = compared(f"{engine}, Noonmark's lines", folder / f"typed-{page.split('/')[0]}", page, [f"lines={folder / 'lines.txt'}"], [TYPED + fit(lines)])
     return [one["end_m"] for one in laid]
 
 

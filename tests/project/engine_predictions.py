@@ -1,9 +1,8 @@
 """What the tests share that predict frames of engines: an engine draws a frame in headless Chromium, `noonmark judge` measures its
 error, and `noonmark render` predicts it. They are called as
-   TEST NOONMARK SOURCE FOLDER
+   TEST NOONMARK SOURCE FOLDER ENGINE_LINES
 and print the rows of the tables in examples/engines/README.md. They skip (77) where no engine can run: node, Chromium or the
 packages of examples/engines/package.json (npm install in that folder, or NODE_MODULES names another one) are not installed."""
-import html
 import json
 import os
 import pathlib
@@ -70,10 +69,11 @@ def compare(name, out, page, model, shot, predictions, points):
     return measured
 
 
-def lines_of(report, engine):
-    """The lines that a report prints for an engine."""
-    text = html.unescape(re.sub("<[^>]+>", "", report.read_text()))
-    return re.search(rf"^{re.escape(engine)} \(.*\n((?:    .*\n)+)", text, re.M).group(1)
+def lines_of(settings, engine):
+    """The lines for an engine of these settings."""
+    ran = run(sys.argv[4], *settings)
+    found(ran, f"the lines for {engine}")
+    return re.search(rf"^{re.escape(engine)} \(.*\n((?:    .*\n)+)", ran.stdout, re.M).group(1)
 
 
 def end():

@@ -448,7 +448,7 @@ function zeroLabel(floor) {
   }];
 }
 
-// ---- what the charts of a point's own curve share (chart_bias.js, chart_reduction.js): error and causes against its free setting
+// ---- what the charts of a point's own curve share (chart_bias.js, chart_lookup.js): error and causes against its free setting
 var errorDash = [5, 3];
 function curveName(series) {
   return series === 'error' ? 'Error' : causeLabel[series] || series;

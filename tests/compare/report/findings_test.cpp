@@ -1,7 +1,6 @@
 // The conclusions of the report: cases with a known answer, and comparisons with brute force.
 #include "compare/report/findings.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,10 +9,6 @@
 #include <set>
 
 #include "compare/ladder/numbers.h"
-#include "compare/report/rules.h"
-#include "compare/report/text.h"
-#include "compare/results/quantities.h"
-#include "tests/compare/report/sample.h"
 
 namespace noonmark {
 namespace {
@@ -55,72 +50,6 @@ TEST(Pareto, TakesCostsThatOverlapAsEqual) {
   EXPECT_EQ(front({{{5, 6, 7}, 0.1}, {{4, 5, 6}, 0.2}, {{3, 4, 4.5}, 0.3}}), (Indices{2, 0}));
   EXPECT_EQ(front({{{2, 3, 4}, 0.2}, {{3, 3.5, 5}, 0.2}}), (Indices{0, 1})) << "equally accurate";
   EXPECT_EQ(front({{{2, 3, not_a_number}, 0.1}, {{3, 3.5, 5}, 0.2}}), (Indices{1}));
-}
-
-bool speaks_for(const Rule& rule, const PointRecord& point) {
-  for (const Condition& c : rule.all) {
-    const std::string value = rule_value(point, c.setting);
-    if (c.is == Condition::Is::equal && value != c.value) return false;
-    if (c.is == Condition::Is::at_most && *number_of(value) > *number_of(c.value)) return false;
-    if (c.is == Condition::Is::at_least && *number_of(value) < *number_of(c.value)) return false;
-  }
-  return true;
-}
-
-TEST(DescribePoints, NamesAPlainPatternPlainly) {
-  const Results results = sample_results();
-  std::vector<bool> chosen;
-  for (const PointRecord& point : results.points)
-    chosen.push_back(*number_of(setting_of(point, "map.resolution")) <= 512 &&
-                     setting_of(point, "filter.kind") == "box");
-  const std::vector<Rule> rules = describe_points(results, chosen);
-  ASSERT_EQ(rules.size(), 1u);
-  EXPECT_EQ(rules[0].points, 8u);
-  EXPECT_EQ(report::rule_phrase(rules[0]), "resolution at most 512\u202ftexels and filter box");
-}
-
-TEST(DescribePoints, SaysTheTexelWhereResolutionAndExtentActTogether) {
-  const Results results = sample_results();
-  std::vector<bool> chosen;
-  for (const PointRecord& point : results.points)
-    chosen.push_back(*number_of(setting_of(point, "map.extent_m")) / *number_of(setting_of(point, "map.resolution")) >
-                     0.03);
-  const std::vector<Rule> rules = describe_points(results, chosen);
-  ASSERT_EQ(rules.size(), 1u);
-  EXPECT_EQ(report::rule_phrase(rules[0]), "texels of at least 0.0312\u202fm");
-}
-
-TEST(DescribePoints, MayPassOverPointsWhereItDoesNotArise) {
-  const Results results = sample_results();
-  std::vector<bool> chosen, either_way;
-  for (const PointRecord& point : results.points) {
-    const double resolution = *number_of(setting_of(point, "map.resolution"));
-    chosen.push_back(resolution == 512);
-    either_way.push_back(resolution < 512 && point.id % 3 == 0);
-  }
-  EXPECT_EQ(report::rule_phrase(describe_points(results, chosen, either_way).at(0)), "resolution 512\u202ftexels");
-  for (const PointRecord& point : results.points)
-    if (*number_of(setting_of(point, "map.resolution")) == 256) either_way[static_cast<size_t>(point.id)] = true;
-  for (size_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] || (either_way[i] && i % 2 == 0);
-  const std::vector<Rule> rules = describe_points(results, chosen, either_way);
-  ASSERT_EQ(rules.size(), 1u);
-  EXPECT_EQ(report::rule_phrase(rules[0]), "resolution at most 512\u202ftexels");
-  EXPECT_EQ(rules[0].points, 12u);  // the rule is true of 16 points, of which 12 were chosen
-}
-
-TEST(DescribePoints, IsTrueOfChosenPointsOnlyAndOfAllOfThem) {
-  const Results results = sample_results();  // the three swept settings are different for every point
-  std::mt19937 random(11);
-  for (int trial = 0; trial < 40; ++trial) {
-    std::vector<bool> chosen(results.points.size());
-    for (size_t i = 0; i < chosen.size(); ++i) chosen[i] = random() % 3 == 0;
-    const std::vector<Rule> rules = describe_points(results, chosen);
-    for (size_t i = 0; i < chosen.size(); ++i) {
-      bool said = false;
-      for (const Rule& rule : rules) said |= speaks_for(rule, results.points[i]);
-      EXPECT_EQ(said, chosen[i]) << "point " << i;
-    }
-  }
 }
 
 TEST(CauseShares, AreOfTheSumOverFinitePoints) {

@@ -54,11 +54,6 @@ TEST(IndexPage, SaysTheWorstNumbersAndWhatIsNotFinite) {
   results.points[4].metrics["acne"] = std::nan("");
   const std::string words = worst_numbers(results);
   EXPECT_EQ(words.find("Error at most 25\u202f%, Acne not finite, Peter Panning at most "), 0u) << words;
-  EXPECT_EQ(picture_of_index(results), "images/p0018-map.png")
-      << "point 26 has a picture too, but no map; equal errors";
-  results.points[26].metrics["error"] = 0.5;
-  EXPECT_EQ(picture_of_index(results), "images/p0026-truth.png");
-  EXPECT_EQ(picture_of_index(Results{}), "");
   EXPECT_EQ(worst_numbers(Results{}), "");
 }
 

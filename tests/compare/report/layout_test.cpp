@@ -13,7 +13,6 @@
 #include "compare/report/index_page.h"
 #include "compare/report/phase.h"
 #include "compare/report/report.h"
-#include "compare/report/tornado.h"
 #include "tests/compare/report/browser.h"
 #include "tests/compare/report/sample.h"
 #include "tests/support/sample_results.h"
@@ -43,25 +42,6 @@ Results parts_and_laws() {
   law.measured = "acne_free_bias_m / (texel_m * (abs(tan_theta) + depth_quantum_m) * some_other_quantity_of_the_point)";
   results.laws.push_back(law);
   return results;
-}
-
-std::string tornado() {
-  Tornado around;
-  around.error = 0.001;
-  around.held = true;
-  around.accuracy = "error";
-  around.placements = 64;
-  for (const char* setting : {"map.resolution", "bias.constant"}) {
-    TornadoRow& row = around.rows.emplace_back();
-    row.setting = setting;
-    row.unit = "texels";
-    row.value = "1024";
-    row.half = {"512", 0.002, true, ""};
-    row.twice = {"2048", 0.0005, true, ""};
-    row.low = row.half;
-    row.high = row.twice;
-  }
-  return to_tornado_page(around, "0.1.0");
 }
 
 std::string index() {
@@ -105,7 +85,6 @@ const Page pages[] = {
     {"parts", [] { return render_report(parts_and_laws(), sample_picture); }},
     {"map", [] { return render_phase(sample_phase()); }},
     {"index", index},
-    {"tornado", tornado},
 };
 
 // A page without scripts forbids them, also that of the test.

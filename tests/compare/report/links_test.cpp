@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "compare/report/index_page.h"
+#include "compare/report/report.h"
 
 namespace noonmark {
 namespace {
@@ -29,6 +30,20 @@ bool is_path(const std::string& address) {
 TEST(Links, ToFilesHaveNoScheme) {
   EXPECT_EQ(report::file_address("a b/c-1_2.~d/report.html"), "a%20b/c-1_2.~d/report.html");
   EXPECT_EQ(report::file_address(code + "/report.html"), "javascript%3Aalert%281%29/report.html");
+}
+
+// What the page's Content-Security-Policy allows.
+std::string allowed_in(const std::string& page) {
+  const std::string before = "http-equiv=\"Content-Security-Policy\" content=\"";
+  const size_t from = page.find(before) + before.size();
+  return page.substr(from, page.find('"', from) - from);
+}
+
+TEST(Links, APageLoadsNothingAndRunsOnlyScriptsThatItHas) {
+  const std::string plain = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
+  EXPECT_EQ(allowed_in(index_page({}, "0")), plain);
+  EXPECT_EQ(allowed_in(render_report({}, [](const std::string&) { return std::string(); })),
+            plain + "; script-src 'unsafe-inline'");
 }
 
 TEST(Links, OfTheIndexRunNoCode) {

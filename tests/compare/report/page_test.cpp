@@ -231,29 +231,32 @@ TEST_F(BandsPage, TheBiasChartDrawsTheBandsOfAllPlacements) {
 }
 
 TEST_F(BandsPage, TheReductionChartDrawsTheSeriesAboveZeroAndTheWindow) {
-  EXPECT_EQ(marks("chart-reduction", "line"), 4) << "error, leak, reduction and over-darkening; no Peter Panning";
+  EXPECT_EQ(marks("chart-reduction", "line"), 5) << "both errors, leak, reduction and over-darkening; no Peter Panning";
   EXPECT_EQ(marks("chart-reduction", "rect"), 1) << "the window";
 }
 
 class FilteredPage : public Browser {
  protected:
-  void SetUp() override { open(render_report(filtered_sample_results(), sample_picture), "reduction_probe.js"); }
+  void SetUp() override { open(render_report(filtered_sample_results(), sample_picture), "lookup_probe.js"); }
 };
 
 TEST_F(FilteredPage, IsReadAtItsReduction) {
   EXPECT_EQ(saw_["choice"], "Reduction") << "the switch of the whole page";
-  EXPECT_EQ(saw_["first"],
+  const json &first = saw_["reduction"]["at"][0], &second = saw_["reduction"]["at"][1];
+  EXPECT_EQ(first["facts"],
             "No usable window. Without a reduction the leak is 1%; 0.27 keeps it within 0.1%, and there the "
             "reduction darkens 0.135% and over-darkening is 0.01%, of which at most 0.1% each is allowed. What may "
             "help: a smaller blur or a finer map; or lookup.kind = evsm4 or msm, which leak less. Least error at 0.2, "
             "with 1\u202f%.");
-  EXPECT_EQ(saw_["second"], "Usable from 0.15 to 0.2. Least error at 0.2, with 0.5\u202f%.");
-  EXPECT_EQ(saw_["windows"], (json{0, 1}));
-  EXPECT_EQ(saw_["bound"], "bound 0.1\u202f%") << "both bounds are equal";
-  EXPECT_EQ(saw_["bounds"], 1);
+  EXPECT_EQ(second["facts"], "Usable from 0.15 to 0.2. Least error at 0.2, with 0.5\u202f%.");
+  EXPECT_EQ(first["windows"], 0);
+  EXPECT_EQ(second["windows"], 1);
+  EXPECT_EQ(second["bounds"], 1);
+  EXPECT_NE(second["words"].dump().find("\"bound 0.1\u202f%\""), std::string::npos)
+      << "both are equal: " << second["words"];
   // The leak is 0 from 0.3 on: its line ends there, and none runs along the axis.
-  EXPECT_EQ(saw_["zeros"], 1) << "the end of the line alone";
-  EXPECT_EQ(saw_["dashed"], (json{"Error, mean |R5 − R1|", "Over-darkening (moments, too dark)"}));
+  EXPECT_EQ(second["zeros"], 1) << "the end of the line alone";
+  EXPECT_FALSE(saw_.contains("over"));
   const std::string verdict = saw_["verdict"];
   EXPECT_NE(verdict.find(" at lookup.reduction 0.19, which is usable."), std::string::npos) << verdict;
   EXPECT_NE(verdict.find("Usable reductions: 0.15 to 0.2."), std::string::npos) << verdict;
@@ -275,29 +278,32 @@ class OverPage : public Browser {
         results.points[k].over_curve.push_back(at);
       }
     }
-    open(render_report(results, sample_picture), "over_probe.js");
+    open(render_report(results, sample_picture), "lookup_probe.js");
   }
 };
 
 TEST_F(OverPage, DrawsBothErrorsAndTheCausesAtNamedValues) {
-  const json& first = saw_["first"];
+  const json &first = saw_["over"]["at"][0], &second = saw_["over"]["at"][1];
   EXPECT_EQ(first["title"], (json{"share of counted receivers", "lookup.moment_bias"})) << first["title"];
-  EXPECT_EQ(first["values"], (json{"0", "1×10⁻⁶", "0.001", "0.01"})) << "0 has a place";
+  const std::string labels = first["labels"].dump(), words = first["words"].dump();
+  EXPECT_NE(labels.find("\"0\",\"1×10⁻⁶\",\"0.001\",\"0.01\""), std::string::npos) << "0 has a place: " << labels;
   EXPECT_EQ(first["series"], (json{"error", "exact_map", "leak", "over_darkening", "peter_panning"}))
       << "the reduction darkens nothing";
-  EXPECT_EQ(first["marks"].size(), 2u) << first["marks"];
-  EXPECT_NE(saw_["second"]["least"], first["least"]) << "the selected point is drawn";
-  EXPECT_EQ(saw_["third"], saw_["second"]) << "a point without such a curve leaves it";
-  EXPECT_EQ(saw_["points"].size(), 2u);
+  for (const char* mark : {"\"least error\"", "\"as set\""}) EXPECT_NE(words.find(mark), std::string::npos) << words;
+  EXPECT_EQ(first["facts"], "Least error at 0.001, with 0.5\u202f%.") << "and no window";
+  EXPECT_NE(second["error"], first["error"]) << "the selected point is drawn";
+  EXPECT_EQ(saw_["over"]["at"][2], second) << "a point without such a curve leaves it";
+  EXPECT_EQ(saw_["over"]["points"].size(), 2u);
 }
 
-// A dashed line of the chart is dashed in its legend, and as thick.
+// A dashed line of a chart is dashed in its legend, and as thick.
 TEST_F(OverPage, TheLegendHasTheLinesOfTheChart) {
-  const json& legend = saw_["legend"];
-  ASSERT_EQ(legend.size(), 3u) << legend;
-  for (const json& one : legend)
-    EXPECT_NE(std::find(saw_["drawn"].begin(), saw_["drawn"].end(), one[1]), saw_["drawn"].end())
-        << one << " is none of " << saw_["drawn"];
+  for (const char* chart : {"over", "reduction"}) {
+    const json &legend = saw_[chart]["legend"], &drawn = saw_[chart]["drawn"];
+    ASSERT_EQ(legend.size(), 3u) << legend;
+    for (const json& one : legend)
+      EXPECT_NE(std::find(drawn.begin(), drawn.end(), one[1]), drawn.end()) << one << " is none of " << drawn;
+  }
 }
 
 // Two groups of choices. One choice has no curve and no error, one has no usable window.

@@ -118,7 +118,7 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   RunInfo& info = results.info;
   for (std::string* text : {&info.title, &info.experiment, &info.command, &info.commit, &info.version, &info.started,
                             &info.host_cpu, &info.gl_vendor, &info.gl_renderer, &info.gl_version, &info.gl_timer,
-                            &info.embree_version, &info.embree_isa, &info.scene_name, &info.engines})
+                            &info.embree_version, &info.embree_isa, &info.scene_name})
     *text = evil;
   info.libraries[evil] = evil;
   info.swept.push_back(evil);
@@ -343,7 +343,7 @@ TEST(Report, SmallAndEmptySweepsStillMakeAPage) {
   results.points[0].pictures.clear();
   const std::string one = render_report(results, sample_picture);
   EXPECT_EQ(one.find("not swept."), std::string::npos) << "a section that has nothing to show is left out";
-  for (const char* left_out : {"sweep", "pictures", "motion", "engines"}) {
+  for (const char* left_out : {"sweep", "pictures", "motion"}) {
     EXPECT_EQ(one.find(fmt::format("<section id=\"{}\"", left_out)), std::string::npos) << left_out;
     EXPECT_EQ(one.find(fmt::format("<a href=\"#{}\"", left_out)), std::string::npos) << left_out;
   }

@@ -42,16 +42,6 @@ TEST(Report, FoldsTheGlossary) {
   EXPECT_EQ(meaning.substr(0, meaning.find("</section>")).find("<details open"), std::string::npos);
 }
 
-TEST(Report, HasTheTextForTheEngines) {
-  Results results = sample_results();
-  EXPECT_EQ(render_report(results, sample_picture).find("<section id=\"engines\""), std::string::npos);
-  results.info.engines = "three.js (r1)\n    bias = -0.001;  // a < b & c\n";
-  const std::string page = render_report(results, sample_picture);
-  EXPECT_NE(page.find("<pre class=\"engines\">three.js (r1)\n    bias = -0.001;  // a &lt; b &amp; c\n</pre>"),
-            std::string::npos);
-  EXPECT_NE(page.find("<a href=\"#engines\">Engines</a>"), std::string::npos);
-}
-
 // A row for each point with a curve over the reduction; columns for the placements only where one was placed.
 TEST(Report, ListsTheWindowsOfTheReduction) {
   Results results = sample_results();
