@@ -4,7 +4,7 @@
 //   Progress progress(quiet);
 //   const Progress::Work rows = progress.add(25, 1.0);   // 25 steps, each expected to take a second
 //   progress.say("the phase diagram");                         // what begins
-//   for (...) progress.finished(rows, "texel size 3 of 25");
+//   for (int row = 0; row < 25; ++row) progress.finished(rows, "texel size 3 of 25");
 //
 // The expected seconds are those of any machine: from the first finished step on, the steps of a work take as long as those
 // before, in proportion, and the steps of a work that has not begun are as much slower or faster as the others were.

@@ -2,7 +2,7 @@
 // how many pixels, texels or taps each has. The estimate of a sweep's time fits seconds to these counts; the split into
 // shares weighs them with fixed costs.
 //
-//   work_of(settings, &before, curve, timed)[PointWork::look]   // taps whose truth is traced
+//   work_of(settings, &before, curve, timed)[PointWork::look];  // taps whose truth is traced
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 // and which words a key takes, the JSON schema (app/definition/experiment_schema.h) is made from it, and a test compares it with
 // docs/reference/experiment.md.
 //
-//   for (const ExperimentKey& key : experiment_keys("bound")) ...
+//   for (const ExperimentKey& key : experiment_keys("bound")) print(key.name);
 #pragma once
 #include <span>
 #include <string_view>

@@ -1,7 +1,7 @@
 // The steps of a sweep, from the first texel size of a phase diagram to the report, with the time that each is expected to
 // take: what its progress counts.
 //
-//   SweepProgress progress(experiment, planned, unmeasured, diagrams, options.quiet);
+//   SweepProgress progress(experiment, planned, ahead, options.quiet);
 //   progress.shown.finished(progress.points, "[3/48] map.resolution = 512");
 #pragma once
 #include <cstdint>

@@ -1,7 +1,7 @@
 // How long a sweep takes on this machine, from a short calibration: some of its points are measured in small pictures, and
 // a linear model of the work of each stage is fitted to their times.
 //
-//   const TimeEstimate time = estimate_time(bench, experiment, points(experiment), phase_plans(...));
+//   const TimeEstimate time = estimate_time(bench, experiment, points(experiment), phase_plans(experiment, points(experiment)));
 #pragma once
 #include <span>
 #include <vector>

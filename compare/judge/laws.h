@@ -2,7 +2,7 @@
 // law also gives the reason for the limit.
 //
 //   Law law{.name = "1", .measured = "acne_free_bias_m", .predicted = "k * texel_m * tan_deg(scene.theta_deg)"};
-//   std::vector<LawResult> results = evaluate_laws(points, {law}, reproduce);
+//   std::vector<LawResult> results = evaluate_laws(points, std::span(&law, 1), reproduce);
 //
 // Both sides are formulas (compare/judge/formula.h). Their names are, in this order: the law's own definitions (`let`),
 // the settings that are numbers by their row's name (a flag is 1 or 0, a point has .x .y .z), the metrics, the

@@ -1,6 +1,6 @@
 // The page of the atlas of failures: a matrix of failure and technique with verdict, cliff, cure and picture.
 //
-//   write(out + "/atlas.html", to_atlas_page(rows, version));
+//   write_file_atomically(out + "/atlas.html", to_atlas_page(rows, version));
 #pragma once
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 // The tornado chart of a recommendation: what each setting does around it.
 //
-//   write(out + "/recommended.html", to_tornado_page(tornado, version));
+//   write_file_atomically(out + "/recommended.html", to_tornado_page(tornado, version));
 #pragma once
 #include <optional>
 #include <string>
