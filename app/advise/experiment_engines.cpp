@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "compare/judge/recommendation.h"
+#include "compare/judge/undecided.h"
 #include "compare/results/number_text.h"
 #include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
@@ -122,6 +123,10 @@ std::optional<DescribedChoice> described_choice(const Results& results) {
   if (found.outcome == Recommendation::Outcome::incomplete) return std::nullopt;
   if (found.outcome == Recommendation::Outcome::found)
     return described(found.choice, found.bias, "the answer of this report");
+  if (std::any_of(results.points.begin(), results.points.end(), [&](const PointRecord& point) {
+        return ambiguous_room(point, results.info.accuracy) > 0;
+      }))
+    return std::nullopt;  // which choice errs least is not known
   const Choice* least = nullptr;
   double least_error = std::numeric_limits<double>::infinity();
   for (const Choice& choice : choices)

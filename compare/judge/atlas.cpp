@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/judge/curve_reading.h"
+#include "compare/judge/undecided.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -33,8 +35,13 @@ Shares shares_of(const PointRecord& point, const std::string& metric) {
 
 void judge_share(AtlasPoint& judged, const PointRecord& point, const std::string& metric, double most) {
   const Shares shares = shares_of(point, metric);
+  const double room = ambiguous_room(point, metric);
   if (!std::isfinite(shares.worst) || !std::isfinite(shares.first))
     worsen(judged, AtlasVerdict::fails, fmt::format("{} is not finite", metric));
+  else if (room > 0 && shares.worst <= most && shares.worst + room > most)
+    worsen(judged, AtlasVerdict::fails,
+           fmt::format("{} is not known: {:.3g} ± {:.3g}, and at most {:.3g} is allowed", metric, shares.worst, room,
+                       most));
   else if (shares.first > most)
     worsen(judged, AtlasVerdict::fails,
            fmt::format("{} is {:.3g}, and at most {:.3g} is allowed", metric, shares.first, most));
@@ -44,7 +51,10 @@ void judge_share(AtlasPoint& judged, const PointRecord& point, const std::string
                        most));
 }
 
-void judge_window(AtlasPoint& judged, const BiasCurve& curve) {
+void judge_window(AtlasPoint& judged, const PointRecord& point) {
+  const BiasCurve& curve = *point.curve;
+  if (hides_window(point))
+    return worsen(judged, AtlasVerdict::fails, fmt::format("the window of usable biases is {}", window_not_known));
   const bool placed = curve.placements > 1;
   const auto& min = placed ? curve.window_min_worst_depth : curve.window_min_depth;
   const auto& max = placed ? curve.window_max_worst_depth : curve.window_max_depth;
@@ -81,7 +91,7 @@ AtlasPoint judge_point(const AtlasEntry& entry, const PointRecord& point) {
   if (nothing_judged(point)) return {AtlasVerdict::nothing, "no receiver is counted"};
   AtlasPoint judged;
   if (point.curve) {
-    judge_window(judged, *point.curve);
+    judge_window(judged, point);
   } else {
     judge_share(judged, point, "acne", atlas_share);
     judge_share(judged, point, "peter_panning", atlas_share);

@@ -9,7 +9,8 @@
 // quantities of the bias curve, and the numbers of one cascade (cascade_number() in compare/results/quantities.h).
 //
 // A law is broken by a difference beyond the tolerance at any sample, by a side or a tolerance that is not finite, by a
-// tolerance below 0, and if no point matches it.
+// tolerance below 0, and if no point matches it. A formula that reads what the ambiguous receivers may change (ambiguous_room() in
+// compare/judge/undecided.h) has no known value, which is not finite.
 #pragma once
 #include <functional>
 #include <span>

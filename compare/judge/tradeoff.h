@@ -19,6 +19,7 @@ struct ComparedChoice {
   enum class Window {
     usable,
     empty,     // no bias is usable under every condition
+    unknown,   // hides_window() under a condition, or without a curve as many receivers are ambiguous
     no_curve,  // some point has no curve, so the choice stands as it was rendered
   };
   Choice choice;

@@ -37,12 +37,12 @@ Markup window_row(const PointRecord& point, const std::vector<std::string>& swep
   std::string phrase = settings_phrase(point, swept);
   if (!point.part.empty()) phrase = point.part + (phrase.empty() ? "" : ": ") + phrase;
   const auto metric = [&](const char* name) { return metric_of(point, name); };
-  const bool usable = !std::isnan(metric("reduction_min"));
+  const bool hidden = hides_window(point), usable = !hidden && !std::isnan(metric("reduction_min"));
   Markup cells = td(css("text"), point_link(point.id, phrase.empty() ? fmt::format("Point {}", point.id) : phrase)) +
                  td(setting_of(point, "lookup.reduction"));
   cells += usable ? td(number(metric("reduction_min"))) + td(number(metric("reduction_max")))
-                  : td(Attribute("colspan", 2), "none");
-  if (placed && !is_placed(point))
+                  : td(Attribute("colspan", 2), hidden ? std::string(window_not_known) : "none");
+  if (placed && (hidden || !is_placed(point)))
     cells += td(Attribute("colspan", 2), "–");
   else if (placed && std::isnan(metric("reduction_min_worst")))
     cells += td(Attribute("colspan", 2), "none");

@@ -112,6 +112,8 @@ function describe() {
     facts.append(
         'Usable from ', kit.make('b', {}, kit.digits(usable.from)), ' to ', kit.make('b', {}, kit.digits(usable.to)),
         usable.placed ? ' at every placement of the grid. ' : '. ');
+  else if (point.no_window)
+    facts.append(kit.make('b', {style: 'color:var(--bad)'}, 'The usable window is ' + point.no_window + '. '));
   else
     facts.append(
         kit.make('b', {style: 'color:var(--bad)'}, 'No usable window. '),

@@ -53,6 +53,20 @@ TEST(Atlas, WithoutACurveTheCausesDecide) {
   EXPECT_EQ(verdict(point), AtlasVerdict::fails);
 }
 
+TEST(Atlas, WhatTheAmbiguousCouldBreakFails) {
+  for (const bool curve : {true, false}) {
+    PointRecord point = point_with_window(0.1, 0.4);
+    if (!curve) point.curve.reset();
+    point.metrics["facing"] = 1e6;
+    point.metrics["ambiguous"] = 0;
+    EXPECT_EQ(verdict(point), AtlasVerdict::holds);
+    point.metrics["ambiguous"] = 0.142;
+    const AtlasPoint judged = judge_point({}, point);
+    EXPECT_EQ(judged.verdict, AtlasVerdict::fails);
+    EXPECT_NE(judged.why.find("not known"), std::string::npos) << judged.why;
+  }
+}
+
 TEST(Atlas, NoReceiverIsNothingToJudge) {
   PointRecord point = point_with_window(0.1, 0.4);
   point.metrics["counted"] = 0;
