@@ -153,7 +153,7 @@ TEST_P(LiveFar, SaysWhatRoundingDecides) {
   page.insert(page.rfind("</body>"), "<script>var liveStates = [{}];</script>");
   open(page, "../../app/live_agreement_probe.js");
   if (IsSkipped() || HasFatalFailure()) return;
-  EXPECT_EQ(saw_["says"].get<std::string>().starts_with("Not known"), far) << saw_["says"];
+  EXPECT_EQ(saw_["says"].get<std::string>().starts_with("Rounding decides"), far) << saw_["says"];
   // Both trace at the error of a ray beside P. The page leaves what lies before P's plane by less than that error too (is_shadowed()
   // in app/live/page/own_surface.glsl), so their numbers are of one size and not the same.
   const double here = bench.measure(settings, std::nullopt, MetricSet::searched).record.metrics.at("ambiguous"),

@@ -193,6 +193,8 @@ at_most = "1"
     EXPECT_EQ(run(words), 2);
     EXPECT_TRUE(says("is ambiguous")) << output_;
   }
+  EXPECT_EQ(run(with_far({"section", "far.toml", "--out", "section.svg", "--pixel", "8,24"})), 0) << output_;
+  EXPECT_TRUE(says("pixel 8,24: Not known")) << "in the cube's shadow: " << output_;
   EXPECT_EQ(run(with_far({"map", "cube-room", "--set", "light.kind=spot", "--set", "light.target_m=0,0,0", "--rows",
                           "2", "--out", "map"})),
             2)

@@ -44,13 +44,15 @@ function areMany(share, receivers) {
 }
 function sentence(m) {
   if (!m.facing) return 'No receiver in the picture faces the light.';
-  if (areMany(m.ambiguous, m.facing))
-    return `Not known: rounding decides the truth of ${percent(m.ambiguous)} of the receivers, so each share below may be larger or smaller by ` +
-        'as much. The scene is too far from the origin for its size, or shapes overlap.';
+  const doubt = areMany(m.ambiguous, m.facing) ?
+      `Rounding decides the truth of ${percent(m.ambiguous)} of the receivers, so each share may be larger or smaller by as much: ` +
+          'the scene is too far from the origin for its size, or shapes overlap. ' :
+      '';
+  if (doubt && m.error <= m.ambiguous) return doubt + 'So it is not known what is wrong.';
   const [cause] = Object.keys(advice).sort((a, b) => m[b] - m[a]);
   if (m.error === 0) return 'No receiver is wrong.';
   const [name, what] = advice[cause];
-  return `${percent(m.error)} of the receivers are wrong. ${name}, ${percent(m[cause])}: ${what}.`;
+  return `${doubt}${percent(m.error)} of the receivers are wrong. ${name}, ${percent(m[cause])}: ${what}.`;
 }
 
 function setPressed(selector, matches) {
