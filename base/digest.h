@@ -4,7 +4,7 @@
 //   Digest digest;
 //   digest.value(1.5);
 //   digest.text("of any length");
-//   store(digest.hex());
+//   print(digest.hex());
 #pragma once
 #include <fmt/format.h>
 

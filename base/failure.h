@@ -1,6 +1,6 @@
 // Turns an exception into one line for the user and an exit code.
 //
-//   try { ... } catch (...) { return tell(current_failure()); }
+//   try { measure(); } catch (...) { return tell(current_failure()); }
 #pragma once
 #include <string>
 

@@ -1,7 +1,7 @@
 // How much memory the program may still take. The program asks before it makes anything large.
 //
 //   const AvailableMemory available = available_memory();
-//   if (needed > available.bytes) throw Error(..., "... takes " + bytes_text(needed) + "; " + available.text());
+//   if (needed > available.bytes) throw Error(ErrorKind::device, "this takes " + bytes_text(needed) + "; " + available.text());
 //
 // Only memory that stays in RAM when it is written to is counted. Swap is not counted, because a measurement that uses
 // it would take too long.

@@ -4,7 +4,7 @@
 //   Progress progress(quiet);
 //   const Progress::Work rows = progress.add(25);   // 25 steps
 //   progress.say("the phase diagram");                         // what begins
-//   for (...) progress.finished(rows, "texel size 3 of 25");
+//   for (int row = 0; row < 25; ++row) progress.finished(rows, "texel size 3 of 25");
 //
 // The time left is the rate so far: the steps of a work that are left take as long as those that are done, and those of a work
 // that has not begun as long as the mean of all. The first step starts what the others use, so nothing is said before the main

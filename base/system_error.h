@@ -1,6 +1,6 @@
 // Which kind of Error a failed call to the system is.
 //
-//   throw Error(kind_of_failure(errno), ...);
+//   throw Error(kind_of_failure(errno), "cannot write out/x");
 #pragma once
 #include "base/error.h"
 

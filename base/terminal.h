@@ -2,7 +2,7 @@
 //
 //   const Terminal terminal;          // first thing in main
 //   fmt::print("{}\n", path);         // any path: control characters are printed as \xNN
-//   if (terminal.lost() != 0) ...     // last thing: a write to standard output has failed
+//   if (terminal.lost() != 0) return; // last thing: a write to standard output has failed
 //
 // - A write that fails does not throw, kill or stop anything, because a measurement is worth more than a line about it.
 //   This holds for a closed stream, a full disk, a reader that went away (SIGPIPE is ignored) and a file at its size

@@ -2,8 +2,8 @@
 // No shadow is moved to make it fit: a flip is seen in the whole picture, and a shift of a pixel where the visibility has no
 // surface, or where one surface hides another that has a different truth.
 //
-//   const Alignment found = alignment_of(frame, receivers, truth);
-//   if (found.shown_by_surfaces() && found.flip) ...
+//   const std::optional<SurfaceAlignment> found = surface_alignment(frame);
+//   if (found && found->flip) print(found->flip->says);
 #pragma once
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // The frame of a shadow map that another renderer drew, from its matrix.
 //
-//   const MapFrame map = map_frame(light_frame, given.clip_from_world, {2048, 1024});
-//   technique = Technique(settings, map.frame);
+//   const MapFrame map = map_frame(given.name, light_frame, given.clip_from_world, {2048, 1024});
+//   const Technique technique(settings, map.frame);
 #pragma once
 #include <glm/glm.hpp>
 #include <string>

@@ -2,7 +2,7 @@
 // taps has (k of n taps are lit), and the ramps of a filter that blends texels, which are straight along a plane.
 //
 //   const CurveEvidence found = curve_evidence(evidence);
-//   if (found.says() == Encoded::curved) ...
+//   if (const ValueCurve* curve = found.by_levels()) print(curve->name);
 #pragma once
 #include <array>
 #include <cstddef>

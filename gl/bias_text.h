@@ -1,7 +1,7 @@
 // The shader's text of a bias: GLSL that is put together from the active parts (technique/bias_parts.h).
 //
 //   programs.define(bias_text_name(bias), bias_text(bias));
-//   Program& program = programs.get(stages, {{"bias", bias_text_name(bias)}, ...});
+//   Program& program = programs.get(stages, {{"bias", bias_text_name(bias)}});
 //   set_bias_uniforms(program, bias);
 #pragma once
 #include <string>

@@ -1,7 +1,7 @@
 // OpenGL programs that are made of the embedded GLSL files (gl/shaders). Each program is built once per context.
 //
 //   Program& lookup = programs.get({"shaders/screen.vert", "shaders/lookup.frag"},
-//                                  {{"filter", "shaders/filter/box.glsl"}, ...});
+//                                  {{"filter", "shaders/filter/box.glsl"}});
 //   lookup.set("resolution", 1024);
 //   glUseProgram(lookup.id());
 #pragma once

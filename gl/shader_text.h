@@ -1,7 +1,7 @@
 // GLSL files with includes, and the compiler's messages in terms of those files. Nothing here calls OpenGL.
 //
-//   #include "shaders/map.glsl"    inserts the file of that name, once
-//   #include <bias>                inserts the file that the caller names for the slot `bias`, once
+//  #include "shaders/map.glsl"    inserts the file of that name, once
+//  #include <bias>                inserts the file that the caller names for the slot `bias`, once
 #pragma once
 #include <functional>
 #include <map>

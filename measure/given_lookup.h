@@ -3,7 +3,7 @@
 // With a map of our own: what a technique shows there.
 //
 //   GivenLookup lookup(scene, tracer);
-//   GivenClimb climb = lookup.climb({receivers, eye, truth, technique, depth, {.name = "frame", .picture = visibility, ...}});
+//   GivenClimb climb = lookup.climb({receivers, eye, truth, technique, depth, {.name = "frame", .picture = visibility}});
 //   climb.metrics.at("acne");
 //   Image<float> ours = lookup.visibility(receivers, eye, techniques_of(scene, settings));
 #pragma once

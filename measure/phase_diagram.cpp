@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/shell_words.h"
+#include "compare/judge/undecided.h"
 #include "compare/ladder/law_bias.h"
 #include "measure/placement_stage.h"
 #include "technique/casters.h"
@@ -180,6 +181,21 @@ std::string technique_text(const Settings& settings) {
   return text;
 }
 
+// Throws Error(usage) if more receivers are ambiguous than one of the bounds lets be wrong.
+void require_known(const ReceiverTruth& truth, const CauseBounds& bounds) {
+  PointRecord record;
+  double& facing = record.metrics["facing"];
+  double& ambiguous = record.metrics["ambiguous"];
+  for (size_t i = 0; i < truth.facing.size(); ++i) {
+    facing += truth.facing[i];
+    ambiguous += truth.facing[i] && truth.ambiguous[i];
+  }
+  ambiguous /= facing;
+  if (hides_more_than(record, bounds))
+    throw Error(ErrorKind::usage,
+                fmt::format("it is not known which texels and biases are usable: {}", ambiguous_note(record)));
+}
+
 }  // namespace
 
 Settings phase_settings(const Settings& given, const Scene& scene) {
@@ -209,6 +225,7 @@ Settings phase_settings(const Settings& given, const Scene& scene) {
 PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& tracer, const Scene& scene,
                            const ViewStage& view, const TruthStage& truth, const Settings& given,
                            const PhaseOptions& options, const RowDone& row_done) {
+  require_known(truth.receivers, options);
   PhaseDiagram diagram;
   diagram.width_px = view.receivers.width();
   diagram.height_px = view.receivers.height();
@@ -269,6 +286,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
 
 PhaseDiagram rejudged_phase(const PhaseDiagram& measured, const Scene& scene, const ViewStage& view,
                             const TruthStage& truth, const Settings& given, const PhaseOptions& options) {
+  require_known(truth.receivers, options);
   PhaseDiagram diagram = measured;
   static_cast<CauseBounds&>(diagram) = options;
   Settings settings = given;

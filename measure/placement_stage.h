@@ -1,6 +1,6 @@
 // The stage of a measurement that answers for all placements of the map's grid (technique/placements.h).
 //
-//   std::unique_ptr<PlacementStage> stage = make_placement_stage({...}, part, edges);
+//   std::unique_ptr<PlacementStage> stage = make_placement_stage(input, {part, edges});
 //   stage->add(evidence, strip);                     // for every strip, while the lookup holds its taps
 //   stage->finish();
 //   const PlacementShares shares = stage->shares();

@@ -1,7 +1,7 @@
 // What a point costs, counted from its settings alone: the stages that are computed anew after another point, each with its pixels,
 // texels or taps. The split into shares weighs points with it.
 //
-//   nominal_cost(settings, &before, curve, timed)
+//   nominal_cost(settings, &before, curve, timed);
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 // scene, and a test of all built-in scenes.
 //
 //   TruthAgreement agreement = compare_truth_methods(bench, settings);
-//   if (!agreement.differences.empty()) ...
+//   if (!agreement.differences.empty()) print(agreement.differences);
 #pragma once
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // Shades the receivers as lit grey clay, so that people can judge the shadow in it. The model is Blinn-Phong (Blinn
 // 1977), as in the usual shadow-mapping tutorials,
 //
-//   colour = ambient + visibility * (diffuse + specular),
-//   ambient = 0.15 albedo, diffuse = albedo max(N.L, 0), specular = strength max(N.H, 0)^64,
+//  colour = ambient + visibility * (diffuse + specular),
+//  ambient = 0.15 albedo, diffuse = albedo max(N.L, 0), specular = strength max(N.H, 0)^64,
 //
 // in linear light. With albedo 0.7 and strength 0.195 the largest value is 1, so nothing is cut off.
 #pragma once

@@ -2,7 +2,7 @@
 //
 //   Workbench bench(gl::DebugMode::log);
 //   Measurement m = bench.measure(settings, curve_options);
-//   save(m.record);
+//   print(m.record.metrics.at("error"));
 #pragma once
 #include <functional>
 #include <memory>

@@ -2,7 +2,7 @@
 // move the casters, the settings may cull faces, and the near and far planes clip.
 //
 //   const DrawnMap drawn(traced, view, surface, silhouettes, view.frame(), settings.map, bias, offset);
-//   float depth = drawn.depth_of(hit, x);      // window depth at place x; hit: the scene's first hit there
+//   drawn.depths(1, &x, &hit, &depth);   // window depth at place x; hit: the scene's first hit there
 #pragma once
 #include <optional>
 #include <span>

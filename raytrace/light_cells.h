@@ -2,7 +2,7 @@
 // the one that the program's own rays give, with certainty; where that cannot be proved, the answer is `unknown`, and the
 // rays are cast.
 //
-//   LightCells cells(adjacency, view, embree.near_distance(), 1024);  // built once for a light
+//   LightCells cells(adjacency, view, traced.embree.near_distance(), 1024);  // built once for a light
 //   LightCells::Reader reader(cells);                                // one for each thread
 //   LightCells::Answer a = reader.at(frame.to_light(P), primitive);  // of a receiver that is not grazing
 //   std::optional<uint32_t> triangle = reader.first_hit(x);          // of the light-side ray through a place

@@ -1,10 +1,10 @@
 // Alpha masks as geometry: a triangle is cut along the border of its mask, and what the mask hides is left out. So the
 // camera, the shadow map and the rays all meet the same surface, and none of them has to read a texture.
 //
-//   const MaskCutter cutter({.width = 64, .height = 64, .alpha = {...}, .cutoff = 0.5});
+//   const MaskCutter cutter({.width = 64, .height = 64, .alpha = alpha, .cutoff = 0.5});
 //   MaskCutter::Pieces pieces;
 //   cutter.cut(corners, texture_coordinates, pieces);
-//   for (glm::uvec3 t : pieces.triangles) use(pieces.positions[t.x], ...);
+//   for (glm::uvec3 t : pieces.triangles) use(pieces.positions[t.x]);
 #pragma once
 #include <array>
 #include <cstdint>

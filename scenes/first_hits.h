@@ -1,7 +1,7 @@
 // The first hits of the rays of a small picture. The time grows linearly with the number of triangles.
 //
 //   FirstHits hits = first_hits(scene, make_camera_frame(camera, 32, 32), 32, Backs::seen);
-//   if (hits.depth.at(x, y) != FirstHits::nothing && hits.back.at(x, y)) ...
+//   if (hits.depth.at(x, y) != FirstHits::nothing && hits.back.at(x, y)) print("a back");
 //
 // For questions about a scene as a whole: no rasteriser, ray tracer or OpenGL is needed.
 #pragma once

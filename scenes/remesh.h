@@ -3,7 +3,7 @@
 // So a verdict and its cause may not depend on these either: law 11 (experiments/laws.toml,
 // tests/laws/surface_test.cpp).
 //
-//   Scene again = remeshed(make_scene(settings), MeshForm::split);
+//   Scene again = remeshed(make_scene(settings.scene), MeshForm::split);
 //   Scene far = remeshed(scene, MeshForm::tiles, {.turn_deg = 17, .move_m = {300, 0, 0}});
 #pragma once
 #include "scenes/scene.h"

@@ -1,6 +1,6 @@
 // A hash over everything in a scene that can change a measurement. Two scenes with equal hashes give equal results.
 //
-//   if (scene_digest(make_scene(settings.scene)) != remembered) measure_anew();
+//   if (scene_digest(make_scene(settings.scene)) != remembered) measure(settings);
 #pragma once
 #include <string>
 

@@ -1,7 +1,7 @@
 // How large a scene is, and how much memory it takes at the least. Asked before anything is made of a scene
 // (base/memory.h).
 //
-//   if (scene_bytes(scene_size(scene)) > available_memory().bytes) throw Error(...);
+//   if (scene_bytes(scene_size(scene)) > available_memory().bytes) throw Error(ErrorKind::usage, "it does not fit");
 #pragma once
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 // A number with a bound of the error that the shader's float arithmetic makes. The bound is made by forward error
 // analysis, operation by operation, of the formulas that GLSL and C++ share.
 //
-//   Bounded n = rounded(0.1);           // 0.1 in double, with an error of u
+//   Bounded n = bounded::rounded(0.1);  // 0.1 in double, with an error of u
 //   Bounded product = n * n;            // product.value = 0.01, product.error = the bound of the float error
 #pragma once
 #include <algorithm>

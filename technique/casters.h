@@ -1,7 +1,7 @@
 // The scene's vertices as they are drawn into the map, when a part of the bias (technique/bias_parts.h) or map.pancake
 // moves the caster.
 //
-//   if (moves_casters(map, bias)) renderer.render_map(frame, settings, &ms, caster_positions(scene, frame, map, bias));
+//   if (moves_casters(map, bias)) use(caster_positions(scene, frame, map, bias));
 #pragma once
 #include <glm/glm.hpp>
 #include <vector>

@@ -2,7 +2,7 @@
 // cost, on every GPU and in every run. They say nothing about caches, and nothing about time.
 //
 //   FrameCost cost = frame_cost(settings, frame.tiles, frame.texels(), facing_receivers, triangles);
-//   if (cost.texel_work < other.texel_work) ...
+//   if (cost.texel_work < other.texel_work) print("cheaper");
 #pragma once
 #include <cstdint>
 

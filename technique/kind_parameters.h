@@ -1,8 +1,8 @@
 // What the tables of filters (technique/filters.h) and of lookups (technique/lookups.h) share: rows that read parameters. A
 // parameter that at least one row reads is a setting of the table's group, and a uniform in the shaders of these rows.
 //
-//   constexpr KindParameter size{.setting = "filter.size", .unit = "taps", .type = ValueType::integer, ...};
-//   {.name = "box", .reads = {{&size, even_size}}}
+//   constexpr KindParameter size{.setting = "filter.size", .unit = "taps", .type = ValueType::integer};
+//   Filter box{.name = "box", .reads = {{&size}}};
 #pragma once
 #include <algorithm>
 #include <initializer_list>

@@ -1,12 +1,12 @@
 // The formulas of filtered shadow maps: a map that is blurred before it is looked up, so it stores moments of the depth.
 // Each is one file technique/lookups/<name>.glsl with two functions, which GLSL and C++ compile:
 //
-//   vec4 <name>_moments(real depth, LookupParameters p)
-//     What a texel of this window depth stores before the blur. depth: 0 at the light, 1 at the map's far end. Channels
-//     that the formula does not use are 0.
-//   real <name>_lit(vec4 moments, real depth, LookupParameters p)
-//     The lit fraction, 0 ... 1 (up to rounding), of a receiver, before light-bleed reduction. moments: as fetched from the
-//     blurred map. depth: the receiver's window depth, with the bias subtracted.
+//  vec4 <name>_moments(real depth, LookupParameters p)
+//    What a texel of this window depth stores before the blur. depth: 0 at the light, 1 at the map's far end. Channels
+//    that the formula does not use are 0.
+//  real <name>_lit(vec4 moments, real depth, LookupParameters p)
+//    The lit fraction, 0 ... 1 (up to rounding), of a receiver, before light-bleed reduction. moments: as fetched from the
+//    blurred map. depth: the receiver's window depth, with the bias subtracted.
 //
 // The depth may lie outside [0, 1]. For finite input within the ranges of technique/lookups/parameters.glsl the results are
 // finite; each file says what it gives where its formula divides by 0.

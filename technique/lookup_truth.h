@@ -11,7 +11,7 @@
 //
 //   TruthInDouble of_thread;
 //   of_thread.set(depths, weights);
-//   double lit = of_thread.lit(msm_truth, 0.5, {});   // within 1e-12 of it
+//   double again = of_thread.lit(msm_truth, 0.5, {});   // within 1e-12 of it
 //
 // The look-alikes of Babylon.js are no bounds and nothing cancels in them: theirs is the .glsl file in long double. three.js's
 // is in technique/spread_blur.h, because the result depends on which depths each of its passes blurs.

@@ -3,7 +3,7 @@
 //
 //   const MomentLookup lookup(settings);
 //   lookup.stored(0.25f);                       // the moments of a texel
-//   lookup.exact(depths, weights, 0.3);         // R4: the lit fraction, before lookup.reduction
+//   lookup.exact(depths, 0.3);                  // R4: the lit fraction, before lookup.reduction
 //   lookup.reduced(0.25);
 #pragma once
 #include <glm/glm.hpp>

@@ -4,7 +4,7 @@
 //
 //   validate(settings, frame.kind);                                   // throws SettingConflict
 //   for (const IdleSetting& idle : idle_settings(frame.kind, settings)) print(idle.name, idle.why);
-//   if (settings_key(settings, {Stage::scene, Stage::map}) == key) ...  // the same map
+//   if (settings_key(settings, {Stage::scene, Stage::map}) == key) print("the same map");  // the same map
 #pragma once
 #include <functional>
 #include <initializer_list>

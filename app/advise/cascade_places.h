@@ -1,7 +1,7 @@
 // The ways to lay cascades over a view that a recommendation compares with single maps.
 //
-//   const auto places = cascade_places(bench, request.conditions, {2, 3, 4}, width_px, say);
-//   request.places.insert(request.places.end(), places.begin(), places.end());
+//   const CascadePlaces found = cascade_places(bench, request.conditions, cascade_counts, {}, width_px, say);
+//   request.places.insert(request.places.end(), found.places.begin(), found.places.end());
 #pragma once
 #include <functional>
 #include <span>

@@ -1,7 +1,7 @@
 // Where the map of a directional light can lie over a scene: the places that a recommendation compares. They are numbers that
 // stay as they are while the camera moves, so that they can be typed into an engine that does not fit its map.
 //
-//   for (const MapPlace& place : map_places(bench.scene(first.scene), conditions, views)) place.apply(settings);
+//   for (const MapPlace& place : map_places(bench.scene(conditions[0].scene), conditions, views)) place.apply(settings);
 #pragma once
 #include <functional>
 #include <span>

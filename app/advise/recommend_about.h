@@ -1,7 +1,7 @@
 // What an answer is about: what the search took from the user and what it assumed. An answer for the same model differs only if one of
 // these differs.
 //
-//   request.about = about_text(experiment, request.conditions, bench.scene(first.scene));
+//   request.about = about_text(experiment, request.conditions, bench.scene(request.conditions[0].scene));
 //   for (const std::string& line : request.about) print(line);   // before the answer
 #pragma once
 #include <span>

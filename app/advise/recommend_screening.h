@@ -1,9 +1,9 @@
 // The first step of a recommendation: which settings hold the bounds under the first condition and at one placement, in a
 // small picture. What cannot be an answer is not measured.
 //
-//   Screening screening(bench, request, searched_bounds, say);
+//   Screening screening(bench, request, searched_bounds(request.curve), say);
 //   screening.run();                                     // again, after some of what held was refuted
-//   for (Candidate& one : screening.candidates()) ...
+//   for (Candidate& one : screening.candidates()) print(name_of(one.tried, request));
 #pragma once
 #include <functional>
 #include <map>

@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
+#include "compare/judge/undecided.h"
 #include "compare/results/number_text.h"
 #include "measure/lights_frame.h"
 #include "scenes/library.h"
@@ -250,6 +251,11 @@ class Divider {
                                                                          chosen[l].settings, judged_side, placement)));
       const LightsFrame frame = measure_lights(parts);
       const double share = 1.0 / static_cast<double>(judged_placements.size());
+      PointRecord record;
+      record.metrics = frame.metrics;
+      if (ambiguous_room(record, "lights_error") > 0)
+        throw Error(ErrorKind::usage,
+                    fmt::format("it is not known which division has the least error: {}", ambiguous_note(record)));
       made.error += share * frame.metrics.at("lights_error");
       for (size_t l = 0; l < chosen.size(); ++l) {
         made.lights[l].error += share * frame.of_light[l].at("light_error");

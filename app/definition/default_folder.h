@@ -1,8 +1,8 @@
 // Where a verb puts its files without --out: one rule for all verbs, so that two files never share a folder.
 //
-//   default_folder("checks/shadows.toml")                            // "out/checks/shadows"
-//   default_folder("checks/helmet.toml", "recommend-")               // "out/checks/recommend-helmet"
-//   default_folder("out/checks/recommend-helmet/recommended.toml")   // "out/checks/recommend-helmet/recommended": beside it
+//   default_folder("checks/shadows.toml");                           // "out/checks/shadows"
+//   default_folder("checks/helmet.toml", "recommend-");              // "out/checks/recommend-helmet"
+//   default_folder("out/checks/recommend-helmet/recommended.toml");  // "out/checks/recommend-helmet/recommended": beside it
 #pragma once
 #include <string>
 #include <string_view>

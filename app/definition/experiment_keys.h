@@ -2,7 +2,7 @@
 // and which words a key takes; the JSON schema (app/definition/experiment_schema.h) and the tables of `noonmark settings --html`
 // (app/verbs/settings_page.h) are made from it.
 //
-//   for (const ExperimentKey& key : experiment_keys("bound")) ...
+//   for (const ExperimentKey& key : experiment_keys("bound")) print(key.name);
 #pragma once
 #include <span>
 #include <string_view>

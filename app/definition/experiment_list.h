@@ -1,8 +1,8 @@
 // Lists the experiments that `check` was given, with the folder for the results of each.
 //
 //   const ExperimentList list = list_experiments({"experiments"}, "out/all");
-//   for (const ListedExperiment& one : list.experiments) check(one.file, one.out);
-//   for (const Error& error : list.unreadable) ...
+//   for (const ListedExperiment& one : list.experiments) print(one.file, one.out);
+//   for (const UnreadableFolder& one : list.unreadable) print(one.folder, one.error.what());
 #pragma once
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 // measure the same. Which setting a point reads is in the table of settings (Setting::why_idle).
 //
 //   IdleNotes notes;
-//   for (each point) notes.add(part_of_point(experiment, id), settings, light);
-//   for (const std::string& text : notes.texts()) ...
+//   for (const Settings& point : points(experiment)) notes.add(experiment, point, LightKind::spot);
+//   for (const std::string& text : notes.fixed()) print(text);
 #pragma once
 #include <map>
 #include <string>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "compare/judge/undecided.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/deflate.h"
 #include "compare/report/page_parts.h"
@@ -184,6 +185,7 @@ json page_data(const Scene& scene, const Settings& settings, std::string_view ve
            {{"unit", static_cast<int>(settings.bias.unit)}, {"plane_cap", cap}, {"parts", parts_json(settings.bias)}}},
           {"colours", colours_json()},
           {"notes", light_notes(scene, settings)},
+          {"much_ambiguous", much_ambiguous},
           {"position_count", scene.positions.size()},
           {"triangle_count", scene.triangles.size()},
           {"positions", packed(positions)},

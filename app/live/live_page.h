@@ -3,7 +3,7 @@
 // nothing itself.
 //
 //   require_live(scene, settings);                                // throws Error(usage) for what the page does not draw
-//   write(live_page(scene, live_settings(settings), version));
+//   write_file_atomically("live.html", live_page(scene, live_settings(settings), version));
 //
 // The page's arithmetic is the program's: its lookup is compiled from gl/shaders and technique/bias, its geometry is the
 // scene's floats, and its light frame, receivers and truth follow technique/, scenes/ and raytrace/ (each script names the

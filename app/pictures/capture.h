@@ -1,7 +1,7 @@
 // Frames of another program, read from a RenderDoc capture by the reader, a Python program of its own (captures/).
 //
 //   const std::vector<std::string> command = capture_command("frame.rdc", "");
-//   for (const std::string& frame : read_capture(command, "out/frames", {"--light=1"}).frames) judge(frame);
+//   for (const std::string& frame : read_capture(command, "out/frames", {"--light=1"}).frames) print(frame);
 #pragma once
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // Pictures of one point or frame, painted and written side by side on all threads.
 //
 //   PictureFiles files{folder, "images", "p0003"};
-//   files.add("truth", "The truth.", [&] { return shaded(m, m.ladder.truth()); });
-//   files.add("depth", "The map.", map_picture(m.stored_rows, frame));  // what asks OpenGL is painted here
+//   files.add("truth", "The truth.", [&] { return picture; });
+//   files.add("depth", "The map.", picture);                          // what asks OpenGL is painted before
 //   return files.write();
 #pragma once
 #include <functional>

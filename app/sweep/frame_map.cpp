@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "compare/judge/curve_reading.h"
+#include "compare/judge/undecided.h"
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
 #include "frames/alignment.h"
@@ -81,12 +83,13 @@ std::string undeclared_text(const GivenClimb& climbed, const Settings& declared,
 }
 
 // "bias.constant is 0.0011 depth; from 0.0019 to 0.0042 acne and Peter Panning are below 0.1% each"
-std::string bias_text(const GivenClimb& climbed, const Settings& declared) {
+std::string bias_text(const GivenClimb& climbed, const Settings& declared, const PointRecord& frame) {
   if (!climbed.curve) return "";
   const BiasCurve& curve = *climbed.curve;
   const auto in_unit = [&](double depth) { return fmt::format("{:.3g}", depth / climbed.depth_per_unit); };
   std::string says = fmt::format("{} is {} {}; ", curve.parameter, find_setting(curve.parameter).get(declared),
                                  find_setting("bias.unit").get(declared));
+  if (hides_more_than(frame, curve)) return says + "what is usable is " + std::string(window_not_known);
   if (!curve.window_min_depth) return says + "no value of it keeps both acne and Peter Panning below 0.1%";
   says += "from " + in_unit(*curve.window_min_depth);
   if (curve.window_max_depth) says += " to " + in_unit(*curve.window_max_depth);
@@ -180,7 +183,9 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
   for (const Ladder::CauseImage& cause : climbed.ladder.causes)
     if (const auto found = climbed.metrics.find(cause.name); found != climbed.metrics.end())
       verdict.metrics.insert(*found);
-  verdict.bias = bias_text(climbed, technique.settings);
+  PointRecord record;
+  record.metrics = verdict.metrics;
+  verdict.bias = bias_text(climbed, technique.settings, record);
   verdict.metrics.try_emplace(std::string(frame_map), 0);
   const Image<float>& looked_up = climbed.ladder[Rung::shown];
   double counted = 0, differ = 0;

@@ -3,7 +3,7 @@
 // which of them are of scenes with the present contents, is for app/sweep/kept_points.h.
 //
 //   SceneDigests scenes;
-//   ResultStore store(path, facts_text(identity(bench, tracer, scenes)), Existing::resume);
+//   ResultStore store(path, facts_text(identity(bench, raytrace::tracer_info(), scenes)), Existing::resume);
 //   scenes.require_unchanged(bench, settings);   // before each point
 #pragma once
 #include <functional>

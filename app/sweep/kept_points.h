@@ -3,7 +3,7 @@
 //
 //   const AskedPoints asked{experiment, planned, wanted, scenes};
 //   KeptPoints kept = keep_points(store, asked, folder, fingerprint);     // before the first point is measured
-//   kept.text(3, "out/x")                                                // "2 of 3 points are in out/x already; ..."
+//   kept.text(3, "out/x");                                               // "2 of 3 points are in out/x already; ..."
 #pragma once
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // Joins the stores of shares, measured by noonmark run --shard, into one, and judges it as one run would be.
 //
-//   Merged merged = merge_stores({"out/x/share-1-of-2", "out/x/share-2-of-2"}, ResultsFolder("out/x", ""), {...});
-//   merged.missing   // what no share has measured
+//   Merged merged = merge_stores({"out/x/share-1-of-2", "out/x/share-2-of-2"}, ResultsFolder("out/x", ""), false);
+//   merged.missing;  // what no share has measured
 #pragma once
 #include <string>
 #include <vector>

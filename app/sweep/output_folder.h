@@ -1,7 +1,7 @@
 // What a verb may write into a folder that a user names: only files that Noonmark made are removed or replaced. A folder keeps
 // their names in its list, the file .noonmark-files.
 //
-//   OutputFolder out(outputs_of("map", scene, arguments.out));   // the files of an earlier run are gone
+//   OutputFolder out(outputs_of("map", "cube-room", arguments.out));   // the files of an earlier run are gone
 //   out.make();                                                  // before the first file is written
 #pragma once
 #include <optional>

@@ -1,7 +1,7 @@
 // The folder of a run's results, locked for as long as the run lasts.
 //
-//   const ResultsFolder folder("out/cube-room", "cube-room.toml");   // makes and locks it; its earlier verdict is removed
-//   if (!folder.ours()) ...                                          // the results of another experiment: nothing was touched
+//   ResultsFolder folder("out/cube-room", "cube-room.toml");   // makes and locks it; its earlier verdict is removed
+//   if (!folder.ours()) return;                                       // the results of another experiment: nothing was touched
 //   folder.take();                                                   // this run may write here: the verdict is removed
 #pragma once
 #include <exception>

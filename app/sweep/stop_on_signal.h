@@ -1,7 +1,7 @@
 // SIGINT and SIGTERM end a sweep after the point that is being measured.
 //
 //   const StopOnSignal guard;
-//   for (each point) { measure(point); if (StopOnSignal::asked()) break; }
+//   for (const Settings& point : points(experiment)) { measure(point); if (StopOnSignal::asked()) break; }
 #pragma once
 #include <csignal>
 

@@ -1,6 +1,6 @@
 // The phase diagrams of a sweep: one for each part of the experiment that asks for it ([phase]).
 //
-//   for (const PhasePlan& plan : phase_plans(experiment, points))
+//   for (const PhasePlan& plan : phase_plans(experiment, points(experiment)))
 //     store.add_phase(plan.number, make_phase(bench, plan));
 //
 // A part can have points of many techniques. The diagram is that of its first point that can have one; points whose

@@ -1,7 +1,7 @@
 // Where `recommend`, `render`, `map`, `inspect`, `judge` and `capture` write, and the files that they write there
 // (app/sweep/output_folder.h).
 //
-//   const VerbOutputs outputs = outputs_of("render", experiment, arguments.out);
+//   const VerbOutputs outputs = outputs_of("render", "cube-room.toml", arguments.out);
 #pragma once
 #include <string>
 #include <string_view>

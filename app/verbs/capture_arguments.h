@@ -1,7 +1,7 @@
 // The options of the verbs that read a capture: `capture`, and `judge` of a capture.
 //
-//   add_capture_options(verb, options->capture);
-//   read_capture(capture_command(file, options.capture.reader), folder, options.capture.words());
+//   add_capture_options(verb, arguments);
+//   read_capture(capture_command(file, arguments.reader), folder, arguments.words());
 #pragma once
 #include <CLI/CLI.hpp>
 #include <optional>

@@ -1,7 +1,7 @@
 // What is wrong with a command line, in one line with the nearest names for a misspelt verb or option.
 //
-//   } catch (const CLI::ParseError& error) {
-//     throw Error(ErrorKind::usage, command_line_error(app, error));
+//   try { app.parse(argc, argv); }
+//   catch (const CLI::ParseError& error) { throw Error(ErrorKind::usage, command_line_error(app, error)); }
 #pragma once
 #include <span>
 #include <string>

@@ -1,8 +1,8 @@
 // Options that several verbs have. A verb adds those that it has; the others keep their defaults.
 //
-//   add_sets(verb, options->arguments);
-//   add_threads(verb, options->arguments);
-//   ...
+//   add_sets(verb, arguments);
+//   add_threads(verb, arguments);
+//   // when the words are parsed
 //   const ThreadLimit limit(arguments.threads);
 //   const Experiment experiment = experiment_from(path, arguments);
 #pragma once

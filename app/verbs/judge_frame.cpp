@@ -97,8 +97,7 @@ void print_capture(const Subject& subject, const FrameVerdict& verdict, const st
   fmt::print("{}\n", printable(summary));
   for (const std::string& note : subject.frame.notes) fmt::print("  {}\n", printable(note));
   for (const CheckResult& check : verdict.checks)
-    if (check.state == CheckState::failed)
-      fmt::print("  check {}: {}\n", check.name, printable(check.says));
+    if (check.state == CheckState::failed) fmt::print("  check {}: {}\n", check.name, printable(check.says));
   if (verdict.worst.x >= 0 && !verdict.refused())
     fmt::print("  the largest error is {:.3f}, at x = {}, y = {} (row 0 on top), of {:.0f} receivers\n",
                verdict.error.at(verdict.worst.x, verdict.worst.y), verdict.worst.x, verdict.worst.y,
@@ -256,7 +255,7 @@ JudgedFrame judge_frame_file(const JudgeOptions& options, const std::vector<Boun
   }
   for (const BoundResult& bound : judged)
     fmt::print("{}  {}: {}, found {}\n", &bound == &judged.front() ? "\n" : "", bound.held ? "held" : "BROKEN",
-               bound_text(bound), found_text(bound));
+               bound_text(bound), found_text(bound, {&record, 1}));
   if (const std::string doubt = ambiguous_note(record); !doubt.empty() && !verdict.refused())
     fmt::print("  note: {}\n", doubt);
   if (const std::string note = notes_line(subject.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));

@@ -1,7 +1,7 @@
 // The point of an experiment that a verb for one point measures: that of --point, or the only one.
 //
-//   add_point(verb, options->point);
-//   const Settings settings = the_point(experiment, options.point, "render");
+//   add_point(verb, point);
+//   const Settings settings = the_point(experiment, point, "render");
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string_view>

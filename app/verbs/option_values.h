@@ -1,7 +1,7 @@
 // What the values of options and arguments are: the word that the help shows for each kind, and the checks.
 //
-//   verb.add_option("--picture", options->picture, "Judge this picture ...")->check(not_empty())->type_name(value_kind::picture);
-//   verb.add_option("--rows", options->rows, "Number of texel sizes")->check(whole_number(2, 200))->capture_default_str();
+//   verb.add_option("--picture", picture, "Judge this picture ...")->check(not_empty())->type_name(value_kind::picture);
+//   verb.add_option("--rows", rows, "Number of texel sizes")->check(whole_number(2, 200))->capture_default_str();
 //
 // The help adds "(default: ...)" to the text of an option that has CLI11's default string. The string is made from the
 // member, so that a default stands once.

@@ -102,8 +102,6 @@ std::string taken_by(const ExperimentKey& key) {
       return "a table of settings, each with a list or a range";
     case Kind::conditions:
       return "a table of settings, each with a value or a list";
-    case Kind::limits:
-      return "a table of metrics, each with a number";
     case Kind::amounts:
       return "a list of numbers, or a range";
     case Kind::table:

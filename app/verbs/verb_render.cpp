@@ -114,13 +114,15 @@ void print_curve_of_cascades(const Measurement& m, const BiasCurve& c) {
                            : unit == BiasUnit::m               ? c.m_per_depth
                                                                : c.texels_per_depth;
   const std::string name = !in_unit ? "" : unit == BiasUnit::depth ? " depth" : unit == BiasUnit::m ? " m" : " texels";
-  if (c.window_min_depth)
+  if (hides_window(m.record))
+    fmt::print("\n  usable {}: {}\n", c.parameter, window_not_known);
+  else if (c.window_min_depth)
     fmt::print("\n  usable {}: {:.4g} ... {:.4g}{}\n", c.parameter, *c.window_min_depth * per_depth,
                *c.window_max_depth * per_depth, name);
   else
     fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
                c.peter_panning_bound);
-  if (c.acne_free_bias_depth)
+  if (c.acne_free_bias_depth && !hides_window(m.record))
     fmt::print("  free of acne in all cascades from: {:.4g}{}\n", *c.acne_free_bias_depth * per_depth, name);
   fmt::print("  best {}: {:.4g}{} (error {:.5f}%)\n", c.parameter, c.best_bias_depth * per_depth, name,
              100 * c.best_error);
@@ -135,6 +137,10 @@ void print_reductions(const Measurement& m) {
   constexpr const char* bounds =
       "the leak within curve.peter_panning_bound, and over-darkening and what the reduction darkens each within "
       "curve.acne_bound";
+  if (hides_window(m.record)) {
+    fmt::print("  usable lookup.reduction: {}\n", window_not_known);
+    return;
+  }
   if (metrics.contains("reduction_min"))
     fmt::print("  reductions from {:.4g} to {:.4g} keep {}\n", metrics.at("reduction_min"), metrics.at("reduction_max"),
                bounds);
@@ -227,7 +233,9 @@ void print_ladder(const Measurement& m, const char* clock) {
     return;
   }
   const char* there = m.uniform() ? "" : " (m and texels at the median receiver)";
-  if (c.window_min_depth)
+  if (hides_window(m.record))
+    fmt::print("\n  usable {}: {}\n", c.parameter, window_not_known);
+  else if (c.window_min_depth)
     fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",
                c.parameter, *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
                *c.window_max_depth * c.m_per_depth, *c.window_min_depth * c.texels_per_depth,
@@ -235,7 +243,7 @@ void print_ladder(const Measurement& m, const char* clock) {
   else
     fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
                c.peter_panning_bound);
-  if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
+  if (c.acne_free_bias_depth && !hides_window(m.record) && c.parameter == "bias.constant") {
     fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
                *c.acne_free_bias_depth * c.m_per_depth, m.uniform() ? "" : " at the median receiver");
     // The law's bias in the parameter's own unit, which each receiver converts to depth by itself. The law does not

@@ -14,6 +14,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "compare/judge/undecided.h"
 #include "compare/report/section_picture.h"
 #include "compare/report/section_words.h"
 #include "compare/results/causes.h"
@@ -53,6 +54,14 @@ struct ChosenPixel {
   std::string why;  // "the pixel with the largest acne, 100%"; empty: it was given
 };
 
+// Of a picture without this metric at any counted pixel.
+[[noreturn]] void refuse_right_picture(const PointRecord& record, const std::string& metric, const char* advice) {
+  const std::string doubt = ambiguous_note(record);
+  throw Error(ErrorKind::usage,
+              doubt.empty() ? fmt::format("no pixel of this picture has any {}; {}", metric, advice)
+                            : fmt::format("no pixel that is counted has any {}, but {}; or {}", metric, doubt, advice));
+}
+
 // Without a wish: the pixel that stands for the largest cause.
 ChosenPixel pixel_of_largest_cause(const Measurement& m, const ProbeOf& probe_of) {
   size_t largest = 0;
@@ -61,7 +70,7 @@ ChosenPixel pixel_of_largest_cause(const Measurement& m, const ProbeOf& probe_of
     if (row.cause && !is_of_moments(*row.cause) && row.place != CausePlace::light)
       if (const auto cause = static_cast<size_t>(*row.cause); size(cause) > size(largest)) largest = cause;
   const auto pixel = largest == 0 ? std::nullopt : typical_pixel(m.ladder, largest, true, probe_of);
-  if (!pixel) throw Error(ErrorKind::usage, "no pixel of this picture has any error; give a --pixel");
+  if (!pixel) refuse_right_picture(m.record, "error", "give a --pixel");
   return {*pixel, fmt::format("in the middle of the largest patch of {}, the largest cause of error: {}",
                               m.ladder.causes[largest].name, share_text(size(largest)))};
 }
@@ -74,8 +83,7 @@ ChosenPixel chosen_pixel(const SectionOptions& options, const Measurement& m) {
   if (metric.empty()) return pixel_of_largest_cause(m, probe_of);
   auto worst = worst_pixel_of(record, metric);
   if (!worst && metric_of(record, metric) == 0)
-    throw Error(ErrorKind::usage,
-                fmt::format("no pixel of this picture has any {}; give another --worst, or a --pixel", metric));
+    refuse_right_picture(record, metric, "give another --worst, or a --pixel");
   if (!worst)
     throw Error(
         ErrorKind::usage,

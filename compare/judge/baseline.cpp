@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "compare/judge/conditions.h"
+#include "compare/judge/undecided.h"
 #include "compare/ladder/numbers.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
@@ -41,14 +42,15 @@ void add_value(BaselinePoint& to, const PointRecord& point, const std::string& n
   const bool time = find_quantity(name, {&point, 1}).unit == "ms";
   if (time && !times) return;
   const double value = quantity(point, name).value_or(not_a_number);
-  const auto [at, is_new] = to.values.try_emplace(
-      name, BaselineValue{std::isfinite(value) ? value : not_a_number, better.value_or(Better::unknown), time});
+  const auto [at, is_new] =
+      to.values.try_emplace(name, BaselineValue{std::isfinite(value) ? value : not_a_number,
+                                                better.value_or(Better::unknown), time, ambiguous_room(point, name)});
   if (!is_new && better && at->second.better != *better) at->second.better = Better::unknown;
 }
 
 // JSON has no number for a value that was not measured.
 json number(const BaselineValue& value) {
-  return std::isfinite(value.value) ? json(rounded(value.value)) : json(nullptr);
+  return std::isfinite(value.at_worst()) ? json(rounded(value.at_worst())) : json(nullptr);
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
@@ -133,8 +135,9 @@ std::string_view unit_of(const std::string& name) {
 }
 
 // other: what the value is compared with, from which it must be told.
-std::string value_text(double value, double other, std::string_view unit) {
-  return std::isfinite(value) ? quantity_text(value, unit, digits_to_tell(value, other)) : std::string(not_measured);
+std::string value_text(double value, double room, double other, std::string_view unit) {
+  return std::isfinite(value) ? text_with_room(value, room, unit, digits_to_tell(value, other))
+                              : std::string(not_measured);
 }
 
 class Comparison {
@@ -179,12 +182,13 @@ class Comparison {
 
   void compare(const std::string& name, double before, const BaselineValue& now, const std::string& point) {
     ++found_.compared;
-    const bool was = std::isfinite(before), is = std::isfinite(now.value);
+    const double worst = now.at_worst();
+    const bool was = std::isfinite(before), is = std::isfinite(worst);
     if (!was && !is) return;
-    const double change = was && is ? now.value - before : 0;
+    const double change = was && is ? worst - before : 0;
     // The change of two rounded numbers is itself rounded in double: a share of 2^-52 of them.
     const double allowed = now.time ? *time_share_ * std::abs(before)
-                                    : std::max(last_digit(before), last_digit(now.value)) +
+                                    : std::max(last_digit(before), last_digit(worst)) +
                                           std::numeric_limits<double>::epsilon() * std::abs(before);
     if (was && is && std::abs(change) <= allowed) return;
     const bool larger = change > 0;
@@ -192,9 +196,10 @@ class Comparison {
     if (was != is) worse = was;
     const std::string_view unit = unit_of(name);
     std::string text = fmt::format("{}: {} at {}; {} before, {} now", worse ? "worse" : "better", name, point,
-                                   value_text(before, now.value, unit), value_text(now.value, before, unit));
+                                   value_text(before, 0, worst, unit), value_text(now.value, now.room, before, unit));
+    if (now.room > 0) text += "; so much of it is not known, because the receivers' truth is ambiguous";
     // Of a share the difference is in percent too, so the relative change would read as another difference.
-    if (was && is)
+    else if (was && is)
       text += fmt::format(" ({}{}{})", change > 0 ? "+" : "", quantity_text(change, unit),
                           before == 0 ? "" : fmt::format(", {:.4g} times as large", now.value / before));
     if (worse && was && is && now.better == Better::unknown) text += "; no bound says which side is better";
@@ -223,6 +228,11 @@ std::vector<std::string> least_differences(const BaselinePoint& before, const Ba
 }
 
 }  // namespace
+
+double BaselineValue::at_worst() const {
+  const double worst = better == Better::larger ? value - room : value + room;
+  return std::isfinite(worst) ? worst : not_a_number;
+}
 
 BaselinePoint baseline_point(const PointRecord& point, std::span<const Bound> bounds, std::span<const std::string> plot,
                              bool times, const std::string& scene) {

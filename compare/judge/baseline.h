@@ -29,6 +29,9 @@ struct BaselineValue {
   double value = 0;  // not a number: not measured
   Better better = Better::unknown;
   bool time = false;  // of unit "ms"
+  double room = 0;    // ambiguous_room(): the receivers that are left out may change the value by so much
+  // What it is at worst; not a number if that is not known. The file holds this, so a value that becomes ambiguous is worse.
+  double at_worst() const;
 };
 
 struct BaselinePoint {

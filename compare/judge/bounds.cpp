@@ -361,8 +361,14 @@ std::string_view placement_text(const BoundResult& bound) {
   return bound.placement.empty() ? "" : bound.placement == "worst" ? "worst placement" : "placement 0";
 }
 
-std::string found_text(const BoundResult& bound) {
-  return quantity_text(bound.found, bound_unit(bound), found_digits(bound));
+double room_of(const BoundResult& bound, std::span<const PointRecord> points) {
+  const PointRecord* const point = find_point(points, bound.point);
+  return point ? ambiguous_room(*point, bound.metric) : 0;
+}
+
+std::string found_text(const BoundResult& bound, std::span<const PointRecord> points) {
+  return text_with_room(bound.found, std::isfinite(bound.found) ? room_of(bound, points) : 0, bound_unit(bound),
+                        found_digits(bound));
 }
 
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
@@ -375,8 +381,8 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
     return text +
            "\n  no finished point matches it; change its where, or the swept values (a refused frame matches "
            "nothing)\n";
-  text += fmt::format("; found {} ({} of {} point{}{}{})\n", found_text(bound), bound.join, bound.points,
-                      bound.points == 1 ? "" : "s", bound.placement.empty() ? "" : ", at ",
+  text += fmt::format("; found {} ({} of {} point{}{}{})\n", found_text(bound, {point, size_t{point != nullptr}}),
+                      bound.join, bound.points, bound.points == 1 ? "" : "s", bound.placement.empty() ? "" : ", at ",
                       bound.placement == "worst" ? "the worst placement of the grid" : placement_text(bound));
   if (bound.held) {
     const std::string doubt = point ? undecided_note(bound, *point) : "";

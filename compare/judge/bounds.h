@@ -79,8 +79,11 @@ std::optional<double> broken_limit(const BoundResult& bound);
 // With so many digits the found value does not read as the limit that it breaks.
 int found_digits(const BoundResult& bound, int least = people_digits);
 
-// The value found, for people ("0.8347%"), or "not measured".
-std::string found_text(const BoundResult& bound);
+// ambiguous_room() of the value at its worst point. points: those that it was judged on.
+double room_of(const BoundResult& bound, std::span<const PointRecord> points);
+
+// The value found, for people ("0.8347%", text_with_room()), or "not measured".
+std::string found_text(const BoundResult& bound, std::span<const PointRecord> points);
 
 // The worst pixel of the bound's own metric at the point, as rendered. Empty if the metric has no pixel (a time, a window),
 // and if the bound is not broken by too much of it.

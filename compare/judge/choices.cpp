@@ -6,7 +6,6 @@
 #include <unordered_map>
 
 #include "compare/judge/curve_reading.h"
-#include "compare/judge/undecided.h"
 #include "compare/results/quantities.h"
 #include "technique/settings.h"
 
@@ -114,7 +113,7 @@ std::optional<Interval> joined_window(const Choice& choice) {
   Interval all{0, std::numeric_limits<double>::infinity()};
   for (const PointRecord* point : choice.points) {
     const std::optional<Interval> window = usable_window(*point);
-    if (!window || hides_more_than(*point, curve_bounds(*point))) return std::nullopt;
+    if (!window) return std::nullopt;
     const double per_depth = parameter_per_depth(*point);
     all.low = std::max(all.low, window->low * per_depth);
     all.high = std::min(all.high, window->high * per_depth);

@@ -202,7 +202,10 @@ std::optional<Interval> usable_window(const BiasCurve& curve) {
   return Interval{*low, *high};
 }
 
+bool hides_window(const PointRecord& point) { return has_curve(point) && hides_more_than(point, curve_bounds(point)); }
+
 std::optional<Interval> usable_window(const PointRecord& point) {
+  if (hides_window(point)) return std::nullopt;
   switch (free_setting(point)) {
     case FreeSetting::bias:
       return usable_window(*point.curve);
@@ -225,7 +228,7 @@ bool rounds_too_much(const PointRecord& point) {
 }
 
 std::string why_no_usable_reduction(const PointRecord& point) {
-  if (free_setting(point) != FreeSetting::reduction || usable_window(point)) return "";
+  if (free_setting(point) != FreeSetting::reduction || !lacks_window(point)) return "";
   const auto& [dark, light] = curve_bounds(point);
   if (rounds_too_much(point))
     return fmt::format("the rounding of the moments (moment_precision) is {}, more than {}",

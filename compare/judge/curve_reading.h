@@ -68,10 +68,17 @@ std::optional<double> bias_as_set(const PointRecord& point);
 // The usable window of the curve: at every placement of the grid if the point has placements, otherwise at its own.
 // In window depth. Empty if no bias is good enough.
 std::optional<Interval> usable_window(const BiasCurve& curve);
-// The same of the point's free setting. Empty also without a curve.
+// Whether the point has a curve, but so many receivers are ambiguous that its usable window is not known (hides_more_than() its
+// bounds, compare/judge/undecided.h).
+bool hides_window(const PointRecord& point);
+// The window of the point's free setting. Empty also without a curve, and where it hides_window().
 std::optional<Interval> usable_window(const PointRecord& point);
 // Whether the point has a curve, and no value of its free setting is usable.
-inline bool lacks_window(const PointRecord& point) { return has_curve(point) && !usable_window(point); }
+inline bool lacks_window(const PointRecord& point) {
+  return has_curve(point) && !hides_window(point) && !usable_window(point);
+}
+// What is said of a point that hides_window() in place of its window.
+inline constexpr std::string_view window_not_known = "not known, because too much is ambiguous";
 
 // Of a lookup in a map of moments whose reduction has a fixed form, as three.js's with lookup.reduction_span: it has no curve
 // that says what another value would give.

@@ -2,7 +2,7 @@
 //
 //   Formula f("2 * texel_m");
 //   f.names();                                             // {"texel_m"}
-//   f.value([&](const std::string& name) { return number_of_point(point, name); });
+//   f.value([&](const std::string& name) { return metric_of(point, name); });
 //
 // Names are those of settings and metrics, with their dots, and any others for which the caller gives values.
 // - Operators: + - * / ^, comparisons (1 or 0), && || and a ? b : c.

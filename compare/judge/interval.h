@@ -2,7 +2,7 @@
 // intervals do not overlap.
 //
 //   const MedianInterval time = interval_of_median(samples);
-//   if (certainly_less(time, other)) ...
+//   if (certainly_less(time, other)) print("faster");
 #pragma once
 #include <cstdint>
 #include <string>

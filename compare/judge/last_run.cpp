@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/undecided.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 
@@ -25,10 +26,14 @@ std::optional<std::pair<double, double>> noise_of(const BoundResult& bound, cons
   return std::pair(*low, *high);
 }
 
-bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+// Nothing is as before where the ambiguous receivers, which are left out, may have changed it.
+bool is_as_before(const BoundResult& bound, const Results& results) {
+  if (std::isnan(*bound.before) && std::isnan(bound.found)) return true;
+  return *bound.before == bound.found && room_of(bound, results.points) == 0;
+}
 
-std::string value_text(const BoundResult& bound, double value, double other) {
-  return std::isfinite(value) ? quantity_text(value, bound_unit(bound), digits_to_tell(value, other))
+std::string value_text(const BoundResult& bound, double value, double other, double room = 0) {
+  return std::isfinite(value) ? text_with_room(value, room, bound_unit(bound), digits_to_tell(value, other))
                               : std::string(not_measured);
 }
 
@@ -51,7 +56,7 @@ bool is_noise(const BoundResult& bound, const Results& results) {
 
 std::string since_last_run(const BoundResult& bound, const Results& results) {
   if (!bound.before) return "";
-  if (same_value(*bound.before, bound.found)) return "as before";
+  if (is_as_before(bound, results)) return "as before";
   std::string text = fmt::format("{} before", value_text(bound, *bound.before, bound.found));
   if (const auto noise = noise_of(bound, results))
     text += fmt::format(", {} the noise ({:.3g} to {:.3g} ms)", is_noise(bound, results) ? "within" : "beyond",
@@ -64,13 +69,13 @@ std::string last_run_text(const Results& results) {
   size_t as_before = 0;
   for (const BoundResult& bound : results.bounds) {
     if (!bound.before) continue;
-    if (same_value(*bound.before, bound.found) || is_noise(bound, results)) {
+    if (is_as_before(bound, results) || is_noise(bound, results)) {
       ++as_before;
       continue;
     }
     changed.push_back(fmt::format("{}{}{} {} -> {}", bound.part, bound.part.empty() ? "" : ": ", bound.metric,
                                   value_text(bound, *bound.before, bound.found),
-                                  value_text(bound, bound.found, *bound.before)));
+                                  value_text(bound, bound.found, *bound.before, room_of(bound, results.points))));
   }
   if (changed.empty() && as_before == 0) return "";
   constexpr size_t most_named = 4;

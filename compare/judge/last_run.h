@@ -1,6 +1,6 @@
 // What each bound found in the run before into the same folder, so that a person sees at once what a change did.
 //
-//   const std::vector<BoundResult> earlier = ResultStore::bounds_of(store);   // before the run judges
+//   const std::vector<BoundResult> earlier = ResultStore::bounds_of("out/x/results.sqlite");   // before the run judges
 //   add_last_run(results.bounds, earlier);
 //   print(last_run_text(results));
 #pragma once

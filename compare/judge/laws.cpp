@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "compare/judge/formula.h"
+#include "compare/judge/undecided.h"
 #include "compare/ladder/numbers.h"
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
@@ -45,8 +46,9 @@ std::vector<std::string> number_names() {
   return names;
 }
 
-// NaN if the point has no such number: a setting that is `auto`, a window that is empty.
+// NaN if the point has no such number: a setting that is `auto`, a window that is empty, what ambiguous receivers may change.
 double number_in(const PointRecord& point, const std::string& name) {
+  if (ambiguous_room(point, name) > 0) return not_a_number;
   if (const auto setting = point.settings.find(name); setting != point.settings.end()) {
     if (setting->second == "true") return 1;
     if (setting->second == "false") return 0;

@@ -2,14 +2,15 @@
 // law also gives the reason for the limit.
 //
 //   Law law{.name = "1", .measured = "acne_free_bias_m", .predicted = "k * texel_m * tan_deg(scene.theta_deg)"};
-//   std::vector<LawResult> results = evaluate_laws(points, {law}, reproduce);
+//   std::vector<LawResult> results = evaluate_laws(points, std::span(&law, 1), reproduce);
 //
 // Both sides are formulas (compare/judge/formula.h). Their names are, in this order: the law's own definitions (`let`),
 // the settings that are numbers by their row's name (a flag is 1 or 0, a point has .x .y .z), the metrics, the
 // quantities of the bias curve, and the numbers of one cascade (cascade_number() in compare/results/quantities.h).
 //
 // A law is broken by a difference beyond the tolerance at any sample, by a side or a tolerance that is not finite, by a
-// tolerance below 0, and if no point matches it.
+// tolerance below 0, and if no point matches it. A formula that reads what the ambiguous receivers may change (ambiguous_room() in
+// compare/judge/undecided.h) has no known value, which is not finite.
 #pragma once
 #include <functional>
 #include <span>

@@ -1,7 +1,7 @@
 // Which of several curves of error over cost has the least error at which cost: the lower envelope, and where the curves
 // cross on it.
 //
-//   for (const CheapestStretch& one : least_errors(curves)) print("from", one.from, "on", names[one.curve]);
+//   for (const CheapestStretch& one : least_errors(curves)) print("from", one.from, "on", curves[one.curve]);
 #pragma once
 #include <cstddef>
 #include <span>

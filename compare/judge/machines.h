@@ -1,6 +1,6 @@
 // The machines that measured the points of a store, and which verdicts join numbers of several of them.
 //
-//   for (const std::string& note : machine_notes(results)) ...   // none if one machine measured all points
+//   for (const std::string& note : machine_notes(results).warnings) print(note);   // none if one machine measured all points
 #pragma once
 #include <string>
 #include <vector>

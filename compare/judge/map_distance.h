@@ -2,7 +2,7 @@
 //
 //   MapDistance apart(frame, DepthFormat::d24);
 //   apart.add({12, 7}, exact.at({12, 7}), stored.at({12, 7}));   // of each texel that is read
-//   if (apart.excess() > 1) ...                                  // drawn with another viewport, matrix or scene
+//   if (apart.excess() > 1) print("not the scene's");            // drawn with another viewport, matrix or scene
 //
 // Rounding, a rasteriser's grid, silhouettes, a bias in the map, even half floats move less than half of the texels by less
 // than a fiftieth of the depths' spread. A map that is turned over, or that fills only a corner, is off by a tenth and more.

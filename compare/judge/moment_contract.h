@@ -2,9 +2,9 @@
 // the blur, the linear fetch, and the lit fraction. Each stage is checked from the one before it as OpenGL computed it, so
 // that a bound of one stage's rounding is enough.
 //
-//   MomentContract contract(evidence, stored_map, moments, evidence.r5);
-//   contract.check();
-//   metrics.merge(contract.metrics());
+//   MomentContractCounts counts;
+//   counts += check_moments(evidence, stored_map, moments, evidence.r5);   // of each map
+//   metrics.merge(moment_contract_metrics(counts));
 #pragma once
 #include <map>
 #include <string>

@@ -5,7 +5,7 @@
 // check finds both.
 //
 //   MapDepths ties = tie_map(evidence);    // uploaded and looked up like R4's map
-//   auto metrics = measure_soundness({evidence, map, ties, renderer.lookup(...), receivers, frame, eye_m});
+//   auto metrics = measure_soundness({evidence, map, ties, lookup, receivers, frame, eye_m});
 #pragma once
 #include <map>
 #include <span>

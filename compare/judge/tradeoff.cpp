@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/undecided.h"
 #include "compare/results/causes.h"
 #include "compare/results/quantities.h"
 
@@ -54,8 +55,12 @@ ComparedChoice at_best_bias(const Choice& choice, const Results& results) {
   ComparedChoice one;
   one.choice = choice, one.usable = joined_window(choice), one.good = good_choice(choice, results);
   one.judged = has_criterion(choice, results);
+  if (std::any_of(choice.points.begin(), choice.points.end(), [](const PointRecord* point) {
+        return hides_more_than(*point, has_curve(*point) ? curve_bounds(*point) : CauseBounds());
+      }))
+    one.window = Window::unknown;
   if (!has_curves(choice)) return one;
-  one.window = one.usable ? Window::usable : Window::empty;
+  if (one.window != Window::unknown) one.window = one.usable ? Window::usable : Window::empty;
   one.rendered_in_window = one.usable && was_rendered_in_window(choice);
   one.bias = one.good     ? one.good->bias->value
              : one.usable ? bias_without_bounds(choice, results, *one.usable)
@@ -98,8 +103,7 @@ Joined value_of(const ComparedChoice& one, const std::string& metric, AtBias at)
 }
 
 bool follows_bias(const ComparedChoice& one, const std::string& metric) {
-  return one.window != Window::no_curve &&
-         std::all_of(one.choice.points.begin(), one.choice.points.end(),
+  return std::all_of(one.choice.points.begin(), one.choice.points.end(),
                      [&](const PointRecord* point) { return has_curve_of(*point, metric); });
 }
 
@@ -108,6 +112,7 @@ bool counts_by(const ComparedChoice& one, const std::string& metric, AtBias at) 
     case Window::no_curve:
       return true;
     case Window::empty:
+    case Window::unknown:
       return false;
     case Window::usable:
       break;

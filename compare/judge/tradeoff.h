@@ -1,7 +1,7 @@
 // Cost against error: every choice at its best bias, so that none looks good by a lucky one.
 //
 //   for (const ComparedGroup& group : compared_groups(results))
-//     for (const ComparedChoice& one : group.choices) draw(value_of(one, "map_bytes").worst, value_of(one, "error").worst);
+//     for (const ComparedChoice& one : group.choices) print(value_of(one, "map_bytes").worst, value_of(one, "error").worst);
 #pragma once
 #include <initializer_list>
 #include <optional>
@@ -19,6 +19,7 @@ struct ComparedChoice {
   enum class Window {
     usable,
     empty,     // no bias is usable under every condition
+    unknown,   // hides_window() under a condition, or without a curve as many receivers are ambiguous
     no_curve,  // some point has no curve, so the choice stands as it was rendered
   };
   Choice choice;

@@ -21,21 +21,18 @@ bool may_hold_undecided(std::string_view metric) {
          });
 }
 
-// The share of the ambiguous receivers if they are many, and 0 also if their number is not known. In a small picture a few at an
-// edge are no sign: their number must be further above what is usual than three of its standard deviations.
-double if_many(double ambiguous, double receivers) {
-  const double usual = much_ambiguous * receivers;
-  return ambiguous > usual + 3 * std::sqrt(usual) ? ambiguous / receivers : 0;
-}
-
-double many_ambiguous(const PointRecord& point) {
+double many_ambiguous_of(const PointRecord& point) {
   const double facing = metric_of(point, "facing");
-  return if_many(metric_of(point, "ambiguous") * facing, facing);
+  return many_ambiguous(metric_of(point, "ambiguous") * facing, facing);
 }
 
 double many_ambiguous_of_lights(const PointRecord& point) {
   const double ambiguous = metric_of(point, "lights_ambiguous");
-  return if_many(ambiguous, ambiguous + metric_of(point, "lights_counted"));
+  return many_ambiguous(ambiguous, ambiguous + metric_of(point, "lights_counted"));
+}
+
+bool is_brought(const PointRecord& point, std::string_view name) {
+  return std::any_of(point.causes.begin(), point.causes.end(), [&](const RungCause& one) { return one.name == name; });
 }
 
 }  // namespace
@@ -70,24 +67,40 @@ std::string undecided_note(const BoundResult& bound, const PointRecord& point) {
 }
 
 bool hides_more_than(const PointRecord& point, const CauseBounds& bounds) {
-  return many_ambiguous(point) > std::min(bounds.acne_bound, bounds.peter_panning_bound);
+  return many_ambiguous_of(point) > std::min(bounds.acne_bound, bounds.peter_panning_bound);
+}
+
+double many_ambiguous(double ambiguous, double receivers) {
+  const double usual = much_ambiguous * receivers;
+  return ambiguous > usual + 3 * std::sqrt(usual) ? ambiguous / receivers : 0;
 }
 
 double ambiguous_room(const PointRecord& point, std::string_view quantity) {
   constexpr double any = std::numeric_limits<double>::infinity();
-  const double share = is_of_lights(quantity) ? many_ambiguous_of_lights(point) : many_ambiguous(point);
+  const double share = is_of_lights(quantity) ? many_ambiguous_of_lights(point) : many_ambiguous_of(point);
   if (share == 0) return 0;
+  const double of_curve = hides_window(point) ? any : 0;
+  if (cascade_number(point, quantity)) {
+    if (is_cascade_bias(quantity)) return of_curve;
+    quantity.remove_prefix(quantity.rfind('.') + 1);
+  }
   if (quantity.starts_with("edge_displacement") || quantity.starts_with("peter_panning_gap")) return any;
-  if (find_quantity(quantity, {&point, 1}).of_curve)
-    return has_curve(point) && hides_more_than(point, curve_bounds(point)) ? any : 0;
+  for (const CurveQuantity& row : curve_quantities())
+    if (row.name == quantity) return of_curve;
   for (const Metric& row : metrics_table())
     if (row.name == quantity)  // what is not plotted is a count or a check, and map_ is a share of texels
       return row.unit == "fraction" && row.plotted && !quantity.starts_with("map_") ? share : 0;
-  return share;  // a cause of a rung of its own
+  return is_brought(point, quantity) ? share : 0;
+}
+
+std::string text_with_room(double value, double room, std::string_view unit, int digits) {
+  if (std::isinf(room)) return "not known";
+  const std::string text = quantity_text(value, unit, digits);
+  return room > 0 && std::isfinite(value) ? fmt::format("{} ± {}", text, quantity_text(room, unit)) : text;
 }
 
 std::string ambiguous_note(const PointRecord& point) {
-  const double share = many_ambiguous(point);
+  const double share = std::max(many_ambiguous_of(point), many_ambiguous_of_lights(point));
   if (share == 0) return "";
   return fmt::format(
       "the truth of {} of the receivers that face the light is ambiguous and left out, because rounding of floats "

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "compare/results/number_text.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
@@ -26,13 +27,21 @@ std::string undecided_note(const BoundResult& bound, const PointRecord& point);
 // is as large as the shapes, or shapes touch and overlap in many places.
 inline constexpr double much_ambiguous = 0.001;
 
-// Whether many receivers are ambiguous, and more than one of the bounds lets be wrong: then no window of a curve is known.
+// The share of the receivers that is ambiguous if they are many, and 0 otherwise, and where it is not a number. In a small picture a
+// few at an edge are no sign: their number must be further above what is usual than three of its standard deviations.
+double many_ambiguous(double ambiguous, double receivers);
+
+// Whether many receivers are ambiguous, and more than one of the bounds lets be wrong: then it is not known which values keep them.
 bool hides_more_than(const PointRecord& point, const CauseBounds& bounds);
 
 // By how much the quantity of all facing receivers may differ from that of the counted ones: of a share the ambiguous share,
 // and infinity of a largest distance, and of what a curve says if that hides_more_than() its bounds. 0 where not many are ambiguous,
-// where the record does not have their number, and of a quantity that does not depend on the truth.
+// where the record does not have their number, of a quantity that does not depend on the truth, and of any other name (a setting).
 double ambiguous_room(const PointRecord& point, std::string_view quantity);
+
+// "14.2%", with room "0% ± 14.2%": a quantity of this unit that ambiguous_room() lets be larger or smaller by that much. "not known"
+// if that is infinite.
+std::string text_with_room(double value, double room, std::string_view unit, int digits = people_digits);
 
 // "the truth of 14.2% of the receivers that face the light is ambiguous: ...", with what to do. Empty if not many are.
 std::string ambiguous_note(const PointRecord& point);

@@ -5,7 +5,7 @@
 //
 //   BiasCounts curves(evidence, stored_map, *curve_part(settings.bias));
 //   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book
-//   BiasCurve curve = summarise(curves, bias_scale(...), options);
+//   BiasCurve curve = summarise(curves, bias_scale(frame, receivers, truth, settings.bias.unit), options);
 //
 // A curve varies the amount of one part of the compared depth (technique/bias_parts.h). All other parts keep their
 // amounts. The curve is exact for filters that are means of comparisons. If a sampler blends the taps (hardware,

@@ -7,11 +7,11 @@
 //
 // The change is split by lookups that differ in one respect from one to the next, as the ladder's rungs do:
 //
-//   now     frame 0: its map and its kernel
-//   choice  the same, but each point in the cascade that frame 1 chooses                  cascade changed
-//   grid    the map of frame 1 with the depth range of frame 0; the kernel of frame 0      grid moved
-//   depth   the map of frame 1; the kernel of frame 0                                      depth re-rounded
-//   next    frame 1: its map and its kernel                                                kernel turned
+//  now     frame 0: its map and its kernel
+//  choice  the same, but each point in the cascade that frame 1 chooses                  cascade changed
+//  grid    the map of frame 1 with the depth range of frame 0; the kernel of frame 0      grid moved
+//  depth   the map of frame 1; the kernel of frame 0                                      depth re-rounded
+//  next    frame 1: its map and its kernel                                                kernel turned
 //
 // A part of the change is booked where it begins to last: the class gets what its step adds to the change that all later
 // steps keep. So steps that undo each other are not counted, no class is negative, and the classes of a receiver add up to

@@ -1,7 +1,7 @@
 // Metrics for which the laws of shadow maps have closed forms: lengths of the map, the bias that law 1 requires, and
 // errors summed over the light's plane, which do not depend on the place of the camera.
 //
-//   m.merge(measure_laws({ladder, scene, receivers, camera, frame, settings.map.format, probe}));
+//   metrics.merge(measure_laws({ladder, scene, receivers, camera, frame, settings.map.format, probe}));
 #pragma once
 #include <map>
 #include <string>

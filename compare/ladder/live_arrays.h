@@ -1,6 +1,6 @@
 // Writes the files of the report's live pictures (compare/ladder/live_file.h).
 //
-//   std::string file = live_head({{"kind", "stack"}, ...});
+//   std::string file = live_head({{"kind", "stack"}, {"width", 320}});
 //   append_array(file, lights);
 #pragma once
 #include <bit>

@@ -3,7 +3,7 @@
 //
 //   LivePicture picture = empty_live_picture(width, height);
 //   add_live_strip(picture, evidence, stored_map, part, strip);  // for each strip of the picture
-//   write(live_file(picture));
+//   write_file_atomically("p0003-live.bin", live_file(picture));
 //
 // A tap's verdict changes only at its threshold (compare/ladder/tap_threshold.h), on the exact map or on the stored
 // map. So it is enough to climb the ladder once at each threshold of a pixel. The thresholds are floats, because the

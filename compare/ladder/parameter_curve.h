@@ -3,7 +3,8 @@
 // receiver, in float as the shader does. R1, the map and its blur are the same at every value.
 //
 //   ParameterCurve over({"lookup.v_min", {}}, settings);
-//   read_taps(evidence, strip, ParameterCurve::Adding(over, evidence, fetched));   // of each map
+//   ParameterCurve::Adding adding(over, evidence, fetched);   // of each map
+//   read_taps(evidence, strip, adding);
 //   std::vector<LookupCurvePoint> curve = over.curve();
 #pragma once
 #include <array>

@@ -2,7 +2,7 @@
 // its blur are the same at every value.
 //
 //   const ParameterValues asked{"lookup.v_min", {0, 1e-6, 1e-4}};
-//   for (double value : values_of(asked, settings)) measure(with(settings, asked.setting, value));
+//   for (double value : values_of(asked, settings)) measure(with_value(settings, asked.setting, value));
 #pragma once
 #include <span>
 #include <string>

@@ -2,8 +2,8 @@
 // stack of pictures, each measured at its value. The report's page shows one of them at a time.
 //
 //   PictureStack stack = empty_picture_stack(receivers, truth, probe, "bias.normal_offset");
-//   for (double value : stack_values(...)) add_picture(stack, value, ladder measured at that value);
-//   write(stack_file(stack));
+//   for (double value : stack_values(most, as_set, {}, 0)) add_picture(stack, value, measure(value));
+//   write_file_atomically("p0003-live.bin", stack_file(stack));
 //
 // It stands where a picture at every bias (compare/ladder/live_picture.h) would not be exact:
 // - A part that moves the lookup or changes the map has no thresholds, because the taps read other texels at each value.

@@ -406,6 +406,7 @@ ReceiverSection section_of(const SectionInput& in, glm::ivec2 pixel) {
   section.truth = in.ladder.truth()[i];
   section.on_exact_map = in.ladder[Rung::on_exact_map][i];
   section.shown = in.ladder[Rung::shown][i];
+  section.ambiguous = !is_counted(in.ladder, i);
   if (in.ladder.cause[i] < in.ladder.built_in()) section.cause = static_cast<Cause>(in.ladder.cause[i]);
   section.largest = section.cause;
 

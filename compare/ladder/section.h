@@ -69,9 +69,10 @@ struct SectionLine {
 // Of the triangle that the light meets first at the centre of a texel that is in shadow, where the map has no depth before the
 // receiver.
 struct MissingBlocker {
-  std::string part;               // its name
-  bool culled = false;            // the map does not draw the triangle
-  std::optional<double> drawn_m;  // the first depth there of the faces of the part that the map draws; empty: there is none
+  std::string part;     // its name
+  bool culled = false;  // the map does not draw the triangle
+  std::optional<double>
+      drawn_m;  // the first depth there of the faces of the part that the map draws; empty: there is none
 };
 
 struct ReceiverSection {
@@ -97,11 +98,12 @@ struct ReceiverSection {
   bool beyond_far = false;
   bool casters_moved = false;                                    // the map is drawn from moved or offset casters
   float soft_truth = 0, truth = 0, on_exact_map = 0, shown = 0;  // R0, R1, R4, R5; the latter two of this map alone
-  Cause cause = Cause::none;                                     // of the pixel, as the ladder names it
-  std::vector<SectionColumn> columns;                            // by s
-  std::vector<SectionTap> taps;                                  // in the order of the pattern
-  Cause largest = Cause::none;                                   // the same, unless explain() made `cause` another one
-  size_t key_tap = 0;                                            // the tap that explains the pixel
+  bool ambiguous = false;              // float error changes R1, so it is not known whether the pixel is right
+  Cause cause = Cause::none;           // of the pixel, as the ladder names it
+  std::vector<SectionColumn> columns;  // by s
+  std::vector<SectionTap> taps;        // in the order of the pattern
+  Cause largest = Cause::none;         // the same, unless explain() made `cause` another one
+  size_t key_tap = 0;                  // the tap that explains the pixel
   // Of the tap that explains its Peter Panning; empty without one, and where the map stores a depth before the receiver.
   std::optional<MissingBlocker> missing;
   std::vector<SectionLine> surfaces;

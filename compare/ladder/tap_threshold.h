@@ -2,7 +2,7 @@
 // are made of these thresholds.
 //
 //   const TapThreshold threshold(probe, bias, *curve_part(settings.bias), pixel);
-//   float amount = threshold(tap_of(...));
+//   float amount = threshold(taps.on(stored_map, settings.map.format, 0));
 #pragma once
 #include <limits>
 #include <vector>

@@ -146,11 +146,17 @@ Markup window_items_of(const Results& results) {
   const std::string parameter = curve_parameter(*first);
   Markup out;
   const auto fails = flags_of(results, of_setting<setting, lacks_window>);
+  const auto hidden = flags_of(results, of_setting<setting, hides_window>);
+  if (any(hidden)) {
+    const Where where = where_text(results, hidden, fails);
+    out += item("bad", prose("{}{}{}", bold(prose("The usable {} is {} {}", words.name, window_not_known, where.count)),
+                             where.list.empty() ? "." : ", with", where.list));
+  }
   if (any(fails)) {
     out += bad_item(setting == FreeSetting::bias ? "The method fails" : "No reduction is usable",
                     prose(": no value of {} keeps {}", parameter, words.keeps), fails);
     if (setting == FreeSetting::reduction) out += item("note", prose("What breaks it:{}", why_no_reductions(results)));
-  } else {
+  } else if (!any(hidden)) {
     const bool all = std::all_of(results.points.begin(), results.points.end(), is_of);
     out += item("good", prose("A usable {} exists at every point{}: some value of {} keeps {}.", words.name,
                               all                            ? ""
@@ -261,7 +267,8 @@ std::string last_run_or_new(const BoundResult& bound, const Results& results) {
 }
 
 // since: of the last column; empty: the table has none.
-Markup bound_row(const BoundResult& bound, std::string_view unit, const std::string& since) {
+Markup bound_row(const BoundResult& bound, const Results& results, const std::string& since) {
+  const std::string_view unit = unit_of(bound.metric, results);
   const bool of_frame = is_of_lights(bound.metric);
   std::string where = of_frame ? "" : bound.part;
   for (const auto& [name, values] : bound.where)
@@ -271,6 +278,8 @@ Markup bound_row(const BoundResult& bound, std::string_view unit, const std::str
   if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit, digits));
   if (bound.min) limit += fmt::format("{}at least {}", limit.empty() ? "" : ", ", quantity(*bound.min, unit, digits));
   Markup found = bound.points == 0 ? "no point matches" : quantity(bound.found, unit, digits);
+  if (const double room = room_of(bound, results.points); room > 0 && std::isfinite(bound.found))
+    found += " ± " + quantity(room, unit);
   if (bound.point >= 0 && !of_frame) {
     const std::string name = fmt::format("point {}", bound.point);
     found += " at " + (bound.held ? point_link(bound.point, name) : failure_link(bound, name));
@@ -308,7 +317,7 @@ Markup bounds_section(const Results& results) {
                                  [](const BoundResult& bound) { return bound.before.has_value(); });
   Markup rows;
   for (const BoundResult& bound : results.bounds) {
-    rows += bound_row(bound, unit_of(bound.metric, results), since ? last_run_or_new(bound, results) : "");
+    rows += bound_row(bound, results, since ? last_run_or_new(bound, results) : "");
     if (!bound.held) rows += broken_bound_rows(bound, results);
   }
   const Markup head =

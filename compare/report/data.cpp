@@ -179,6 +179,12 @@ json points_data(const Results& results, const ShownPoints& shown, const std::se
     json entry = point_data(point, results, shared);
     if (point.curve) entry["curve"] = curve_of(point, entries);
     if (json curve = reductions_of(point, reductions); !curve.is_null()) entry["reductions"] = std::move(curve);
+    if (hides_window(point)) {
+      entry["no_window"] = window_not_known;
+      if (point.curve)
+        for (const char* end : {"min", "max", "min_worst", "max_worst"})
+          entry["curve"].erase(fmt::format("window_{}_depth", end));
+    }
     if (json curve = over_of(point); !curve.is_null()) entry["over"] = std::move(curve);
     if (const auto bias = biases.find(point.id); bias != biases.end()) entry["at"] = at_bias(point, bias->second);
     out.push_back(std::move(entry));

@@ -1,6 +1,6 @@
 // The page that `check FOLDER` leaves: one row for each experiment, with its verdict and a link to its report.
 //
-//   write(out + "/index.html", index_page(entries, version));
+//   write_file_atomically(out + "/index.html", index_page(entries, version));
 #pragma once
 #include <string>
 #include <vector>

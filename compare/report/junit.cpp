@@ -105,7 +105,8 @@ std::string to_junit(const Results& results) {
     testcase(
         bound_text(bound), bound.held, bound.warns, "bound",
         [&] {
-          return bound.points == 0 ? "no finished point matches the bound" : fmt::format("found {}", found_text(bound));
+          return bound.points == 0 ? "no finished point matches the bound"
+                                   : fmt::format("found {}", found_text(bound, results.points));
         },
         [&] { return describe(bound, find_point(results.points, bound.point), results.info.swept); });
   for (const LawResult& law : results.laws)

@@ -60,11 +60,11 @@ Markup point_cell(const PointRecord& point, const std::vector<std::string>& swep
 // placed: whether the table has columns for the placements of the map's grid.
 Markup window_row(const PointRecord& point, const std::vector<std::string>& swept, bool placed) {
   const auto metric = [&](const char* name) { return metric_of(point, name); };
-  const bool usable = !std::isnan(metric("reduction_min"));
+  const bool hidden = hides_window(point), usable = !hidden && !std::isnan(metric("reduction_min"));
   Markup cells = point_cell(point, swept) + td(setting_of(point, "lookup.reduction"));
   cells += usable ? td(number(metric("reduction_min"))) + td(number(metric("reduction_max")))
-                  : td(Attribute("colspan", 2), "none");
-  if (placed && !is_placed(point))
+                  : td(Attribute("colspan", 2), hidden ? std::string(window_not_known) : "none");
+  if (placed && (hidden || !is_placed(point)))
     cells += td(Attribute("colspan", 2), "–");
   else if (placed && std::isnan(metric("reduction_min_worst")))
     cells += td(Attribute("colspan", 2), "none");

@@ -2,7 +2,7 @@
 // bias than its own, with which it opens where it recommends one.
 //
 //   const Opening first = opening(results, compared_groups(results), recommend(results));
-//   if (first.bias) draw(*first.point, *first.bias, name_at_bias("map", *first.bias));
+//   if (first.bias) print(*first.point, *first.bias, name_at_bias("map", *first.bias));
 #pragma once
 #include <cstdint>
 #include <map>

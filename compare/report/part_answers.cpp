@@ -65,6 +65,7 @@ struct PartRows {
   // Why the choice is not good enough, and what may help: sentences.
   std::string why_not(const ComparedChoice& one) const {
     const PointRecord& point = failing(one);
+    if (one.window == Window::unknown) return fmt::format("What is usable is {}.", window_not_known);
     if (one.window == Window::usable) return "No value in its usable window meets every bound.";
     if (one.window == Window::no_curve) {
       const std::string why = why_no_curve(point);

@@ -1,7 +1,7 @@
 // A phase diagram for its readers: as words, as a page of its own, and as CSV. compare/results/phase_record.h says what it
 // is.
 //
-//   write(dir + "/phase.html", render_phase(diagram));
+//   write_file_atomically(dir + "/phase.html", render_phase(diagram));
 #pragma once
 #include <string>
 #include <vector>

@@ -162,6 +162,10 @@ Markup held_of_parts(const Results& results, const ShownPoints& shown) {
                held.empty() ? "" : ". ", results.points.size(), cheapest_of_parts(results, shown));
 }
 
+bool any_window_hidden(const Results& results) {
+  return std::any_of(results.points.begin(), results.points.end(), hides_window);
+}
+
 // What to set, or what is known instead.
 Markup what_to_set(const Results& results, const ShownPoints& shown) {
   if (has_parts(results)) return held_of_parts(results, shown);
@@ -176,7 +180,9 @@ Markup what_to_set(const Results& results, const ShownPoints& shown) {
     case Recommendation::Outcome::incomplete:
       return "Not all conditions are measured yet, so no setting is recommended.";
     case Recommendation::Outcome::none_holds:
-      return "None of the swept settings is good enough.";
+      return any_window_hidden(results)
+                 ? prose("None of the swept settings is known to be good enough: {}.", poor_view_note(results.points))
+                 : "None of the swept settings is good enough.";
     case Recommendation::Outcome::found:
       break;
   }
@@ -254,6 +260,9 @@ Markup box_without_answer(const Results& results, const Recommendation& found) {
                  "Not all conditions are measured yet, so no setting is known to hold under all of them. The same "
                  "command continues the sweep.");
     case Recommendation::Outcome::none_holds:
+      if (any_window_hidden(results))
+        return say("broken", prose("{}: {}.", bold("None of the swept settings is known to be good enough"),
+                                   poor_view_note(results.points)));
       return say(
           "broken",
           prose("{} None has a usable {} window and meets every bound, also those that the experiment asks of other "

@@ -4,7 +4,7 @@
 // The report: one HTML file without other files. It works offline, because a Content-Security-Policy in it forbids
 // every request. Every number in it can be read without JavaScript, and the same results always give the same bytes.
 //
-//   write(dir + "/report.html", render_report(results, [&](const std::string& path) { return bytes_of(dir, path); }));
+//   write_file_atomically(dir + "/report.html", render_report(results, [&](const std::string& path) { return read_file(dir + "/" + path); }));
 #pragma once
 #include <functional>
 #include <string>

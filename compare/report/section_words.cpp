@@ -241,12 +241,18 @@ std::string label_of(Cause cause) {
 }  // namespace
 
 std::string section_title(const ReceiverSection& section) {
+  if (section.ambiguous) return "Not known, ambiguous truth";
   if (section.cause == Cause::none) return section.truth > 0 ? "Right, lit" : "Right, shadowed";
   return label_of(section.cause);
 }
 
 std::vector<std::string> section_words(const ReceiverSection& section) {
   std::vector<std::string> words{cause_text(section), bias_text(section)};
+  if (section.ambiguous)
+    words.insert(words.begin(),
+                 "Float error changes the truth of this receiver, so it is left out of every error, and it is not "
+                 "known whether the "
+                 "pixel is right. What follows is so for one of the two truths.");
   if (section.taps.size() > 1) words.push_back(taps_text(section));
   if (section.largest != section.cause)
     words.push_back(fmt::format("The largest part of this pixel's error is another: {}.", label_of(section.largest)));

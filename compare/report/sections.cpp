@@ -65,10 +65,11 @@ CurvesOfAll curves_of_all(const Results& results) {
 
 Markup window_row(const Results& results, const PointRecord& point, const Classes& classes, bool alike) {
   const BiasCurve& curve = *point.curve;
-  const std::optional<Interval> usable = usable_window(curve);
+  const std::optional<Interval> usable = usable_window(point);
   Markup cells = swept_cells(results, point, classes);
   cells += usable ? bias_cells(usable->low, curve) + bias_cells(usable->high, curve)
-                  : td(Attribute("colspan", 6), css("fails first"), "none: no bias is good enough");
+                  : td(Attribute("colspan", 6), css("fails first"),
+                       hides_window(point) ? std::string(window_not_known) : "none: no bias is good enough");
   cells += bias_cells(curve.best_bias_depth, curve) + td(cell(curve.best_error, "fraction"));
   cells += td(css("first"), number(curve.flat_min_depth), " … ", number(curve.flat_max_depth));
   if (!alike) cells += td(css("text"), curve.parameter) + td(css("text"), curve.made);

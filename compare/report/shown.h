@@ -3,7 +3,7 @@
 // of its points, and say so.
 //
 //   const ShownPoints shown = shown_points(results);
-//   for (const PointRecord& point : shown.results.points) ...  // rows, bars, symbols
+//   for (const PointRecord& point : shown.results.points) use(point);  // rows, bars, symbols
 //   page += shown.note;                                        // empty if every point is shown
 #pragma once
 #include <string>

@@ -85,6 +85,8 @@ const char* text_of(Window window) {
       return "usable";
     case Window::empty:
       return "empty";
+    case Window::unknown:
+      return "unknown";
     case Window::no_curve:
       break;
   }

@@ -3,7 +3,7 @@
 //
 //   const SpeedReadings readings(group, results);
 //   const SpeedReading reading = readings.of("texel_work", "error_soft", AtBias::best);
-//   page += readings.takeovers(reading, names);
+//   for (const Phrase& phrase : readings.takeovers(reading, names)) page += phrase.text;
 #pragma once
 #include <cstdint>
 #include <map>

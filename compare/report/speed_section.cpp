@@ -62,15 +62,18 @@ std::string free_words(const ComparedGroup& group) {
 // "Of 32 choices 18 have a usable window; 6 have none, and ...".
 std::string windows_text(const ComparedGroup& group) {
   const std::string word = free_words(group);
-  size_t with[3] = {};
+  size_t with[4] = {};
   for (const ComparedChoice& one : group.choices) ++with[static_cast<size_t>(one.window)];
   const size_t usable = with[static_cast<size_t>(Window::usable)], empty = with[static_cast<size_t>(Window::empty)],
-               none = with[static_cast<size_t>(Window::no_curve)];
+               none = with[static_cast<size_t>(Window::no_curve)], unknown = with[static_cast<size_t>(Window::unknown)];
   std::string out = fmt::format("Of {} {} ha{} a usable {} window", counted(group.choices.size(), "choice"), usable,
                                 usable == 1 ? "s" : "ve", word);
   if (empty)
     out += fmt::format("; {} ha{} none, so no {} makes {} good enough", empty, empty == 1 ? "s" : "ve", word,
                        empty == 1 ? "it" : "them");
+  if (unknown)
+    out += fmt::format("; of {} {} is {}, nor is what {} least", unknown, unknown == 1 ? "it" : "them",
+                       window_not_known, unknown == 1 ? "it errs" : "they err");
   if (none)
     out += fmt::format("; {} ha{} no such curve and stand{} here as rendered", none, none == 1 ? "s" : "ve",
                        none == 1 ? "s" : "");

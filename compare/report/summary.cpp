@@ -41,6 +41,11 @@ std::string short_or_missing(std::optional<double> value, std::string_view unit 
   return value ? quantity_text(*value, unit) : "–";
 }
 
+std::string short_or_missing(const PointRecord& point, const std::string& name) {
+  const std::optional<double> value = quantity(point, name);
+  return value ? text_with_room(*value, ambiguous_room(point, name), find_metric(name).unit) : "–";
+}
+
 std::string verdict(const Results& results) {
   const Verdict verdict = verdict_of(results);
   std::string text = fmt::format("**{}**", markdown(verdict_sentence(results)));
@@ -95,7 +100,7 @@ std::string bounds_table(const Results& results) {
         if (setting != point->settings.end()) at.push_back(fmt::format("{} = {}", name, setting_text(setting->second)));
       }
     add_row(text, {breaks(bound) ? "**broken**" : std::string(verdict_of(bound)), markdown(bound_text(bound)),
-                   bound.points == 0 ? "–" : found_text(bound), fmt::format("{}", bound.points),
+                   bound.points == 0 ? "–" : found_text(bound, results.points), fmt::format("{}", bound.points),
                    markdown(fmt::format("{}", fmt::join(at, ", ")))});
   }
   for (const BoundResult& bound : results.bounds) {
@@ -124,9 +129,10 @@ std::vector<std::string> window_cells(const PointRecord& point, bool biases, boo
   const char* const what = reduction && mixed ? "reduction " : "";
   const std::optional<Interval> window = usable_window(point);
   std::vector<std::string> cells{
-      window             ? fmt::format("{}{} … {}", what, number_text(window->low), number_text(window->high))
-      : has_curve(point) ? "none"
-                         : "–"};
+      window                ? fmt::format("{}{} … {}", what, number_text(window->low), number_text(window->high))
+      : hides_window(point) ? "not known"
+      : has_curve(point)    ? "none"
+                            : "–"};
   if (reduction) {
     cells.push_back(what + short_or_missing(best_depth(point)));
     if (biases) cells.insert(cells.end(), 2, "–");
@@ -164,7 +170,7 @@ std::string frames_table(const Results& results) {
   add_heading(text, heading);
   for (const PointRecord& point : results.points) {
     std::vector<std::string> cells = {markdown(frame_name(point)), markdown(delivery_text(point))};
-    for (const std::string& metric : metrics) cells.push_back(short_or_missing(quantity(point, metric), "fraction"));
+    for (const std::string& metric : metrics) cells.push_back(short_or_missing(point, metric));
     add_row(text, cells);
   }
   for (const PointRecord* frame : refused_frames(results.points))
@@ -214,7 +220,7 @@ std::string best_table(const Results& results) {
     }
     for (const std::string& name : {std::string("error"), std::string("acne"), std::string("peter_panning"),
                                     std::string("aliasing"), results.info.cost})
-      cells.push_back(short_or_missing(quantity(*point, name), find_metric(name).unit));
+      cells.push_back(short_or_missing(*point, name));
     for (std::string& cell : window_cells(*point, biases, mixed)) cells.push_back(std::move(cell));
     add_row(text, cells);
   }

@@ -2,7 +2,7 @@
 // ladder, its colour in pictures, charts and pages, and its legend. How a cause is booked says compare/ladder/ladder.h.
 //
 //   cause_name(Cause::acne);                                  // "acne"
-//   for (const CauseRow& row : cause_rows) legend(row.label, row.color);
+//   for (const CauseRow& row : cause_rows) print(row.label, row.color);
 //
 // To add a cause: its value in Cause, its row here, and its booking.
 #pragma once

@@ -1,7 +1,7 @@
 // What the usable window of a bias curve is read from, at any bounds: how many taps are acne from which amount of the bias
 // on, and how many are Peter Panning. It is stored with the curve, so that other bounds need no other measurement.
 //
-//   if (curve.steps.can_judge(0.002, 0.002)) judge_window(curve, 0.002, 0.002);
+//   if (curve.steps.can_judge({0.002, 0.002})) judge_window(curve, {0.002, 0.002});
 //
 // Amounts are in the unit of the curve's parameter; they are floats because the shader compares floats. Each list holds
 // the part in which the share of the taps is at most most_share, so that it stays short.

@@ -1,7 +1,7 @@
 // Joins the points of several stores of one experiment, measured on several machines.
 //
-//   JoinedStore joined = store.join("out/share-2-of-4/results.sqlite");   // ResultStore
-//   joined.differences   // points that both have, with other numbers
+//   JoinedStore joined = store.join("out/share-2-of-4/results.sqlite", scene_name);   // ResultStore
+//   joined.differences;  // points that both have, with other numbers
 #pragma once
 #include <cstdint>
 #include <functional>

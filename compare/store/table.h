@@ -1,11 +1,11 @@
 // A table of the store for one kind of record, described once. Each column has a name, a type and a member. The SQL
 // that makes, writes and reads the table is made from the columns.
 //
-//   const Table<PictureRecord> pictures("pictures", {"point", "i"}, {column("name", &PictureRecord::name), ...});
+//   const Table<PictureRecord> pictures("pictures", {"point", "i"}, {column("name", &PictureRecord::name)});
 //   db.execute(pictures.create());
 //   Table<PictureRecord>::Insert insert(db, pictures);
 //   insert.row({7, 0}, record);
-//   pictures.read(db, [](std::span<const int64_t> key, PictureRecord record) { ... });
+//   pictures.read(db, [](std::span<const int64_t> key, PictureRecord record) { print(key[0], record.name); });
 #pragma once
 #include <fmt/format.h>
 #include <fmt/ranges.h>

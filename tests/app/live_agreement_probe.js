@@ -1,4 +1,8 @@
 // The metrics of the states in liveStates, as tests/app/live_page_test.cpp asks for them.
 noonmarkLive.ready.then(function() {
-  leave({metrics: liveStates.map(function(state) { return noonmarkLive.measure(state); }), errors: errors});
+  leave({
+    says: document.getElementById('says').textContent,
+    metrics: liveStates.map(function(state) { return noonmarkLive.measure(state); }),
+    errors: errors
+  });
 });

@@ -148,6 +148,60 @@ max = 1
   EXPECT_TRUE(says("1 of 1 bound held in a poor picture, see its note; 1 point measured")) << output_;
 }
 
+// Every verdict on such a picture says that it is not known: laws, the baseline, the last run, windows, sections and the phase diagram.
+TEST_F(EmptyView, NoVerdictReadsWhatRoundingDecides) {
+  write("far.toml", R"(
+scene = "cube-room"
+view = {width_px = 64, height_px = 36}
+map.resolution = 256
+light = {kind = "spot", position_m = [0, 1e2, 0], target_m = [0, 0, 0]}
+bias.constant = 0.01
+[[bound]]
+metric = "peter_panning"
+max = 0.5
+[[law]]
+name = "no Peter Panning"
+measured = "peter_panning"
+at_most = "1"
+)");
+  const std::vector<std::string> far = {"--set", "light.position_m=0,1e7,0"};
+  const auto with_far = [&](std::vector<std::string> words) {
+    words.insert(words.end(), far.begin(), far.end());
+    return words;
+  };
+  const std::vector<std::string> check = {"check",       "far.toml",   "--out",      "out",
+                                          "--overwrite", "--baseline", "before.json"};
+  std::vector<std::string> update = check;
+  update.push_back("--update-baseline");
+  ASSERT_EQ(run(update), 0) << output_;
+  EXPECT_EQ(run(with_far(check)), 1) << output_;
+  EXPECT_TRUE(says("worse: peter_panning at the only point")) << output_;
+  EXPECT_FALSE(says("better: ")) << output_;
+  EXPECT_TRUE(says("BROKEN")) << "the law: " << output_;
+  EXPECT_TRUE(says("held: peter_panning <= 50%; found 0% ± 14")) << output_;
+  EXPECT_TRUE(says("-> 0% ± 14")) << "since the last run: " << output_;
+  const std::string summary = text("out/summary.md");
+  EXPECT_EQ(summary.find("0 … 1"), std::string::npos) << "a usable window: " << summary;
+  EXPECT_NE(summary.find("not known"), std::string::npos) << summary;
+
+  EXPECT_EQ(run(with_far({"render", "far.toml", "--out", "point"})), 0) << output_;
+  EXPECT_TRUE(says("usable bias.constant: not known")) << output_;
+  EXPECT_FALSE(says("free of acne")) << output_;
+  for (const std::vector<std::string>& pixel : std::vector<std::vector<std::string>>{{}, {"--worst", "error"}}) {
+    std::vector<std::string> words = with_far({"section", "far.toml", "--out", "section.svg"});
+    words.insert(words.end(), pixel.begin(), pixel.end());
+    EXPECT_EQ(run(words), 2);
+    EXPECT_TRUE(says("is ambiguous")) << output_;
+  }
+  EXPECT_EQ(run(with_far({"section", "far.toml", "--out", "section.svg", "--pixel", "8,24"})), 0) << output_;
+  EXPECT_TRUE(says("pixel 8,24: Not known")) << "in the cube's shadow: " << output_;
+  EXPECT_EQ(run(with_far({"map", "cube-room", "--set", "light.kind=spot", "--set", "light.target_m=0,0,0", "--rows",
+                          "2", "--out", "map"})),
+            2)
+      << output_;
+  EXPECT_TRUE(says("it is not known which texels and biases are usable")) << output_;
+}
+
 TEST_F(EmptyView, ABoundOverNothingFailsAndEveryPageSaysWhy) {
   write("empty.toml", R"(
 scene = "cube-room"

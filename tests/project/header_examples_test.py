@@ -3,9 +3,10 @@
 
   header_examples_test.py ROOT COMPILER [FLAG...]
 
-The headers are those of the column `read first` in docs/explanation/architecture.md, measure/workbench.h, which
-measure/stages.h names, and others whose example needs no more than stand-ins. An example is what stands in the comment before `#pragma once`, indented by three blanks behind an
-empty line. It is code: nothing in it is left out. What it does not declare itself is declared here, and no call runs.
+An example is what stands in the comment before `#pragma once`, indented by three blanks behind an empty line. It is code: nothing in
+it is left out. Every header of the program that has one takes part. What an example does not declare itself is its reader's own: it has
+the type that TYPES or OWN_TYPES gives it, and is otherwise a stand-in, which can be indexed, iterated and converted to anything, but has
+no members. Of functions only CALLED are the reader's own, so that a function of ours that is gone is found. No call runs.
 """
 import os
 import re
@@ -13,134 +14,91 @@ import subprocess
 import sys
 import tempfile
 
-# Functions that stand for the reader's own.
-COMMON = """
-template <class... T> void print(const T&...);
-template <class... T> void use(const T&...);
-template <class... T> void write(const T&...);
-template <class... T> void save(const T&...);
-extern Scene scene;
-extern Settings settings, s;
-extern Camera camera;
-extern ReceiverImage receivers;
-extern LightFrame light_frame;
-"""
+FOLDERS = ["base", "scenes", "technique", "gl", "raytrace", "frames", "compare", "measure", "app"]
+# Of a folder's own namespace.
+NAMESPACES = {"compare/report/": "report", "gl/": "gl", "raytrace/": "raytrace", "scenes/gltf/": "gltf"}
+INCLUDES = ["algorithm", "cerrno", "memory", "string", "vector", "app/advise/recommend_text.h", "base/threads.h"]
 STAND_IN = """
 struct StandIn {
   template <class T> operator T&() const;
   template <class T> operator T&&() const;
+  template <class... T> StandIn operator()(T&&...) const;
+  template <class T> StandIn operator[](const T&) const;
+  StandIn* begin() const;
+  StandIn* end() const;
 };
 """
-# Of a folder's own namespace.
-NAMESPACES = {"compare/report/": "report", "gl/": "gl"}
-# What an example calls `frame`, `measure` and so on differs from header to header.
-DECLARED = {
-    "base/error.h": "",
-    "scenes/scene.h": "",
-    "technique/settings.h": "",
-    "gl/renderer.h": "extern Technique technique;",
-    "raytrace/tracer.h": "extern LightFrame frame; extern Light light; extern Bias bias;",
-    "frames/judge.h": "extern GivenFrame frame; extern raytrace::Tracer tracer;",
-    "compare/results/records.h": "",
-    "compare/store/store.h": "PointRecord measure(int64_t); extern std::string fingerprint; extern RunInfo info; extern int64_t planned; "
-                             "extern std::vector<int64_t> wanted;",
-    "compare/ladder/ladder.h": "extern ReceiverTruth truth; extern LookupProbe probe; extern TapTruth taps; extern MapDepths exact_map; "
-                               "extern Bias bias; extern Image<float> r4, r5;",
-    "compare/judge/bounds.h": "extern std::vector<PointRecord> points; extern std::vector<Bound> bounds; "
-                              "std::string command_for(const PointRecord&);",
-    "compare/report/report.h": "extern std::string dir; extern Results results; "
-                               "std::string bytes_of(const std::string&, const std::string&);",
-    "measure/stages.h": "",
-    "measure/workbench.h": "extern CurveOptions curve_options;",
-    "app/definition/experiment.h": "void measure(const Settings&);",
-    "app/pictures/point_pictures.h": "extern Experiment experiment; extern Results results; extern std::string out; "
-                                     "extern Measurement measurement; extern PictureFormats formats;",
-    "app/advise/recommend.h": "extern Workbench bench; extern AdviceRequest request;",
-    "app/sweep/sweep.h": "extern Experiment experiment;",
-    "app/live/live_page.h": "extern std::string version;",
-    "app/verbs/verbs.h": "",
-    "compare/report/element.h": "extern int count; extern bool held;",
+CALLED = {"command_for", "measure", "print", "use"}
+# What examples mean by these names, if no header says otherwise.
+TYPES = {
+    "adjacency": "raytrace::Adjacency", "app": "CLI::App", "arguments": "ExperimentArguments", "argc": "int", "argv": "char**",
+    "bench": "Workbench", "bias": "Bias", "bounds": "std::vector<Bound>", "camera": "Camera", "conditions": "std::vector<Settings>",
+    "count": "int", "curve": "BiasCurve", "db": "sqlite::Database", "dir": "std::string", "error": "Error", "evidence": "LookupEvidence",
+    "exact": "MapDepths", "experiment": "Experiment", "fingerprint": "std::string", "folder": "std::string", "frame": "LightFrame",
+    "given": "GivenMap", "group": "ComparedGroup", "held": "bool", "info": "RunInfo", "ladder": "Ladder", "light": "Light",
+    "light_frame": "LightFrame", "m": "Measurement", "metrics": "std::map<std::string, double>", "name": "std::string",
+    "names": "report::ChoiceNames", "needed": "uint64_t", "out": "std::string", "outcome": "SweepOutcome", "page": "report::Markup",
+    "path": "std::string", "pixel": "size_t", "placements": "Placements", "point": "PointRecord", "points": "std::vector<PointRecord>",
+    "probe": "LookupProbe", "programs": "gl::ProgramCache", "quiet": "bool", "receivers": "ReceiverImage", "record": "PointRecord",
+    "renderer": "gl::Renderer", "request": "AdviceRequest", "results": "Results", "s": "Settings", "scene": "Scene",
+    "settings": "Settings", "store": "ResultStore", "stored": "MapDepths", "stored_map": "MapDepths", "strip": "PixelRange",
+    "technique": "Technique", "traced": "raytrace::TracedScene", "tracer": "raytrace::Tracer", "triangles": "uint64_t",
+    "truth": "ReceiverTruth", "verb": "CLI::App", "version": "std::string",
 }
-# Further headers with an example that is whole, and the names in it that stand for the reader's own objects: a stand-in converts to
-# anything, and has no members. So what these examples call must be there, with as many arguments.
-STAND_INS = {
-    "app/advise/engine_adapters.h": "",
-    "app/advise/engines/cover.h": "",
-    "app/advise/engines/engine_settings.h": "",
-    "app/advise/texel_budget.h": "bench lights say",
-    "app/definition/experiment_file.h": "",
-    "app/definition/experiment_schema.h": "",
-    "app/definition/experiment_text.h": "",
-    "app/definition/first_experiment.h": "",
-    "app/definition/share_text.h": "",
-    "app/pictures/given_frame.h": "",
-    "app/pictures/png_encoder.h": "picture",
-    "app/sweep/frame_map.h": "frame tracer verdict",
-    "app/sweep/frame_run.h": "experiment folder options",
-    "app/sweep/identity.h": "bench path tracer",
-    "app/sweep/judging.h": "experiment results",
-    "app/sweep/survey.h": "bench experiment wanted",
-    "app/verbs/command_line.h": "argc argv command",
-    "app/verbs/model_report.h": "",
-    "app/verbs/settings_page.h": "",
-    "base/build_facts.h": "",
-    "base/child_process.h": "",
-    "base/file.h": "max_picture_bytes text",
-    "compare/judge/baseline.h": "now",
-    "compare/judge/choices.h": "results",
-    "compare/judge/moment_cures.h": "point",
-    "compare/judge/recommendation.h": "results",
-    "compare/ladder/flip.h": "drawn truth",
-    "compare/ladder/lasting_steps.h": "",
-    "compare/ladder/live_picture.h": "evidence height part stored_map strip width",
-    "compare/ladder/reduction_window.h": "",
-    "compare/ladder/section.h": "evidence ladder stored stored_rows technique",
-    "compare/ladder/threshold_bins.h": "bias_depth depth depth_per_unit reference threshold",
-    "compare/report/blocks.h": "rows",
-    "compare/results/number_text.h": "",
-    "compare/results/quantities.h": "point",
-    "frames/checks.h": "evidence",
-    "frames/frame_file.h": "height text width",
-    "frames/frame_memory.h": "height width",
-    "gl/page_text.h": "bias files_of_the_page",
-    "measure/flicker_stage.h": "loaded r5 renderer stages techniques truth view",
-    "measure/map_offset.h": "exact format given",
-    "raytrace/vertex_rounding.h": "place triangle",
-    "scenes/camera_fit.h": "",
-    "scenes/floor.h": "",
-    "scenes/gltf/contents.h": "",
-    "scenes/gltf/gltf.h": "",
-    "scenes/gltf/write_glb.h": "light",
-    "scenes/interior.h": "",
-    "scenes/library.h": "",
-    "scenes/mask_cell.h": "",
-    "scenes/view_matrix.h": "height matrix width x y",
-    "technique/bias_parts.h": "",
-    "technique/cascade_blends.h": "",
-    "technique/cascade_splits.h": "",
-    "technique/chosen_light.h": "",
-    "technique/depth_format.h": "depths",
-    "technique/filters.h": "",
-    "technique/lookup_parameters.h": "",
-    "technique/lookups.h": "",
-    "technique/spread_blur.h": "depths",
-    "technique/sun.h": "",
-    "technique/tap_pattern.h": "pixel",
+# The same where a header means something else by the name.
+OWN_TYPES = {
+    "app/advise/recommend_around.h": {"advice": "Advice"},
+    "app/pictures/picture_files.h": {"picture": "Image<Color>"},
+    "app/sweep/failing_pixels.h": {"pictures": "std::vector<SummaryPicture>"},
+    "app/sweep/frame_map.h": {"frame": "GivenFrame", "verdict": "FrameVerdict"},
+    "app/sweep/frame_run.h": {"folder": "ResultsFolder"},
+    "app/sweep/sweep_progress.h": {"ahead": "SweepProgress::Ahead", "options": "SweepOptions"},
+    "app/verbs/capture_arguments.h": {"arguments": "CaptureArguments"},
+    "app/verbs/checked_folder.h": {"list": "ExperimentList"},
+    "app/verbs/one_point.h": {"point": "long"},
+    "app/verbs/option_values.h": {"picture": "std::string", "rows": "long"},
+    "compare/judge/answers.h": {"points": "std::vector<CostAndError>"},
+    "compare/judge/curve_reading.h": {"depth": "double"},
+    "compare/judge/techniques.h": {"curve": "std::vector<std::vector<size_t>>"},
+    "compare/ladder/flicker.h": {"points": "FlickerPoints"},
+    "compare/ladder/flip.h": {"truth": "Image<glm::u8vec3>"},
+    "compare/ladder/live_arrays.h": {"lights": "std::vector<float>"},
+    "compare/ladder/moment_counts.h": {"counts": "MomentCounts"},
+    "compare/ladder/placement_counts.h": {"evidence": "PlacementEvidence", "scale": "BiasScale"},
+    "compare/ladder/placement_shares.h": {"counts": "PlacementCounts", "stage": "PlacementStage"},
+    "compare/ladder/receiver_taps.h": {"climbing": "ParameterCurve::Adding", "soundness": "ParameterCurve::Adding",
+                                       "counts": "ParameterCurve::Adding"},
+    "compare/ladder/step_blocks.h": {"sum": "double"},
+    "compare/ladder/tap_threshold.h": {"taps": "ReceiverTaps"},
+    "compare/ladder/threshold_sums.h": {"all": "ThresholdList"},
+    "compare/report/section_picture.h": {"section": "ReceiverSection"},
+    "compare/store/sqlite.h": {"id": "int64_t", "value": "double"},
+    "compare/store/table.h": {"record": "PictureRecord"},
+    "frames/alignment.h": {"frame": "GivenFrame"},
+    "frames/checks.h": {"evidence": "CheckEvidence"},
+    "frames/judge.h": {"frame": "GivenFrame"},
+    "frames/value_curve.h": {"evidence": "CheckEvidence"},
+    "gl/spare_maps.h": {"map": "TiledMaps"},
+    "measure/map_offset.h": {"given": "Image<float>"},
+    "measure/flicker_stage.h": {"stages": "Pipeline", "loaded": "SceneStage", "r5": "Image<float>", "truth": "TruthStage", "view": "ViewStage"},
+    "measure/memory_estimate.h": {"outside_texels": "double"},
+    "measure/placement_stage.h": {"input": "PlacementInput", "part": "const BiasPart*"},
+    "measure/point_work.h": {"before": "Settings", "curve": "CurveOptions"},
+    "measure/texel_footprint.h": {"camera": "CameraFrame"},
+    "raytrace/drawn_map.h": {"depth": "float", "hit": "uint32_t", "view": "LightView", "x": "glm::dvec3"},
+    "raytrace/placement_tracer.h": {"probe": "PlacedProbe"},
+    "raytrace/texel_lattice.h": {"taps": "PlacedTaps", "points": "std::vector<TexelLattice::Point>"},
+    "scenes/gltf/accessor.h": {"index": "int"},
+    "scenes/scene_digest.h": {"remembered": "std::string"},
+    "scenes/view_clip.h": {"frame": "CameraFrame", "a": "glm::vec3", "b": "glm::vec3", "c": "glm::vec3"},
+    "technique/corner_fits.h": {"camera": "CameraFrame"},
+    "technique/cost.h": {"other": "FrameCost"},
+    "technique/map_depths.h": {"texels": "std::shared_ptr<const TexelSet>"},
+    "technique/map_tile.h": {"light": "glm::dvec3"},
+    "technique/moment_lookup.h": {"depths": "TruthInDouble"},
+    "technique/setting_rules.h": {"key": "std::string"},
 }
-# What the examples name beside their own header.
-INCLUDES = ["algorithm", "memory", "string", "vector", "scenes/library.h", "scenes/receivers.h", "technique/technique.h",
-            "technique/settings.h", "technique/light_frame.h", "app/advise/recommend_text.h", "app/definition/experiment_file.h",
-            "app/pictures/pictures.h", "app/sweep/results_folder.h", "app/live/live_page.h", "app/definition/experiment.h"]
-
-
-def read_first(root):
-    headers = []
-    with open(os.path.join(root, "docs/explanation/architecture.md"), encoding="utf-8") as page:
-        for line in page:
-            row = re.match(r"\| `([a-z/]+/)`.*\| `(\w+\.h)` \|$", line.strip())
-            if row:
-                headers.append(row[1] + row[2])
-    return headers + ["measure/workbench.h"]
+MISSING = re.compile(r"^(\S+?\.h):\d+:\d+: error: (?:use of undeclared identifier )?'(\w+)'(?: was not declared in this scope)?", re.M)
 
 
 def example(path):
@@ -158,38 +116,68 @@ def example(path):
     return found
 
 
-def main():
-    root, compiler, flags = sys.argv[1], sys.argv[2], sys.argv[3:]
-    headers = read_first(root)
-    if lacking := set(headers) - set(DECLARED):
-        sys.exit("headers that are read first and not known to this test: " + ", ".join(sorted(lacking)))
-    headers += sorted((set(DECLARED) | set(STAND_INS)) - set(headers))
-    text = "".join(f'#include {f"<{h}>" if "." not in h else chr(34) + h + chr(34)}\n' for h in INCLUDES + headers)
-    text += f"namespace noonmark {{{STAND_IN}}}\n"
-    with_example = 0
-    for n, header in enumerate(headers):
-        lines = example(os.path.join(root, header))
-        with_example += bool(lines)
-        declared = DECLARED.get(header, "") + "".join(f"extern StandIn {name};" for name in STAND_INS.get(header, "").split())
+def examples(root):
+    found = {}
+    for folder in FOLDERS:
+        for at, _, files in os.walk(os.path.join(root, folder)):
+            for name in files:
+                path = os.path.relpath(os.path.join(at, name), root)
+                if name.endswith(".h") and (lines := example(os.path.join(root, path))):
+                    found[path] = lines
+    return dict(sorted(found.items()))
+
+
+def is_called(name, lines):
+    return any(re.search(rf"(?<![.>])\b{name}\(", line) for _, line in lines)
+
+
+def headers(of):
+    text = "".join(f'#include {f"<{h}>" if "." not in h else chr(34) + h + chr(34)}\n' for h in [*INCLUDES, *of])
+    return text + f"namespace noonmark {{{STAND_IN}}}\n"
+
+
+def program(of, missing):
+    text = ""
+    for n, (header, lines) in enumerate(of.items()):
         used = "".join(f"using namespace {name};" for folder, name in NAMESPACES.items() if header.startswith(folder))
-        text += f"namespace noonmark {{\nnamespace example_{n} {{\n{used}\n{COMMON}\n{declared}\n[[maybe_unused]] auto of_header() {{\n"
+        code = "\n".join(line for _, line in lines)
+        types = {name: type for name, type in TYPES.items() if re.search(rf"(?<![.>\w])\b{name}\b(?!\s*\()", code)}
+        types |= dict.fromkeys(missing.get(header, []), "StandIn") | OWN_TYPES.get(header, {})
+        declared = "".join(f"extern {type} {name};" for name, type in sorted(types.items()))
+        text += f"namespace noonmark {{\nnamespace example_{n} {{\n{used}\n{declared}\n[[maybe_unused]] auto of_header() {{\n"
         for number, line in lines:
             text += f'#line {number} "{header}"\n{line}\n'
         text += ";}\n}  // namespace\n}  // namespace noonmark\n"
-        if not lines and header in STAND_INS:
-            sys.exit(f"{header} has no example: is the test looking at the right lines?")
-    if with_example < 12:
-        sys.exit(f"only {with_example} of {len(headers)} headers have an example: is the test looking at the right lines?")
+    return text
+
+
+def main():
+    root, compiler, flags = sys.argv[1], sys.argv[2], sys.argv[3:]
+    of, missing = examples(root), {}
+    if len(of) < 200:
+        sys.exit(f"only {len(of)} headers have an example: is the test looking at the right lines?")
     with tempfile.TemporaryDirectory() as folder:
-        file = os.path.join(folder, "examples.cpp")
-        with open(file, "w", encoding="utf-8") as out:
-            out.write(text)
-        run = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-w", f"-I{root}", *flags, file],
-                             capture_output=True, text=True, check=False)
+        common, file = os.path.join(folder, "common.h"), os.path.join(folder, "examples.cpp")
+        command = [compiler, "-std=c++20", "-w", f"-I{root}", *flags]
+        with open(common, "w", encoding="utf-8") as out:
+            out.write(headers(of))
+        # GCC reads it from there; others read the header.
+        subprocess.run([*command, "-x", "c++-header", common, "-o", common + ".gch"], check=True)
+        while True:
+            with open(file, "w", encoding="utf-8") as out:
+                out.write(program(of, missing))
+            run = subprocess.run([*command, "-fsyntax-only", "-include", common, file], capture_output=True, text=True, check=False,
+                                 env={**os.environ, "LC_ALL": "C"})
+            new = {(header, name) for header, name in MISSING.findall(run.stderr)
+                   if name not in missing.get(header, []) and (name in CALLED or not is_called(name, of[header]))}
+            if not new:
+                break
+            for header, name in new:
+                missing.setdefault(header, set()).add(name)
     if run.returncode != 0:
         errors = "\n".join(line for line in run.stderr.splitlines() if "error" in line)
         sys.exit(f"an example does not compile:\n{errors or run.stderr}")
-    print(f"{with_example} examples compile")
+    print(f"{len(of)} examples compile")
 
 
 main()

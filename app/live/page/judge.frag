@@ -13,7 +13,7 @@ uniform int lit_beyond_far;
 uniform vec2 first_texel_m;     // the place of the map's lower left corner
 uniform float near_depth, depth_range;  // metres: where window depth is 0, and to where it is 1
 
-layout(location = 0) out vec4 rungs;   // 1 facing, 2 lit (R1), 4 outside the map; taps lit at R2, R4 and R5
+layout(location = 0) out vec4 rungs;   // 1 facing, 2 lit (R1), 4 outside the map, 8 ambiguous (R1 at the error of a ray beside P is another); taps lit at R2, R4 and R5
 layout(location = 1) out vec4 causes;  // taps: acne, Peter Panning, aliasing too dark, aliasing too light
 layout(location = 2) out vec4 others;  // taps: coverage too dark, coverage too light, lit at the places looked up; N.L
 
@@ -40,7 +40,12 @@ void main() {
   bool moves = moved != vec3(0.0), lit_truth = !is_shadowed(own, p), beyond_far = receiver.reference > 1.0;
   float bias = bias_depth(receiver);
   bool outside = beyond_far || !inside_map(ivec2(floor(receiver.map_texels)));
-  rungs.x = 1.0 + (lit_truth ? 2.0 : 0.0) + (outside ? 4.0 : 0.0);
+  bool ambiguous = false;
+  for (int way = 0; way < 4; ++way) {
+    float error = way < 2 ? ray_error_m : -ray_error_m;
+    ambiguous = ambiguous || is_shadowed(own, p + (way % 2 == 0 ? vec2(error, 0.0) : vec2(0.0, error))) == lit_truth;
+  }
+  rungs.x = 1.0 + (lit_truth ? 2.0 : 0.0) + (outside ? 4.0 : 0.0) + (ambiguous ? 8.0 : 0.0);
 
   for (int tap = 0; tap < taps; ++tap) {
     vec3 offset = vec3(row(offsets, tap).xy, 0.0);

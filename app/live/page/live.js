@@ -37,12 +37,22 @@ const advice = {
   precision: ['Precision', 'wrong because stored depths are rounded: take a deeper format or raise the bias']
 };
 const percent = share => (100 * share).toFixed(2) + ' %';
+// many_ambiguous() in compare/judge/undecided.h.
+function areMany(share, receivers) {
+  const usual = data.much_ambiguous * receivers;
+  return share * receivers > usual + 3 * Math.sqrt(usual);
+}
 function sentence(m) {
   if (!m.facing) return 'No receiver in the picture faces the light.';
+  const doubt = areMany(m.ambiguous, m.facing) ?
+      `Rounding decides the truth of ${percent(m.ambiguous)} of the receivers, so each share may be larger or smaller by as much: ` +
+          'the scene is too far from the origin for its size, or shapes overlap. ' :
+      '';
+  if (doubt && m.error <= m.ambiguous) return doubt + 'So it is not known what is wrong.';
   const [cause] = Object.keys(advice).sort((a, b) => m[b] - m[a]);
   if (m.error === 0) return 'No receiver is wrong.';
   const [name, what] = advice[cause];
-  return `${percent(m.error)} of the receivers are wrong. ${name}, ${percent(m[cause])}: ${what}.`;
+  return `${doubt}${percent(m.error)} of the receivers are wrong. ${name}, ${percent(m[cause])}: ${what}.`;
 }
 
 function setPressed(selector, matches) {

@@ -310,17 +310,18 @@ void main() { color = vec4(textureLod(depths, vec3(gl_FragCoord.xy / side, 0.0),
   }
 }
 
-// Fractions of the counted receivers: those that face the light.
+// Fractions of the receivers that face the light, the ambiguous ones among them.
 function metricsOf({taps, rungs, causes, others}) {
   const sum = {
     error: 0, filter: 0, displacement: 0, aliasing_dark: 0, aliasing_light: 0, acne: 0, peter_panning: 0, coverage_dark: 0,
     coverage_light: 0, precision: 0, lit: 0, outside: 0
   };
-  let facing = 0;
+  let facing = 0, ambiguous = 0;
   for (let i = 0; i < rungs.length; i += 4) {
     const flags = rungs[i];
     if (!flags) continue;
     ++facing;
+    if (flags & 8) ++ambiguous;
     const truth = flags & 2 ? taps : 0;
     sum.lit += truth;
     sum.outside += flags & 4 ? taps : 0;
@@ -338,6 +339,7 @@ function metricsOf({taps, rungs, causes, others}) {
   const metrics = {};
   for (const name in sum) metrics[name] = sum[name] / (facing * taps);
   metrics.facing = facing;
+  metrics.ambiguous = ambiguous / facing;
   metrics.aliasing = metrics.aliasing_dark + metrics.aliasing_light;
   metrics.coverage = metrics.coverage_dark + metrics.coverage_light;
   return metrics;

@@ -357,12 +357,13 @@ function verdict(p) {
   if (p.at)
     text.push(
         (mode() === 'recommended' ? 'Shown' : 'Recommended') + ' at ' + p.at.parameter + ' ' + p.at.text +
-        (p.at.usable ? ', which is usable.' : ', the best that there is: no ' + p.at.word + ' is usable.'));
+        (p.at.usable ? ', which is usable.' : p.no_window ? ', of least error; what is usable is ' + p.no_window + '.' :
+                        ', the best that there is: no ' + p.at.word + ' is usable.'));
   if (p.curve) {
     var placed = p.curve.placements > 1, low = placed ? p.curve.window_min_worst_depth : p.curve.window_min_depth,
         high = placed ? p.curve.window_max_worst_depth : p.curve.window_max_depth;
     text.push(
-        typeof low !== 'number' ? 'Its usable window is empty.' :
+        typeof low !== 'number' ? 'Its usable window is ' + (p.no_window || 'empty') + '.' :
                                   'Usable from ' + kit.digits(low) + ' to ' + kit.digits(high) + ' depth' +
                 (placed ? ' at every placement of the grid.' : '.'));
   } else if (p.reductions) {
@@ -370,7 +371,7 @@ function verdict(p) {
     text.push(
         window ? 'Usable reductions: ' + kit.digits(window.from) + ' to ' + kit.digits(window.to) +
                 (window.placed ? ' at every placement of the grid.' : '.') :
-                 'No reduction is usable.');
+                 p.no_window ? 'Its usable window is ' + p.no_window + '.' : 'No reduction is usable.');
   }
   return make('p', {}, text.join(' '));
 }

@@ -389,8 +389,8 @@ function describe() {
         'Usable from ', kit.make('b', {}, three(curve.window_min_depth, curve)), ' to ',
         kit.make('b', {}, three(curve.window_max_depth, curve)), '. ');
   else
-    facts.append(kit.make('b', {style: 'color:var(--bad)'}, 'No usable window: no bias is good enough. '));
-  if (hasBands(curve)) {
+    facts.append(kit.make('b', {style: 'color:var(--bad)'}, point.no_window ? 'The usable window is ' + point.no_window + '. ' : 'No usable window: no bias is good enough. '));
+  if (hasBands(curve) && !point.no_window) {
     if (curve.window_min_worst_depth !== undefined)
       facts.append(
           'At every one of ' + curve.placements + ' placements of the grid from ',

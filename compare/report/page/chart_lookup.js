@@ -137,6 +137,8 @@ function chartOver(place, key) {
       facts.append(
           'Usable from ', kit.make('b', {}, kit.digits(usable.from)), ' to ', kit.make('b', {}, kit.digits(usable.to)),
           usable.placed ? ' at every placement of the grid. ' : '. ');
+    else if (linear && point.no_window)
+      facts.append(kit.make('b', {style: 'color:var(--bad)'}, 'The usable window is ' + point.no_window + '. '));
     else if (linear)
       facts.append(
           kit.make('b', {style: 'color:var(--bad)'}, 'No usable window. '),

@@ -38,7 +38,8 @@ function wordOf(entry) {
   return (kit.byId[entry.id].at || {word: data.free}).word;
 }
 function windowText(entry) {
-  return entry.window === 'empty' ? 'none: no ' + wordOf(entry) + ' is good enough' :
+  return entry.window === 'unknown' ? 'not known, because too much is ambiguous' :
+      entry.window === 'empty' ? 'none: no ' + wordOf(entry) + ' is good enough' :
       entry.window === 'no_curve' ? 'no curve over a bias or a reduction' :
                                     entry.bias.from + ' … ' + entry.bias.to;
 }

@@ -642,11 +642,11 @@ function curveKey(series, words, dash, look) {
   entry.append(words || curveName(series));
   return entry;
 }
-// The usable reductions of a point, at every placement of the grid if it has several; null: none.
+// The usable reductions of a point, at every placement of the grid if it has several; null: none, or not known (no_window).
 function windowOfReduction(point) {
   var placed = point.metrics.error_mean !== undefined, ending = placed ? '_worst' : '',
       from = point.metrics['reduction_min' + ending], to = point.metrics['reduction_max' + ending];
-  return finite(from) && finite(to) ? {from: from, to: to, placed: placed} : null;
+  return !point.no_window && finite(from) && finite(to) ? {from: from, to: to, placed: placed} : null;
 }
 
 page.kit = {

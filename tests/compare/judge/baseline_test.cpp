@@ -174,5 +174,27 @@ TEST(Baseline, StandsInJUnitAndInTheSummary) {
   EXPECT_EQ(to_summary(results).find("Baseline"), std::string::npos);
 }
 
+// What is left out may have become wrong: a value that becomes ambiguous is neither better nor as before.
+TEST(Baseline, AValueThatBecomesAmbiguousIsWorse) {
+  const auto with = [](double acne, double ambiguous, const Bound& bound = limit("acne", 1, {})) {
+    PointRecord point = sample_point(0);
+    point.metrics["acne"] = acne;
+    point.metrics["ambiguous"] = ambiguous;
+    point.metrics["facing"] = 1e6;
+    return Baseline{"r", {baseline_point(point, {&bound, 1}, {}, false, "")}};
+  };
+  for (const double before : {0.0, 0.02}) {
+    const BaselineComparison found = compared(with(before, 0), with(0, 0.142));
+    ASSERT_EQ(found.worse.size(), 1u) << before;
+    EXPECT_TRUE(found.better.empty());
+    EXPECT_NE(found.worse[0].find("0% ± 14.2% now"), std::string::npos) << found.worse[0];
+  }
+  EXPECT_FALSE(compared(with(0.5, 0, limit("acne", {}, 0)), with(0.5, 0.1, limit("acne", {}, 0))).held());
+  EXPECT_TRUE(compared(with(0, 0.142), with(0, 0.142)).held()) << "as before";
+  EXPECT_FALSE(compared(with(0, 0.142), with(0.01, 0.142)).held()) << "what is counted became worse";
+  EXPECT_EQ(compared(with(0, 0.142), with(0.02, 0)).better.size(), 1u) << "it is known to be less than it could be";
+  EXPECT_TRUE(compared(with(0.02, 0), with(0.02, 0.0009)).held()) << "as few as in any scene";
+}
+
 }  // namespace
 }  // namespace noonmark

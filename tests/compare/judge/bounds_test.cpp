@@ -6,6 +6,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "base/error.h"
+#include "compare/judge/curve_reading.h"
+#include "compare/judge/undecided.h"
 #include "compare/judge/verdict.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
@@ -546,6 +548,40 @@ TEST(Bounds, APatternIsJudgedForEachMeasuredMetric) {
   EXPECT_TRUE(results[1].metric == "aliasing_dark" && !results[1].held);
   for (const BoundResult& none : judged("*_ms")) EXPECT_FALSE(none.held) << "none of them was measured";
   EXPECT_EQ(judged("*_ms").size(), 12u);  // map, lookup and both, each with the ends of its interval
+}
+
+// What is ambiguous may be right or wrong: which window is usable is neither known nor known to be empty.
+TEST(Bounds, AWindowIsNotKnownWhereMuchIsAmbiguous) {
+  PointRecord point = sample_point(0);
+  point.metrics["facing"] = 1e6;
+  ASSERT_TRUE(point.curve);
+  point.curve->window_min_depth = 0, point.curve->window_max_depth = 1;
+  for (const double ambiguous : {0.0, 0.142}) {
+    point.metrics["ambiguous"] = ambiguous;
+    EXPECT_EQ(hides_window(point), ambiguous > 0);
+    EXPECT_EQ(usable_window(point).has_value(), ambiguous == 0);
+    EXPECT_FALSE(lacks_window(point));
+  }
+  point.curve->window_min_depth = point.curve->window_max_depth = std::nullopt;
+  EXPECT_FALSE(lacks_window(point));
+  point.metrics["ambiguous"] = 0;
+  EXPECT_TRUE(lacks_window(point));
+}
+
+TEST(Bounds, AValueThatHoldsSaysHowMuchIsAmbiguous) {
+  std::vector<PointRecord> points = points_with({0});
+  points[0].metrics["ambiguous"] = 0.142;
+  points[0].metrics["facing"] = 1e6;
+  const Bound bound = at_most(0.5);
+  const BoundResult result = evaluate_bounds(points, std::span(&bound, 1), command_of).at(0);
+  EXPECT_TRUE(result.held);
+  EXPECT_EQ(found_text(result, points), "0% ± 14.2%");
+  points[0].cascades.resize(2);
+  points[0].cascades[1].metrics["error"] = 0;
+  points[0].cascades[1].metrics["texel_m"] = 1;
+  EXPECT_EQ(ambiguous_room(points[0], "cascades.2.error"), 0.142);
+  EXPECT_EQ(ambiguous_room(points[0], "cascades.2.texel_m"), 0);
+  EXPECT_EQ(ambiguous_room(points[0], "map.resolution"), 0) << "no quantity";
 }
 
 }  // namespace

@@ -56,9 +56,9 @@ TEST(FoundText, DoesNotReadAsTheLimitThatItBreaks) {
   BoundResult bound = broken("acne", 0.005);
   bound.found = 0.0050000001;
   EXPECT_EQ(bound_text(bound), "acne <= 0.5%");
-  EXPECT_NE(found_text(bound), "0.5%");
+  EXPECT_NE(found_text(bound, {}), "0.5%");
   bound.found = 1.0 / 3;
-  EXPECT_EQ(found_text(bound), "33.33%");
+  EXPECT_EQ(found_text(bound, {}), "33.33%");
   bound = broken("peter_panning_gap_m", 0.0012345);
   EXPECT_EQ(bound_text(bound), "peter_panning_gap_m <= 0.0012345 m") << "a limit is as it was typed";
 }

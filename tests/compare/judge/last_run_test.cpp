@@ -62,5 +62,18 @@ TEST(LastRun, ATimeChangesOnlyBeyondItsNoise) {
   EXPECT_NE(since_last_run(results.bounds[0], results).find("beyond the noise"), std::string::npos);
 }
 
+TEST(LastRun, NothingIsAsBeforeWhereTheAmbiguousMayHaveChangedIt) {
+  Results results;
+  results.points = {sample_point(0)};
+  results.points[0].metrics["ambiguous"] = 0.142;
+  results.points[0].metrics["facing"] = 1e6;
+  results.bounds = {found("acne", 0)};
+  for (const double before : {0.0, 0.01}) {
+    add_last_run(results.bounds, {found("acne", before)});
+    EXPECT_NE(last_run_text(results).find("-> 0% ± 14.2%"), std::string::npos) << last_run_text(results);
+    EXPECT_EQ(since_last_run(results.bounds[0], results).find("as before"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace noonmark

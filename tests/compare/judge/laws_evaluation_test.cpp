@@ -231,5 +231,26 @@ TEST(Laws, TheTableTellsLawPredictedMeasuredAndVerdict) {
     EXPECT_NE(table.find(text), std::string::npos) << text << "\n" << table;
 }
 
+// A law that reads what the ambiguous receivers may change is not known to hold.
+TEST(Laws, WhatIsAmbiguousIsNotKnown) {
+  const auto result = [](const Law& asked, double ambiguous) {
+    PointRecord one = point(0, 512, "none", 0);
+    one.metrics["ambiguous"] = ambiguous;
+    one.metrics["facing"] = 1e6;
+    return evaluate_laws({&one, 1}, {&asked, 1}, [](const PointRecord&) { return ""; }).at(0);
+  };
+  Law measured = law("error", "0.5", LawRelation::at_most), predicted = law("0", "error"), defined = law("0", "e");
+  defined.let = {{"e", "2 * error"}};
+  measured.found = "the error is {error}";
+  for (const Law& one : {measured, predicted, defined}) {
+    EXPECT_TRUE(result(one, 0.0005).held);
+    EXPECT_FALSE(result(one, 0.142).held) << one.measured;
+  }
+  EXPECT_TRUE(std::isnan(result(measured, 0.142).samples.at(0).measured));
+  EXPECT_EQ(result(measured, 0.142).found, "the error is not measured");
+  EXPECT_TRUE(result(law("map.resolution", "512"), 0.142).held) << "a setting is known";
+  EXPECT_TRUE(result(law("facing", "1e6"), 0.142).held) << "a number that does not depend on the truth is known";
+}
+
 }  // namespace
 }  // namespace noonmark

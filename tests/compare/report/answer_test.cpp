@@ -72,5 +72,25 @@ TEST(Answer, AFilteredMapIsAnsweredWithItsReduction) {
     EXPECT_FALSE(says(wrong)) << wrong << ": " << body.substr(body.find(wrong) - 100, 300);
 }
 
+// Where rounding decides the truth of many receivers, the page neither praises a bias nor denies that there is one.
+TEST(Answer, NothingIsSaidOfABiasWhereMuchIsAmbiguous) {
+  for (Results results : {sample_results(), filtered_sample_results()}) {
+    for (PointRecord& point : results.points) {
+      point.metrics["ambiguous"] = 0.142;
+      point.metrics["facing"] = point.metrics["counted"] = 1e6;
+    }
+    const std::string page = render_report(results, sample_picture), body = without_scripts(page);
+    const auto says = [&](const std::string& words) { return body.find(words) != std::string::npos; };
+    EXPECT_TRUE(says("is not known, because too much is ambiguous"));
+    EXPECT_TRUE(says("None of the swept settings is known to be good enough"));
+    for (const char* wrong :
+         {"A usable", "The method fails", "No reduction is usable", "lies within the usable window",
+          "is good enough:", "Good enough", "no bias is good enough", "makes it good enough", "Least error by"})
+      EXPECT_FALSE(says(wrong)) << wrong << ": " << body.substr(body.find(wrong) - 200, 400);
+    EXPECT_NE(page.find("\"no_window\":"), std::string::npos) << "what the charts say";
+    EXPECT_EQ(page.find("\"window_min_depth\":"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace noonmark
