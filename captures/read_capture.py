@@ -54,7 +54,7 @@ class Reader:
     def describe(self):
         c, cam = self.capture, self.camera
         self.say(f'{c.driver}, {len(self.draws)} draws; the picture: {cam.name}, {cam.viewport[2]:.0f} x {cam.viewport[3]:.0f}, '
-                 f'{"orthographic" if cam.camera.orthographic else "perspective"} camera (from {cam.camera.draws} rigid draws)')
+                 f'{"orthographic" if cam.orthographic else "perspective"} camera')
         for n, group in enumerate(self.lights, 1):
             for m in group:
                 f, u = m.drawn.draws[0].polygon_offset
@@ -75,7 +75,7 @@ class Reader:
     def run(self):
         """Writes what all lights share, and then the frames of each."""
         self.describe()
-        cam, camera = self.camera, self.camera.camera
+        cam = self.camera
         if not cam.depth:
             raise Refusal('the picture is drawn without a depth buffer')
         depth = self.image(cam.depth, cam)
@@ -86,14 +86,14 @@ class Reader:
         self.parts = scene.casters(cam, self.maps, self.capture)
         scene.write_glb(self.path('scene.glb'), self.parts, self.capture)
         first = cam.draws[0]
-        self.place, self.normal = lookup.receivers(depth, camera, first.zero_to_one)
+        self.place, self.normal = lookup.receivers(depth, cam, first.zero_to_one)
         self.surface = depth != (0.0 if first.reversed else 1.0)
         jitter = np.eye(4)  # through the place of sample 0
         jitter[:2, 3] = (1 - 2 * np.array(SAMPLE_0.get(first.samples, (0.5, 0.5)))) / cam.viewport[2:]
         self.base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'depth': self.save('depth.npy', depth) | {'measure': 'window'},
-                     'camera': space(jitter @ camera.clip, first)}
+                     'camera': space(jitter @ cam.clip, first)}
         edited = copies.Copies(self.options.capture, self.options.scratch)
-        self.pictures = visibility.Pictures(self.capture, cam, self.maps, self.passes, self.draws, edited)
+        self.pictures = visibility.Pictures(self, edited)
         wanted = [n for n in range(1, len(self.lights) + 1) if self.options.light in (0, n)]
         refused = [] if wanted else [f'there is no light {self.options.light}: it has {len(self.lights)}']
         for n in wanted:
@@ -197,7 +197,7 @@ class Reader:
     def lookup_matrix(self, m, light, target, wrong):
         """(what the lookup's own matrix says of the light, where the map's vertices are moved and the constants hold it; notes about this
         and about a lookup with another matrix). wrong: what the lookup of each map does not explain, None where that is not known."""
-        lit, camera = [d for d in self.draws if target in d.outputs and m.drawn.textures & d.reads], self.camera.camera
+        lit, camera = [d for d in self.draws if target in d.outputs and m.drawn.textures & d.reads], self.camera
         found = lookup.own_matrix(self.capture.matrices(lit[-1]), camera, m) if lit else []
         if light['kind'] == 'spot' and found:
             _, name, _, matrix = found[0]

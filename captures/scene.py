@@ -130,9 +130,9 @@ def is_on_depths(draw, camera, capture):
 
 def casters(camera, maps, capture):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
-    to_camera, parts, masked = np.linalg.inv(camera.camera.clip), [], {}
+    to_camera, parts, masked = np.linalg.inv(camera.clip), [], {}
     for draw in camera.draws:
-        if draw.writes_depth and is_on_depths(draw, camera.camera, capture):
+        if draw.writes_depth and is_on_depths(draw, camera, capture):
             parts += parts_of(draw, 'camera', to_camera, capture)
         elif draw.writes_depth:
             capture.say(f'draw {draw.event} does not lie on the depths of the camera (a sky, a full screen): it is no caster')

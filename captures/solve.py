@@ -17,19 +17,13 @@ SQUARE = 0.05  # cosine between the axes of a map
 
 
 @dataclasses.dataclass
-class Camera:
-    clip: np.ndarray  # 4 x 4: clip from the camera's axes
-    orthographic: bool
-    draws: int  # rigid draws that agree
-
-
-@dataclasses.dataclass
 class Pass:
     draws: list
     depth: tuple
     outputs: tuple
     viewport: tuple
-    camera: Camera = None
+    clip: np.ndarray = None  # 4 x 4: clip from the camera's axes; None if the pass does not tell a camera
+    orthographic: bool = False
 
     def __post_init__(self):
         self.first, self.last = self.draws[0].event, self.draws[-1].event
@@ -137,16 +131,19 @@ def field_of(g, orthographic):
 
 
 def camera_of(drawn, capture):
-    """Depth row from all vertices; field of view from rigid draws, whose three axes are of one length. None if not told."""
+    """(clip from the camera's axes, whether it is orthographic); (None, False) if the pass does not tell.
+
+    Depth row from all vertices; field of view from rigid draws, whose three axes are of one length.
+    """
     clips = [c[usable(c)] for c in map(capture.clip, drawn.draws) if c is not None]
     if not any(map(len, clips)):
-        return None
+        return None, False
     clip = np.concatenate([few(c) for c in clips])
     orthographic = np.ptp(clip[:, 3]) < 1e-5 * np.abs(clip[:, 3]).max()
     if not orthographic:
         a, b = robust_line(clip[:, 3], clip[:, 2])
         if (np.abs(clip[:, 2] - a * clip[:, 3] - b) < 1e-4 * np.abs(clip[:, 3])).mean() < ON_LINE:
-            return None
+            return None, False
     found = []
     for draw in sorted(drawn.draws, key=lambda d: -d.count)[:60]:
         c = capture.clip(draw)
@@ -163,14 +160,14 @@ def camera_of(drawn, capture):
     found = square if len(square) else found
     agree = found[np.abs(found[:, 0] / np.median(found[:, 0]) - 1) < 1e-3] if len(found) else found
     if not len(agree):  # each draw is scaled along one axis, in its own way
-        return None
+        return None, False
     fx, fy, cx, cy = np.median(agree, axis=0)
     cx, cy = (0.0 if abs(v) < 1e-6 else v for v in (cx, cy))
     if orthographic:
         # Lengths are in units of the depth: one unit of window depth is one unit, so the scale is free; the axes are not.
         away = 1.0 if drawn.draws[0].reversed else -1.0
-        return Camera(np.array([[fx, 0, 0, 0], [0, fy, 0, 0], [0, 0, away, 0], [0, 0, 0, 1.0]]), True, len(agree))
-    return Camera(np.array([[fx, 0, -cx, 0], [0, fy, -cy, 0], [0, 0, -a, b], [0, 0, -1.0, 0]]), False, len(agree))
+        return np.diag([fx, fy, away, 1.0]), True
+    return np.array([[fx, 0, -cx, 0], [0, fy, -cy, 0], [0, 0, -a, b], [0, 0, -1.0, 0]]), False
 
 
 # ---- one pass against another
@@ -203,7 +200,7 @@ def matrix_between(light, camera, capture):
             continue
         keep = usable(l) & usable(c)
         if keep.sum() >= 3:
-            data.append((a, b, sure, few(on_depth_line(c[keep], camera.camera)), few(l[keep])))
+            data.append((a, b, sure, few(on_depth_line(c[keep], camera)), few(l[keep])))
         if len(data) > 120:
             break
     seeds = [[x for x in data if x[2]]] + [[x] for x in data[:12]] + [[x, y] for x in data[:6] for y in data[:6] if x is not y]
@@ -238,7 +235,7 @@ def map_of(light, camera, capture):
     if solved is None or same_eye(solved[0]):
         return None
     m, pairs, c, l = solved
-    clip = m @ camera.camera.clip
+    clip = m @ camera.clip
     residual = float(np.percentile(off(m, c, l), 99))
     parallel = np.abs(clip[3, :3]).max() < 1e-4 * abs(clip[3, 3]) * np.linalg.norm(clip[0, :3])
     # The depth row has two numbers only: a bias in the vertex shader of the map bends a free fit.
@@ -247,7 +244,7 @@ def map_of(light, camera, capture):
         clip[3] = (0, 0, 0, 1)
         axis = np.cross(clip[0, :3], clip[1, :3])
         row = np.r_[axis / np.linalg.norm(axis), 0]
-        world = c @ np.linalg.inv(camera.camera.clip).T
+        world = c @ np.linalg.inv(camera.clip).T
         t, z, unit = world @ row / world[:, 3], l[:, 2] / l[:, 3], 1
     else:
         row, t, z, unit = clip[3], l[:, 3], l[:, 2], l[:, 3]
@@ -267,8 +264,8 @@ def map_of(light, camera, capture):
 def camera_and_maps(capture, passes):
     """The pass of the picture, and the passes that draw its meshes from other eyes."""
     for drawn in passes:
-        drawn.camera = camera_of(drawn, capture) if drawn.outputs else None
-    cameras = [p for p in passes if p.camera]
+        drawn.clip, drawn.orthographic = camera_of(drawn, capture) if drawn.outputs else (None, False)
+    cameras = [p for p in passes if p.clip is not None]
     if not cameras:
         raise Refusal('no pass of this frame tells a camera: its meshes are flat, or placed on the GPU without a linear '
                       'place for each vertex')

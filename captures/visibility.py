@@ -2,8 +2,6 @@
 
 Light that other lamps, ambience or history add is in all three pictures and drops out, and so do albedo and N.L.
 """
-import dataclasses
-
 import numpy as np
 
 from replay import Refusal, format_of
@@ -19,19 +17,12 @@ def crop(image, viewport):
     return image[y:y + h, x:x + w]
 
 
-@dataclasses.dataclass
 class Pictures:
     """What the frame draws at the picture's size after its maps, in the replay of each copy."""
-    capture: object
-    camera: object  # the pass
-    maps: list
-    passes: list
-    draws: list
-    copies: object
 
-    def __post_init__(self):
-        last_map = max(m.drawn.first for m in self.maps)
-        later = [p for p in self.passes if p.last > last_map and p.viewport[2:] == self.camera.viewport[2:]]
+    def __init__(self, reader, copies):
+        self.capture, self.draws, self.camera, self.maps, self.copies = reader.capture, reader.draws, reader.camera, reader.maps, copies
+        later = [p for p in reader.passes if p.last > self.maps[-1].drawn.first and p.viewport[2:] == self.camera.viewport[2:]]
         ends = {target: p.last for p in sorted(later, key=lambda p: p.last) for target in p.outputs}
         self.targets = dict(sorted(ends.items(), key=lambda t: t[1]))
         self.frame = self.read(self.capture, 0)

@@ -33,7 +33,7 @@ for event in range(4):
         clips[draw.event] = (world @ matrix.T).astype("f4").astype("f8")
         draws[of_camera].append(draw)
 capture = SimpleNamespace(clip=lambda draw: clips[draw.event])
-picture = solve.Pass(draws[True], ("depth", 0), (), (0, 0, 640, 360), solve.Camera(camera, False, 4))
+picture = solve.Pass(draws[True], ("depth", 0), (), (0, 0, 640, 360), camera)
 found = solve.map_of(solve.Pass(draws[False], ("map", 0), (), (0, 0, 1024, 1024)), picture, capture)
 if not found or found.light["kind"] != "directional":
     sys.exit(f"FAILED: the map of a sun is read as {found and found.light}")
