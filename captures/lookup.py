@@ -13,6 +13,7 @@ FILTERS |= {f'box{size}': {'filter.kind': 'box', 'filter.size': str(size)} for s
 ROUNDING = 1e-5  # of window depth: a smaller bias is what a shader's floats and the map's steps do by themselves
 MOST_RECEIVERS = 40000  # for the fit; evenly over the picture
 FEWEST_RECEIVERS = 100
+AT_TEXEL = 4  # texels along the light: a place that lies nearer to what its texel holds is in the map; a slope does less within a texel
 SLOPES = (0.25, 0.5, 1, 2)  # of the constant, for each tangent of the angle to the light
 
 

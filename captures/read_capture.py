@@ -18,7 +18,6 @@ SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's
 MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
 EMPTY = 0.3  # of the receivers that read an empty texel, before the ground is taken for no caster of the map
 UNEXPLAINED = 0.01  # of the receivers: a tenth of that is left where the lookup is one of those that are known
-TEXELS_BEFORE = 4  # how far before the map's depths a caster lies that the map lacks: more than a slope does within a texel
 DIFFER = 'MAP AND LOOKUP DIFFER: '
 
 
@@ -191,7 +190,7 @@ class Reader:
             places = places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)]
             farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
             # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-            if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -TEXELS_BEFORE:
+            if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -lookup.AT_TEXEL:
                 yield part.name
 
     def lookup_matrix(self, m, light, target, wrong):

@@ -8,13 +8,12 @@ import zlib
 import numpy as np
 import renderdoc as rd
 
-from lookup import Taps
+from lookup import AT_TEXEL, Taps
 from replay import Refusal
 from solve import usable
 
 ENOUGH = 100  # places of a part that the map tells of, before its mask is looked for
 SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through two matrices
-AT_TEXEL = 4  # texels along the light: a place that lies nearer to what its texel holds is in the map
 
 
 @dataclasses.dataclass
