@@ -112,13 +112,13 @@ def main():
             child = multiprocessing.get_context('fork').Process(target=replay, args=[options])
             child.start()
             child.join(2 * SECONDS)
-            if child.exitcode is None:
-                child.kill()
-                child.join()
             if child.exitcode not in CRASHES or tried == 2:
                 break
             print(f'the replay crashed (signal {-child.exitcode}); it is tried once more', flush=True)  # one of 130 did, in the driver
     finally:
+        for running in multiprocessing.active_children():  # after its time, or when this process is ended
+            running.kill()
+            running.join()
         shutil.rmtree(options.scratch, ignore_errors=True)
         if server:
             server.terminate()
