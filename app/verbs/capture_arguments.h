@@ -1,7 +1,7 @@
 // The options of the verbs that read a capture: `capture`, and `judge` of a capture.
 //
 //   add_capture_options(verb, options->capture);
-//   read_capture(capture_command(file, options.capture.reader), folder, options.capture.words());
+//   read_capture(capture_command(file, options.capture.reader), folder, options.capture.words(), print_line);
 #pragma once
 #include <CLI/CLI.hpp>
 #include <optional>
