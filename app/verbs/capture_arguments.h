@@ -11,7 +11,7 @@
 namespace noonmark {
 
 struct CaptureArguments {
-  std::optional<int> light;  // its number, from 1 on
+  std::optional<int> light;    // its number, from 1 on
   std::string filter;          // of the lookup; empty: the one that fits
   std::optional<double> bias;  // of the lookup, window depth; empty: the one that fits
   std::string reader;          // the folder of the reader; empty: the program's own
