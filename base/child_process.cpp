@@ -7,10 +7,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
+#include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/system_error.h"
@@ -26,6 +30,8 @@ bool can_be_executed(const std::string& path) {
 // A shell that becomes the program. What it leaves beside the program waits for the end of this process.
 constexpr const char* keep_group =
     "(trap '' TERM; read -r _; kill -TERM 0; sleep 1; kill -KILL 0) <&3 3<&- & exec \"$@\" 3<&-";
+
+constexpr size_t most_line_bytes = 1 << 16;  // a longer one is handed over in parts
 
 }  // namespace
 
@@ -43,7 +49,8 @@ std::string own_program() {
   return std::filesystem::read_symlink("/proc/self/exe", none).string();
 }
 
-int run_program(const std::vector<std::string>& arguments, const std::string& log) {
+int run_program(const std::vector<std::string>& arguments, const std::string& log,
+                const std::function<void(const std::string&)>& said) {
   const auto fail = [](const std::string& what, int code) {
     throw Error(kind_of_failure(code), what + ": " + std::strerror(code));
   };
@@ -79,11 +86,26 @@ int run_program(const std::vector<std::string>& arguments, const std::string& lo
   close(lifeline[0]);
   if (failed) close(lifeline[1]), fail(arguments[0] + " cannot be started", failed);
   // The group is killed before its leader is waited for: until then no other group can have its number.
-  siginfo_t ended{};
-  while (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
-  }
+  std::ifstream printed(log);
+  std::string line;
+  const auto hand_over = [&] {
+    for (char c = 0; printed.get(c);) {
+      if (c != '\n') line += c;
+      if (c == '\n' || line.size() == most_line_bytes) said(std::exchange(line, ""));
+    }
+    printed.clear();  // more may come
+  };
+  const auto runs = [&] {
+    siginfo_t ended{};
+    const int options = WEXITED | WNOWAIT | (said ? WNOHANG : 0);
+    return waitid(P_PID, static_cast<id_t>(child), &ended, options) < 0 ? errno == EINTR : ended.si_pid == 0;
+  };
+  while (runs())
+    if (said) hand_over(), std::this_thread::sleep_for(std::chrono::milliseconds(20));
   kill(-child, SIGKILL);
   close(lifeline[1]);
+  if (said) hand_over();
+  if (!line.empty()) said(line);
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) fail(arguments[0] + " cannot be waited for", errno);

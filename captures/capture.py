@@ -9,6 +9,7 @@ import argparse
 import ctypes
 import glob
 import importlib.util
+import multiprocessing
 import os
 import resource
 import shutil
@@ -18,7 +19,6 @@ import subprocess
 import sys
 import tempfile
 
-PACKAGES = {'renderdoc': 'python3-renderdoc', 'numpy': 'python3-numpy'}
 CRASHES = (-signal.SIGSEGV, -signal.SIGABRT, -signal.SIGBUS, -signal.SIGILL)
 MEMORY, SECONDS = 16 << 30, 1200
 CLONE_NEWUSER, CLONE_NEWNET, PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS = 0x10000000, 0x40000000, 1, 38
@@ -27,15 +27,19 @@ WRITES = 0x1ff2 | 1 << 14  # all that changes files, and truncation; reading sta
 
 
 def missing():
-    found = [package for module, package in PACKAGES.items() if importlib.util.find_spec(module) is None]
-    found += [p for program, p in (('renderdoccmd', 'renderdoc'),) if not shutil.which(program)]
-    return found + (['xvfb'] if not os.environ.get('DISPLAY') and not shutil.which('Xvfb') else [])
+    """Debian's packages that are not here."""
+    needed = {'python3-renderdoc': importlib.util.find_spec('renderdoc'), 'python3-numpy': importlib.util.find_spec('numpy'),
+              'renderdoc': shutil.which('renderdoccmd'), 'xvfb': os.environ.get('DISPLAY') or shutil.which('Xvfb')}
+    return [package for package, here in needed.items() if not here]
+
+
+def end_with_parent():
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def confine(folder):
     """What the kernel offers of it; runs in the child before the replay starts."""
     libc = ctypes.CDLL(None, use_errno=True)
-    libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
@@ -54,40 +58,41 @@ def confine(folder):
     libc.syscall(LANDLOCK_RESTRICT, rules, 0)
 
 
-def with_display(environment):
-    """(environment, process): a display of its own where there is none, because RenderDoc's replay of OpenGL needs one."""
-    if environment.get('DISPLAY'):
-        return environment, None
+def start_display():
+    """(its name, process), because RenderDoc's replay of OpenGL needs one."""
     read, write = os.pipe()
-    parent_death = lambda: ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     server = subprocess.Popen(['Xvfb', '-displayfd', str(write), '-screen', '0', '64x64x24', '-nolisten', 'tcp'], pass_fds=[write],
-                              preexec_fn=parent_death, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                              preexec_fn=end_with_parent, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     os.close(write)
     number = os.read(read, 16).decode().strip()
     if not number:
         sys.exit('noonmark: Xvfb does not start, and RenderDoc replays OpenGL on a display only')
-    return environment | {'DISPLAY': ':' + number}, server
+    return ':' + number, server
+
+
+def replay(options):
+    """In the child."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    end_with_parent()
+    confine(options.out)
+    places = ('HOME', 'TMPDIR', 'XDG_RUNTIME_DIR', 'XDG_CACHE_HOME')
+    os.environ.update({'LIBGL_ALWAYS_SOFTWARE': '1', 'LP_NUM_THREADS': '2'} | os.environ | dict.fromkeys(places, options.scratch))
+    import read_capture
+    read_capture.main(options)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
-    parser.add_argument('capture')
-    parser.add_argument('out')
-    parser.add_argument('--light', type=int, default=0, help='only the light of this number, from 1')
-    parser.add_argument('--casters', choices=('union', 'camera', 'map'), default='union')
-    parser.add_argument('--filter', choices=('none', 'hardware', 'box3', 'box5', 'box7'), help='of the lookup; without it the one that fits')
-    parser.add_argument('--bias', type=float, help='of the lookup, constant, in window depth; without it the one that fits')
-    parser.add_argument('--inside', action='store_true', help=argparse.SUPPRESS)
-    options = parser.parse_args()
-    if options.inside:
-        import read_capture
-        read_capture.main(options)
     if missing():
         print(f'noonmark: captures need these packages of Debian: {" ".join(missing())}; install them with apt', file=sys.stderr)
         return 4
+    parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
+    parser.add_argument('capture', type=os.path.abspath)
+    parser.add_argument('out', type=os.path.abspath)
+    parser.add_argument('--light', type=int, default=0, help='only the light of this number, from 1')
+    parser.add_argument('--filter', help='of the lookup: none, hardware, box3, box5 or box7; without it the one that fits')
+    parser.add_argument('--bias', type=float, help='of the lookup, constant, in window depth; without it the one that fits')
+    options = parser.parse_args()
     try:
-        if not os.path.isfile(options.capture) and os.path.exists(options.capture):
-            raise OSError('not a file')
         with open(options.capture, 'rb') as f:
             if f.read(4) != b'RDOC':
                 raise OSError('no capture of RenderDoc (its first bytes are not RDOC)')
@@ -96,36 +101,33 @@ def main():
         print(f'noonmark: {options.capture}: {why.strerror or why}', file=sys.stderr)
         return 2
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that display and scratch folder end with this process
-    folder = os.path.abspath(options.out)
-    environment, server = with_display(dict(os.environ))
-    for old in glob.glob(os.path.join(glob.escape(folder), '.noonmark-scratch-*')):
+    for old in glob.glob(os.path.join(glob.escape(options.out), '.noonmark-scratch-*')):
         shutil.rmtree(old, ignore_errors=True)  # of a run that was killed
-    scratch = tempfile.mkdtemp(prefix='.noonmark-scratch-', dir=folder)
-    environment |= {'LIBGL_ALWAYS_SOFTWARE': environment.get('LIBGL_ALWAYS_SOFTWARE', '1'), 
-                    'HOME': scratch, 'TMPDIR': scratch, 'XDG_RUNTIME_DIR': scratch, 'XDG_CACHE_HOME': scratch, 'LP_NUM_THREADS': '2'}
-    command = [sys.executable, os.path.abspath(__file__), os.path.abspath(options.capture), folder, '--inside',
-               '--light', str(options.light), '--casters', options.casters,
-               *(f'--{k}={v}' for k, v in (('filter', options.filter), ('bias', options.bias)) if v is not None)]
+    server = None
+    options.scratch = tempfile.mkdtemp(prefix='.noonmark-scratch-', dir=options.out)
     try:
+        if not os.environ.get('DISPLAY'):
+            os.environ['DISPLAY'], server = start_display()
         for tried in (1, 2):
-            child = subprocess.Popen(command, env=environment, preexec_fn=lambda: confine(folder))
-            code = child.wait(timeout=2 * SECONDS)
-            if code not in CRASHES or tried == 2:
+            child = multiprocessing.get_context('fork').Process(target=replay, args=[options])
+            child.start()
+            child.join(2 * SECONDS)
+            if child.exitcode not in CRASHES or tried == 2:
                 break
-            print(f'the replay crashed (signal {-code}); it is tried once more', flush=True)  # one of 130 did, in the driver
-    except subprocess.TimeoutExpired:
-        child.kill()
-        code = -signal.SIGKILL
+            print(f'the replay crashed (signal {-child.exitcode}); it is tried once more', flush=True)  # one of 130 did, in the driver
     finally:
-        shutil.rmtree(scratch, ignore_errors=True)
+        for running in multiprocessing.active_children():  # after its time, or when this process is ended
+            running.kill()
+            running.join()
+        shutil.rmtree(options.scratch, ignore_errors=True)
         if server:
             server.terminate()
             server.wait()
-    if code < 0:
-        print(f'noonmark: {options.capture}: the replay ended by signal {-code} (the driver, or its limits of {MEMORY >> 30} GiB and '
-              f'{SECONDS} s)', file=sys.stderr)
+    if child.exitcode < 0:
+        print(f'noonmark: {options.capture}: the replay ended by signal {-child.exitcode} (the driver, or its limits of {MEMORY >> 30} GiB '
+              f'and {SECONDS} s)', file=sys.stderr)
         return 3
-    return code
+    return child.exitcode
 
 
 if __name__ == '__main__':

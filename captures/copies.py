@@ -10,20 +10,31 @@ from replay import Capture, Refusal
 COUNTS = re.compile(r'(<u?int name="(?:count|indexCount|vertexCount|drawCount|instanceCount)"[^>]*>)\d+')
 CLEARS = ('glClear', 'glClearBufferfv', 'glClearBufferfi', 'vkCmdBeginRenderPass')
 FLOAT, INTEGER = re.compile(r'(<float [^>]*>)[^<]*'), re.compile(r'(<u?int [^>]*>)[^<]*')
+CLEAR = '''<chunk id="1696" name="glClearBufferfv" length="48" threadID="1" timestamp="1" duration="1">
+<ResourceId name="framebuffer" typename="GLResource" width="8">{framebuffer}</ResourceId>
+<enum name="buffer" typename="RDCGLenum" string={buffer}</enum>
+<int name="drawbuffer" typename="int32_t" width="4" important="true">0</int>
+<array name="value" important="true">{values}</array>
+<array name="DebugMessages" typename="DebugMessage" hidden="true" />
+</chunk>
+'''
 
 
 class Copies:
     def __init__(self, path, folder):
         self.folder = folder
-        base = os.path.join(folder, 'base.zip.xml')
-        self._convert('-f', path, '-o', base, '-c', 'zip.xml')
-        text = open(base, encoding='utf-8', errors='surrogateescape').read()
+        self._convert(path, 'base.zip.xml', 'zip.xml')
+        text = open(self._file('base.zip.xml'), encoding='utf-8', errors='surrogateescape').read()
         start, end = text.index('<chunk id'), text.index('</chunks>')
         self.head, self.tail = text[:start], text[end:]
         self.chunks = re.findall(r'<chunk id=[^>]*/>\s*|<chunk id=.*?</chunk>\s*', text[start:end], re.S)
 
-    def _convert(self, *arguments):
-        done = subprocess.run(['renderdoccmd', 'convert', *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    def _file(self, name):
+        return os.path.join(self.folder, name)
+
+    def _convert(self, path, name, form):
+        done = subprocess.run(['renderdoccmd', 'convert', '-f', path, '-o', self._file(name), '-c', form],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         if done.returncode:
             raise Refusal(f'renderdoccmd convert ends with {done.returncode}: {done.stderr.decode(errors="replace").strip()[-200:]}')
 
@@ -41,10 +52,9 @@ class Copies:
 
     def cleared(self, drawn, clears, colour, value):
         """(edits, calls put in): the pass's map is cleared to `value` where this frame clears it last before drawing."""
-        first = min(d.chunk for d in drawn.draws)
-        depth, outputs = drawn.depth and drawn.depth[0], {o[0] for o in drawn.outputs}
+        first, outputs = min(d.chunk for d in drawn.draws), {o[0] for o in drawn.outputs}
         mine = [c for c, z, o in clears
-                if c < first and (z == depth if depth else outputs & set(o)) and self.call(c) in CLEARS]
+                if c < first and (z == drawn.depth[0] if drawn.depth else outputs & set(o)) and self.call(c) in CLEARS]
         if not mine:
             raise Refusal(f'the map of {drawn.name} is not cleared in this frame, so it keeps what earlier frames drew; move '
                           'the light a little while the frame is captured')
@@ -52,29 +62,21 @@ class Copies:
         if self.call(chunk) == 'glClear':
             bound = [re.search(r'name="framebuffer"[^>]*>(\d+)<', self.chunks[k]).group(1)
                      for k in range(chunk) if self.call(k) == 'glBindFramebuffer' and 'READ' not in self.chunks[k]][-1]
+            values = f'<float typename="float" width="4">{value}</float>' * (4 if colour else 1)
             buffer = '"GL_COLOR">6144' if colour else '"GL_DEPTH">6145'
-            values = ''.join(f'<float typename="float" width="4">{value}</float>' for _ in range(4 if colour else 1))
-            return {chunk: text + '<chunk id="1696" name="glClearBufferfv" length="48" threadID="1" timestamp="1" duration="1">\n'
-                    f'<ResourceId name="framebuffer" typename="GLResource" width="8">{bound}</ResourceId>\n'
-                    f'<enum name="buffer" typename="RDCGLenum" string={buffer}</enum>\n'
-                    '<int name="drawbuffer" typename="int32_t" width="4" important="true">0</int>\n'
-                    f'<array name="value" important="true">{values}</array>\n'
-                    '<array name="DebugMessages" typename="DebugMessage" hidden="true" />\n</chunk>\n'}, 1
-        if self.call(chunk) == 'vkCmdBeginRenderPass':
-            # A clear value is a union: each of its members is written, one over the other, so all are set alike.
-            start, values = text.split('<array name="pClearValues">')
-            values = INTEGER.sub(r'\g<1>' + ('1065353216' if value == 1 else '0'), FLOAT.sub(rf'\g<1>{value}', values))
-            return {chunk: start + '<array name="pClearValues">' + values}, 0
-        return {chunk: FLOAT.sub(rf'\g<1>{value}', text)}, 0
+            return {chunk: text + CLEAR.format(framebuffer=bound, buffer=buffer, values=values)}, 1
+        start, mark, values = text.rpartition('<array name="pClearValues">')
+        if mark:  # Vulkan's is a union: each of its members is written, one over the other, so all are set alike
+            values = INTEGER.sub(r'\g<1>' + ('1065353216' if value == 1 else '0'), values)
+        return {chunk: start + mark + FLOAT.sub(rf'\g<1>{value}', values)}, 0
 
     def open(self, edits):
         """An opened capture with the edited calls."""
-        stem = os.path.join(self.folder, 'copy')
-        with open(stem + '.zip.xml', 'w', encoding='utf-8', errors='surrogateescape') as f:
+        with open(self._file('copy.zip.xml'), 'w', encoding='utf-8', errors='surrogateescape') as f:
             f.write(self.head)
             f.writelines(edits.get(i, c) for i, c in enumerate(self.chunks))
             f.write(self.tail)
-        if not os.path.exists(stem + '.zip'):
-            os.link(os.path.join(self.folder, 'base.zip'), stem + '.zip')
-        self._convert('-f', stem + '.zip.xml', '-o', stem + '.rdc', '-i', 'zip.xml', '-c', 'rdc')
-        return Capture(stem + '.rdc')
+        if not os.path.exists(self._file('copy.zip')):
+            os.link(self._file('base.zip'), self._file('copy.zip'))
+        self._convert(self._file('copy.zip.xml'), 'copy.rdc', 'rdc')
+        return Capture(self._file('copy.rdc'))

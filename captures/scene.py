@@ -3,11 +3,12 @@ import dataclasses
 import itertools
 import json
 import struct
+import zlib
 
 import numpy as np
 import renderdoc as rd
 
-from lookup import Taps
+from lookup import AT_TEXEL, Taps
 from replay import Refusal
 from solve import usable
 
@@ -19,9 +20,9 @@ SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through 
 class Part:
     draw: object
     role: str  # 'camera', or 'map': drawn into a map alone
-    triangles: np.ndarray  # n x 3 x 3
-    coordinates: np.ndarray = None  # n x 3 x 2, of a mask
-    mask: object = None  # (texture, channel, cutoff)
+    triangles: np.ndarray  # n x 3 x 3, of all instances
+    coordinates: np.ndarray  # n x 3 x 2, of a mask; None if the draw has none
+    mask: tuple = None  # (texture, channel, cutoff)
 
     @property
     def name(self):
@@ -29,35 +30,26 @@ class Part:
 
 
 def triangle_rows(topology, count):
-    """Rows of the vertices of each triangle; None for points and lines."""
-    if topology == rd.Topology.TriangleList:
-        return np.arange(count // 3 * 3).reshape(-1, 3)
+    """Rows of the vertices of each triangle; none for points and lines."""
     i = np.arange(max(0, count - 2))
-    if topology == rd.Topology.TriangleStrip:
-        return np.stack([i + i % 2, i + 1 - i % 2, i + 2], 1)
-    if topology == rd.Topology.TriangleFan:
-        return np.stack([0 * i, i + 1, i + 2], 1)
-    return None
+    return {rd.Topology.TriangleList: np.arange(count // 3 * 3).reshape(-1, 3),
+            rd.Topology.TriangleStrip: np.stack([i + i % 2, i + 1 - i % 2, i + 2], 1),
+            rd.Topology.TriangleFan: np.stack([0 * i, i + 1, i + 2], 1)}.get(topology, np.zeros((0, 3), int))
 
 
-def parts_of(draw, role, to_camera, vertices):
-    """The triangles of each instance of the draw."""
-    found = vertices.of(draw)
-    if found is None:
-        return []
-    clip, coordinates = found
-    count = len(clip) if draw.has_geometry_shader else len(clip) // draw.instances
-    rows = triangle_rows(draw.topology, count)
-    parts = []
-    for i in range(len(clip) // count if rows is not None and count >= 3 else 0):
-        one = clip[i * count:(i + 1) * count]
-        places = one @ to_camera.T
-        good = usable(one) & (np.abs(places[:, 3]) > 1e-12)
-        places = places[:, :3] / np.where(good, places[:, 3], 1)[:, None]
-        keep = good[rows].all(1)
-        uv = coordinates[i * count:(i + 1) * count][rows][keep] if coordinates is not None else None
-        parts.append(Part(draw, role, places[rows][keep], uv))
-    return [p for p in parts if len(p.triangles)]
+def parts_of(draw, role, to_camera, capture):
+    """[the part], or [] if nothing of the draw can be read."""
+    clip, written = capture.after_vertex_shader(draw) or (np.zeros((0, 4)), None)
+    instances = 1 if draw.has_geometry_shader else draw.instances
+    count = len(clip) // instances
+    rows = (triangle_rows(draw.topology, count) + count * np.arange(instances)[:, None, None]).reshape(-1, 3)
+    places = clip @ to_camera.T
+    good = usable(clip) & (np.abs(places[:, 3]) > 1e-12)
+    places = places[:, :3] / np.where(good, places[:, 3], 1)[:, None]
+    rows = rows[good[rows].all(1)]
+    at = capture.texture_coordinate(draw)
+    coordinates = written[:, at:at + 2][rows] if len(rows) and at is not None and written.shape[1] >= at + 2 else None
+    return [Part(draw, role, places[rows], coordinates)] if len(rows) else []
 
 
 def mask_of(part, m, draw, capture):
@@ -69,33 +61,31 @@ def mask_of(part, m, draw, capture):
     pick = seeds.integers(len(part.triangles), size=6000)
     weight = seeds.dirichlet((1, 1, 1), size=6000)[:, :, None]
     taps = Taps(m, (part.triangles[pick] * weight).sum(1))
-    beyond = taps.read('none')[0][0]
-    slack = 4 * np.linalg.norm(m.clip[2, :3]) / np.linalg.norm(m.clip[0, :3]) / taps.columns
-    told = taps.inside & (beyond < slack)  # elsewhere something nearer hides it
-    if told.sum() < ENOUGH:
-        return None, False
-    there, uv = (np.abs(beyond) < slack)[told], ((part.coordinates[pick] * weight).sum(1) % 1)[told]
-    best = (max(there.mean(), 1 - there.mean()), None)
+    farther = taps.farther()
+    told = farther < AT_TEXEL  # elsewhere something nearer hides it
+    if part.coordinates is None or told.sum() < ENOUGH:
+        return None, part.coordinates is None
+    there, uv = (farther > -AT_TEXEL)[told], (part.coordinates[pick] * weight).sum(1)[taps.inside][told] % 1
+    best, agreement = None, max(there.mean(), 1 - there.mean())
     for texture in draw.reads:
         try:
-            image = capture.image((texture, 0, 0), draw.event)
+            image = mask_image(texture, draw, capture)
         except Refusal:
             continue
-        image = image if capture.gl else image[::-1]
         rows, columns = image.shape[:2]
-        value = image[(uv[:, 1] * rows).astype(int) % rows, (uv[:, 0] * columns).astype(int) % columns]
-        for channel in range(image.shape[2]):
-            for cut in np.linspace(0.05, 0.95, 19):
-                agrees = ((value[:, channel] >= cut) == there).mean()
-                if agrees > best[0] + 0.01 or (agrees > best[0] - 1e-9 and best[1] and best[1][1] == channel and abs(cut - 0.5) < abs(best[1][2] - 0.5)):
-                    best = (agrees, (texture, channel, float(cut)))
-    return best[1], there.mean() < 0.95
+        values = image[(uv[:, 1] * rows).astype(int) % rows, (uv[:, 0] * columns).astype(int) % columns]
+        cuts = sorted(np.linspace(0.05, 0.95, 19), key=lambda cut: abs(cut - 0.5))
+        for channel, cut in itertools.product(range(image.shape[2]), cuts):
+            agrees = ((values[:, channel] >= cut) == there).mean()
+            if agrees > agreement + 0.01:
+                best, agreement = (texture, channel, float(cut)), agrees
+    return best, there.mean() < 0.95
 
 
-def described(triangles):
-    """Centre and radius of each triangle: n x 4."""
-    centre = triangles.mean(1)
-    return np.c_[centre, np.linalg.norm(triangles - centre[:, None], axis=2).max(1)]
+def mask_image(texture, draw, capture):
+    """Its first row is v = 0, in glTF as in the program."""
+    image = capture.image((texture, 0, 0), draw.event)
+    return image if capture.gl else image[::-1]
 
 
 def among(rows, known, near):
@@ -108,124 +98,115 @@ def among(rows, known, near):
     return found
 
 
-def casters(camera, maps, vertices, capture, say, which='union'):
-    """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
-    to_camera = np.linalg.inv(camera.camera.clip)
-    a = camera.camera.clip[2]
-    parts = []
-    for draw in camera.draws if which != 'map' else []:
-        if not draw.writes_depth:
-            continue
-        clip = vertices.clip(draw)
-        if clip is None:
-            continue
-        if not camera.camera.orthographic:
-            good = clip[usable(clip)]
-            line = good[:, 2] + a[2] * good[:, 3] - a[3]  # z = -a.z w + a.w, see camera_of
-            if len(good) and np.median(np.abs(line) / np.abs(good[:, 3])) > 1e-3:
-                say(f'draw {draw.event} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
-                continue
-        parts += parts_of(draw, 'camera', to_camera, vertices)
-    masks = {}
-    for m in maps:
-        back = np.linalg.inv(m.clip)
-        for draw in m.drawn.draws:
-            if draw.discards and draw.reads:  # a shader with "discard" in a branch that reads nothing drops nothing
-                masks[draw.geometry] = (m, draw)
-            if which == 'map' or which == 'union':
-                if which == 'union' and draw.event in m.pairs:
-                    continue
-                parts += parts_of(draw, 'map', back, vertices)
-    if not parts:
-        raise Refusal('the frame has no triangles that cast shadows')
+def once(parts, passes):
+    """The parts without the triangles that an earlier pass has, by centre and radius."""
     size = np.linalg.norm(np.ptp(np.concatenate([p.triangles.reshape(-1, 3) for p in parts]), axis=0))
-    known, before = np.zeros((0, 4)), sum(len(p.triangles) for p in parts)
-    for drawn in [camera, *(m.drawn for m in maps)]:
-        events = {d.event for d in drawn.draws}
-        mine = [p for p in parts if p.draw.event in events]
+    known, kept = np.zeros((0, 4)), []
+    for drawn in passes:
+        mine = [p for p in parts if p.draw in drawn.draws]
         if not mine:
             continue
-        rows = described(np.concatenate([p.triangles for p in mine]))
+        triangles = np.concatenate([p.triangles for p in mine])
+        centre = triangles.mean(1)
+        rows = np.c_[centre, np.linalg.norm(triangles - centre[:, None], axis=2).max(1)]
         new = ~among(rows, known, SAME_PLACE * size)
+        known = np.concatenate([known, rows])
         for part, keep in zip(mine, np.split(new, np.cumsum([len(p.triangles) for p in mine])[:-1])):
-            part.triangles = part.triangles[keep]
-            part.coordinates = part.coordinates[keep] if part.coordinates is not None else None
-        known = np.concatenate([known, rows[new]])
-    kept, holed = [p for p in parts if len(p.triangles)], []
-    say(f'{len(known)} triangles of {len({p.draw.event for p in kept})} draws; {sum(len(p.triangles) for p in kept if p.role == "map")} of them '
-        f'only in the maps; {before - len(known)} are drawn again in other passes')
-    for part in kept:
-        if part.draw.geometry in masks:
-            m, draw = masks[part.draw.geometry]
-            part.mask, has_holes = mask_of(part, m, draw, capture) if part.coordinates is not None else (None, True)
-            if part.mask:
-                texture, channel, cut = part.mask
-                say(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
-            elif has_holes:
-                holed.append(draw.event)
-    if holed:
-        say(f'{"draws" if len(holed) > 1 else "draw"} {", ".join(map(str, dict.fromkeys(holed)))} may drop fragments, and no texture explains which: solid casters '
-            'here, so the shadows through their holes are not to be trusted')
+            coordinates = None if part.coordinates is None else part.coordinates[keep]
+            kept += [dataclasses.replace(part, triangles=part.triangles[keep], coordinates=coordinates)] if keep.any() else []
     return kept
 
 
-def png(pixels):
-    """An RGBA picture of 8 bits; the top row first."""
-    import zlib
-    height, width, _ = pixels.shape
-    rows = b''.join(b'\0' + pixels[y].tobytes() for y in range(height))
+def is_on_depths(draw, camera, capture):
+    """Whether it is drawn by the camera: not a sky, nor a full screen."""
+    clip = capture.clip(draw)
+    if camera.orthographic or clip is None:
+        return True
+    good = clip[usable(clip)]
+    off = np.abs(good[:, 2] + camera.clip[2, 2] * good[:, 3] - camera.clip[2, 3]) / np.abs(good[:, 3])  # see camera_of
+    return not len(good) or np.median(off) <= 1e-3
+
+
+def casters(camera, maps, capture):
+    """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
+    to_camera, parts, masked = np.linalg.inv(camera.clip), [], {}
+    for draw in camera.draws:
+        if draw.writes_depth and is_on_depths(draw, camera, capture):
+            parts += parts_of(draw, 'camera', to_camera, capture)
+        elif draw.writes_depth:
+            capture.say(f'draw {draw.event} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
+    for m in maps:
+        for draw in m.drawn.draws:
+            if draw.discards and draw.reads:  # a shader with "discard" in a branch that reads nothing drops nothing
+                masked[draw.geometry] = (m, draw)
+            if draw.event not in m.pairs:
+                parts += parts_of(draw, 'map', np.linalg.inv(m.clip), capture)
+    if not parts:
+        raise Refusal('the frame has no triangles that cast shadows')
+    kept, holed = once(parts, [camera, *(m.drawn for m in maps)]), []
+    count = lambda parts: sum(len(p.triangles) for p in parts)
+    capture.say(f'{count(kept)} triangles of {len(kept)} draws; {count(p for p in kept if p.role == "map")} of them only in the maps; '
+                f'{count(parts) - count(kept)} are drawn again in other passes')
+    for part in kept:
+        if part.draw.geometry in masked:
+            m, draw = masked[part.draw.geometry]
+            part.mask, has_holes = mask_of(part, m, draw, capture)
+            if part.mask:
+                texture, channel, cut = part.mask
+                capture.say(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
+            elif has_holes:
+                holed.append(draw.event)
+    if holed:
+        capture.say(f'these draws may drop fragments, and no texture explains which: {", ".join(map(str, dict.fromkeys(holed)))}; they are '
+                    'solid casters here, so the shadows through their holes are not to be trusted')
+    return kept
+
+
+def png(alpha):
+    """A white picture of 8 bits with this alpha, 0 to 1; the top row first."""
+    pixels = np.full(alpha.shape + (4,), 255, 'u1')
+    pixels[..., 3] = np.rint(255 * np.clip(alpha, 0, 1))
+    rows = b''.join(b'\0' + row.tobytes() for row in pixels)
     chunk = lambda kind, data: struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
-    return (b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 8, 6, 0, 0, 0))
-            + chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b''))
+    head = struct.pack('>IIBBBBB', *alpha.shape[::-1], 8, 6, 0, 0, 0)
+    return b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', head) + chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b'')
 
 
 def write_glb(path, parts, capture):
     """One node a draw, named as the debugger numbers it."""
-    blob, views, accessors, meshes, nodes = bytearray(), [], [], [], []
-    materials, images, textures, by_mask = [{'doubleSided': True}], [], [], {}
+    blob = bytearray()
+    gltf = {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(parts)))}], 'nodes': [], 'meshes': [],
+            'materials': [], 'accessors': [], 'bufferViews': [], 'images': [], 'textures': []}
+
+    def add(kind, item):
+        gltf[kind].append(item)
+        return len(gltf[kind]) - 1
 
     def view(data):
-        blob.extend(b'\0' * (-len(blob) % 4))
-        views.append({'buffer': 0, 'byteOffset': len(blob), 'byteLength': len(data)})
-        blob.extend(data)
-        return len(views) - 1
+        number = add('bufferViews', {'buffer': 0, 'byteOffset': len(blob), 'byteLength': len(data)})
+        blob.extend(data + b'\0' * (-len(data) % 4))
+        return number
 
-    def accessor(rows, kind):
-        rows = np.ascontiguousarray(rows, '<f4')
-        accessors.append({'bufferView': view(rows.tobytes()), 'componentType': 5126, 'count': len(rows), 'type': kind,
-                          'min': rows.min(0).tolist(), 'max': rows.max(0).tolist()})
-        return len(accessors) - 1
+    def accessor(rows):
+        rows = np.ascontiguousarray(rows.reshape(-1, rows.shape[-1]), '<f4')
+        return add('accessors', {'bufferView': view(rows.tobytes()), 'componentType': 5126, 'count': len(rows),
+                                 'type': f'VEC{rows.shape[1]}', 'min': rows.min(0).tolist(), 'max': rows.max(0).tolist()})
 
-    def material(part):
-        if part.mask is None or part.coordinates is None:
-            return 0
-        if part.mask not in by_mask:
+    materials = {None: add('materials', {'doubleSided': True})}
+    for part in sorted(parts, key=lambda p: p.draw.event):
+        attributes = {'POSITION': accessor(part.triangles)}
+        if part.mask:
+            attributes['TEXCOORD_0'] = accessor(part.coordinates)
+        if part.mask not in materials:
             texture, channel, cut = part.mask
-            image = capture.image((texture, 0, 0), part.draw.event)
-            image = np.clip(image if capture.gl else image[::-1], 0, 1)[..., channel]
-            pixels = np.full(image.shape + (4,), 255, 'u1')  # its first row is v = 0, in glTF as in the program
-            pixels[..., 3] = np.rint(image * 255)
-            images.append({'bufferView': view(png(pixels)), 'mimeType': 'image/png'})
-            textures.append({'source': len(images) - 1})
-            materials.append({'doubleSided': True, 'alphaMode': 'MASK', 'alphaCutoff': cut,
-                              'pbrMetallicRoughness': {'baseColorTexture': {'index': len(textures) - 1}}})
-            by_mask[part.mask] = len(materials) - 1
-        return by_mask[part.mask]
-
-    for event in sorted({p.draw.event for p in parts}):
-        same = [p for p in parts if p.draw.event == event]
-        attributes = {'POSITION': accessor(np.concatenate([p.triangles.reshape(-1, 3) for p in same]), 'VEC3')}
-        if material(same[0]):
-            attributes['TEXCOORD_0'] = accessor(np.concatenate([p.coordinates.reshape(-1, 2) for p in same]), 'VEC2')
-        nodes.append({'mesh': len(meshes), 'name': same[0].name})
-        meshes.append({'name': same[0].name, 'primitives': [{'attributes': attributes, 'material': material(same[0])}]})
-    blob.extend(b'\0' * (-len(blob) % 4))
-    gltf = {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(nodes)))}], 'nodes': nodes,
-            'meshes': meshes, 'materials': materials, 'accessors': accessors, 'bufferViews': views,
-            'buffers': [{'byteLength': len(blob)}]}
-    if images:
-        gltf |= {'images': images, 'textures': textures}
-    text = json.dumps(gltf).encode()
+            image = add('images', {'bufferView': view(png(mask_image(texture, part.draw, capture)[..., channel])), 'mimeType': 'image/png'})
+            materials[part.mask] = add('materials', {
+                'doubleSided': True, 'alphaMode': 'MASK', 'alphaCutoff': cut,
+                'pbrMetallicRoughness': {'baseColorTexture': {'index': add('textures', {'source': image})}}})
+        mesh = add('meshes', {'name': part.name, 'primitives': [{'attributes': attributes, 'material': materials[part.mask]}]})
+        add('nodes', {'mesh': mesh, 'name': part.name})
+    gltf['buffers'] = [{'byteLength': len(blob)}]
+    text = json.dumps({k: v for k, v in gltf.items() if v != []}).encode()
     text += b' ' * (-len(text) % 4)
     with open(path, 'wb') as f:
         f.write(struct.pack('<4sII', b'glTF', 2, 28 + len(text) + len(blob)))

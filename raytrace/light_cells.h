@@ -73,6 +73,7 @@
 //
 // Only parallel rays have cells so far.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>

@@ -24,7 +24,7 @@ SceneSize scene_size(const Scene& scene);
 uint64_t bytes_of_part(uint64_t name_length);
 
 // What a scene of this size takes at the least in all that is made of it: OpenGL's buffers, Embree's tree, which
-// triangle is beside which, their planes as the light sees them. Edges that lie open cost more (measure/memory_estimate.h).
+// triangle is beside which, their planes as the light sees them. Edges that lie open cost more (raytrace/silhouettes.h).
 double scene_bytes(SceneSize size);
 
 }  // namespace noonmark

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <optional>
-#include <sstream>
 #include <tuple>
 
 #include "base/child_process.h"
@@ -21,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* log_name = "capture.log";
-constexpr uint64_t most_log_bytes = 1 << 24;
 
 // In the build and where it is installed (app/CMakeLists.txt).
 std::string reader_of_program() {
@@ -34,19 +32,14 @@ std::optional<std::string> find_python() {
   return of_system ? of_system : find_program("python3");
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
-    if (!line.empty()) lines.push_back(line);
-  return lines;
+constexpr const char* no_python = "captures are read by python3, which is missing here; install Debian's python3";
+constexpr std::string_view refusal = "noonmark: ";  // begins those of the reader, as those of this program
+
+std::string sentence_of(const std::string& line) {
+  return line.starts_with(refusal) ? line.substr(refusal.size()) : line;
 }
 
-// Of a refusal of the reader's, which begins as this program's do.
-std::string sentence_of(const std::string& line) {
-  constexpr std::string_view name = "noonmark: ";
-  return line.starts_with(name) ? line.substr(name.size()) : line;
-}
+std::string program_of(const std::string& reader) { return reader + "/capture.py"; }
 
 // light-1.json, light-1-map-1.json, light-2.json ... by their numbers.
 std::vector<std::string> frames_in(const std::string& folder) {
@@ -68,17 +61,15 @@ std::vector<std::string> frames_in(const std::string& folder) {
 bool is_capture(const std::string& path) { return ends_with_any_case(path, ".rdc"); }
 
 std::vector<std::string> capture_files() {
-  return {"capture.json", log_name,      "scene.glb",   "light-*.json",
-          "light-*.npy",  "light-*.exr", "light-*.png", "depth.npy"};
+  return {log_name, "scene.glb", "light-*.json", "light-*.npy", "light-*.exr", "light-*.png", "depth.npy"};
 }
 
 std::vector<std::string> capture_command(const std::string& capture, const std::string& reader) {
   if (std::error_code none; !fs::is_regular_file(capture, none))
     throw Error(ErrorKind::file, fmt::format("{}: there is no such file", capture));
   const std::optional<std::string> python = find_python();
-  if (!python)
-    throw Error(ErrorKind::device, "captures are read by python3, which is missing here; install Debian's python3");
-  const std::string program = (reader.empty() ? reader_of_program() : reader) + "/capture.py";
+  if (!python) throw Error(ErrorKind::device, no_python);
+  const std::string program = program_of(reader.empty() ? reader_of_program() : reader);
   if (std::error_code none; !fs::is_regular_file(program, none))
     throw Error(ErrorKind::usage,
                 fmt::format("{} is missing, which reads captures; --reader names its folder", program));
@@ -86,39 +77,44 @@ std::vector<std::string> capture_command(const std::string& capture, const std::
   return {*python, "-uB", program, capture};
 }
 
-ReadCapture read_capture(std::vector<std::string> command, const std::string& folder,
-                         const std::vector<std::string>& options) {
+std::vector<std::string> read_capture(std::vector<std::string> command, const std::string& folder,
+                                      const std::vector<std::string>& options,
+                                      const std::function<void(const std::string&)>& said) {
   make_folder(folder);
   const std::string log = folder + "/" + log_name;
   const std::string capture = command.back();
   command.push_back(folder);
   command.insert(command.end(), options.begin(), options.end());
-  const int code = run_program(command, log);
-  ReadCapture read{.frames = {}, .said = lines_of(read_file(log, most_log_bytes))};
-  const std::string last = read.said.empty() ? "it printed nothing" : read.said.back();
+  std::string last = "it printed nothing";
+  const int code = run_program(command, log, [&](const std::string& line) {
+    if (!line.empty()) last = line;
+    if (!line.starts_with(refusal)) said(line);
+  });
   if (code >= static_cast<int>(ErrorKind::usage) && code <= static_cast<int>(ErrorKind::device))
     throw Error(static_cast<ErrorKind>(code), sentence_of(last));
   if (code != 0)
     throw Error(ErrorKind::device,
                 fmt::format("{}: the reader failed (code {}): {}; the whole text is in {}", capture, code, last, log));
-  read.frames = frames_in(folder);
-  if (read.frames.empty())
-    throw Error(ErrorKind::file, fmt::format("{}: the reader found no light: {}", capture, last));
-  return read;
+  const std::vector<std::string> frames = frames_in(folder);
+  if (frames.empty()) throw Error(ErrorKind::file, fmt::format("{}: the reader found no light: {}", capture, last));
+  return frames;
 }
 
-std::vector<std::string> missing_for_captures() {
-  std::vector<std::string> missing;
+void print_line(const std::string& line) {
+  fmt::print("{}\n", printable(line));
+  std::fflush(stdout);
+}
+
+std::string missing_for_captures() {
   const std::optional<std::string> python = find_python();
-  if (!python) missing.emplace_back("python3");
-  const auto imports = [&](const char* module) {
-    return python && run_program({*python, "-c", std::string("import ") + module}, "/dev/null") == 0;
-  };
-  if (!imports("renderdoc")) missing.emplace_back("python3-renderdoc");
-  if (!imports("numpy")) missing.emplace_back("python3-numpy");
-  if (!find_program("renderdoccmd")) missing.emplace_back("renderdoc");
-  if (!find_program("Xvfb") && !std::getenv("DISPLAY")) missing.emplace_back("xvfb");
-  return missing;
+  if (!python) return no_python;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> log(std::tmpfile(), std::fclose);
+  if (!log) return "no temporary file can be made";
+  std::string last;
+  const int code =
+      run_program({*python, "-B", program_of(reader_of_program())},  // which it says before it wants a capture
+                  fmt::format("/proc/self/fd/{}", fileno(log.get())), [&](const std::string& line) { last = line; });
+  return code == static_cast<int>(ErrorKind::device) ? sentence_of(last) : "";
 }
 
 }  // namespace noonmark

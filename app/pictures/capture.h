@@ -1,19 +1,15 @@
 // Frames of another program, read from a RenderDoc capture by the reader, a Python program of its own (captures/).
 //
 //   const std::vector<std::string> command = capture_command("frame.rdc", "");
-//   for (const std::string& frame : read_capture(command, "out/frames", {"--light=1"}).frames) print(frame);
+//   for (const std::string& frame : read_capture(command, "out/frames", {"--light=1"}, print_line).frames) print(frame);
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace noonmark {
 
 bool is_capture(const std::string& path);  // by its ending, .rdc
-
-struct ReadCapture {
-  std::vector<std::string> frames;  // paths of the frame.json of each light, and after it those of its maps
-  std::vector<std::string> said;    // what the reader printed, a line for each thing that it found
-};
 
 // Names of the files that the reader and `judge` write into the folder of frames, as patterns of fnmatch.
 std::vector<std::string> capture_files();
@@ -23,13 +19,18 @@ std::vector<std::string> capture_files();
 // if there is no Python.
 std::vector<std::string> capture_command(const std::string& capture, const std::string& reader);
 
-// Runs the reader, which fills `folder`; that is made. options: of the reader. Throws Error: usage if the file is no capture,
-// file if it cannot be judged, device if something that the reader needs is missing or if it crashed. No process of the reader
-// outlives the call, or the end of this program (base/child_process.h).
-ReadCapture read_capture(std::vector<std::string> command, const std::string& folder,
-                         const std::vector<std::string>& options);
+// Runs the reader, which fills `folder`; that is made. options: of the reader. said: gets each line about what is found, when it
+// is found. Returns the paths of the frame.json of each light, and after it those of its maps. Throws Error: usage if the file is no
+// capture, file if it cannot be judged, device if something that the reader needs is missing or if it crashed. No process of the
+// reader outlives the call, or the end of this program (base/child_process.h).
+std::vector<std::string> read_capture(std::vector<std::string> command, const std::string& folder,
+                                      const std::vector<std::string>& options,
+                                      const std::function<void(const std::string&)>& said);
 
-// What is missing here to read captures, with Debian's package for each; empty: nothing.
-std::vector<std::string> missing_for_captures();
+// On standard output, at once.
+void print_line(const std::string& line);
+
+// What is missing here to read captures, with Debian's packages; empty: nothing.
+std::string missing_for_captures();
 
 }  // namespace noonmark

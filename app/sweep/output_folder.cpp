@@ -58,6 +58,10 @@ void make_output_folder(const std::string& path) {
   }
 }
 
+void make_folder_above(const std::string& file) {
+  if (const std::string above = fs::path(file).parent_path().string(); !above.empty()) make_output_folder(above);
+}
+
 void require_new_file(const std::string& file, std::string_view ending, bool overwrite) {
   std::error_code none;
   if (!ends_with_any_case(file, ending))

@@ -17,6 +17,9 @@ namespace noonmark {
 // make_folder (base/file.h) for a folder from the command line. Throws Error(usage).
 void make_output_folder(const std::string& path);
 
+// The same for the folder of a file that is to be written.
+void make_folder_above(const std::string& file);
+
 // For the path of a file that is to be written. Throws Error(usage) if it has not this ending, is a folder, or (unless overwrite)
 // is there.
 void require_new_file(const std::string& file, std::string_view ending, bool overwrite);

@@ -1,7 +1,7 @@
 // The options of the verbs that read a capture: `capture`, and `judge` of a capture.
 //
 //   add_capture_options(verb, arguments);
-//   read_capture(capture_command(file, arguments.reader), folder, arguments.words());
+//   read_capture(capture_command(file, arguments.reader), folder, arguments.words(), print_line);
 #pragma once
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -11,8 +11,7 @@
 namespace noonmark {
 
 struct CaptureArguments {
-  std::optional<int> light;  // its number, from 1 on
-  std::string casters;
+  std::optional<int> light;    // its number, from 1 on
   std::string filter;          // of the lookup; empty: the one that fits
   std::optional<double> bias;  // of the lookup, window depth; empty: the one that fits
   std::string reader;          // the folder of the reader; empty: the program's own

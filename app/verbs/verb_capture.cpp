@@ -21,23 +21,15 @@ std::vector<std::string> CaptureArguments::words() const {
     if (!value.empty()) words.push_back(option + value);  // one word, so that no value is taken for an option
   };
   add("--light=", light ? std::to_string(*light) : "");
-  add("--casters=", casters);
   add("--filter=", filter);
   add("--bias=", bias ? fmt::format("{}", *bias) : "");
   return words;
 }
 
 void add_capture_options(CLI::App& verb, CaptureArguments& arguments) {
-  const std::vector<std::string> casters = {"union", "map", "camera"};
   verb.add_option("--light", arguments.light, "Of a capture: only this light, counted from 1")
       ->check(whole_number(1))
       ->type_name(value_kind::number);
-  verb.add_option("--casters", arguments.casters,
-                  "Of a capture: what casts shadows in the truth: what the camera's or the map's pass draws, or one "
-                  "of them alone")
-      ->check(one_of(casters))
-      ->type_name(joined(casters))
-      ->default_str(casters.front());
   const std::vector<std::string> filters = {"none", "hardware", "box3", "box5", "box7"};
   verb.add_option("--filter", arguments.filter, "Of a capture: the filter of the lookup; without it the one that fits")
       ->check(one_of(filters))
@@ -67,9 +59,9 @@ int write_frames(const CaptureOptions& options) {
   OutputFolder folder(outputs);
   const std::vector<std::string> command = capture_command(options.file, options.capture.reader);
   folder.make();
-  const ReadCapture read = read_capture(command, outputs.folder + "/" + outputs.inner, options.capture.words());
-  for (const std::string& line : read.said) fmt::print("{}\n", printable(line));
-  for (const std::string& frame : read.frames) fmt::print("{} is written\n", printable(frame));
+  for (const std::string& frame :
+       read_capture(command, outputs.folder + "/" + outputs.inner, options.capture.words(), print_line))
+    fmt::print("{} is written\n", printable(frame));
   return 0;
 }
 

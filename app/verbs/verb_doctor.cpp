@@ -83,10 +83,8 @@ int examine_machine() {
     can_read_pictures = false;
   }
   // Nothing else needs what these do.
-  if (const std::vector<std::string> missing = missing_for_captures(); missing.empty())
-    fmt::print("Captures  RenderDoc's can be read\n");
-  else
-    fmt::print("Captures  of RenderDoc cannot be read without Debian's {}\n", fmt::join(missing, ", "));
+  const std::string missing = missing_for_captures();
+  fmt::print("Captures  {}\n", missing.empty() ? "RenderDoc's can be read" : "NOT USABLE: " + printable(missing));
   std::string libraries;
   for (const LibraryVersion& library : facts.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : "; ", library.name, library.version);

@@ -44,7 +44,7 @@ int write_scene(const ExportOptions& options) {
   std::span<const Named<Light>> more;
   if (!first_of_several_note(scene, settings).empty()) more = std::span(scene.lights).subspan(1);
   const std::string bytes = glb_of(scene, effective_camera(scene, settings.view), light, more);
-  if (const std::string above = fs::path(file).parent_path().string(); !above.empty()) make_folder(above);
+  make_folder_above(file);
   write_file_atomically(file, bytes);
   const auto usable =
       std::count_if(more.begin(), more.end(), [](const Named<Light>& one) { return one.value.has_value(); });

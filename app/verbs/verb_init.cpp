@@ -42,7 +42,7 @@ int write_first_experiment(const InitOptions& options) {
   const std::string named =
       fs::path(model).is_absolute() ? model : fs::absolute(model).lexically_relative(folder).string();
   const std::string text = first_experiment(loaded, named);
-  if (const std::string above = fs::path(file).parent_path().string(); !above.empty()) make_folder(above);
+  make_folder_above(file);
   write_file_atomically(file, text);
   // What is written must run: its settings are read back, and the light's map is laid as for the first point.
   const Settings first = points(load_experiment(file)).at(0);

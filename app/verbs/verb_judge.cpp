@@ -80,7 +80,7 @@ void require_fitting(const JudgeOptions& options) {
         throw Error(ErrorKind::usage, fmt::format("{} is a picture; write noonmark judge SCENE --picture {}",
                                                   options.subject, options.subject));
   if (!of_capture && options.capture.any())
-    throw Error(ErrorKind::usage, "--light, --casters, --filter, --bias and --reader are for a capture (FILE.rdc)");
+    throw Error(ErrorKind::usage, "--light, --filter, --bias and --reader are for a capture (FILE.rdc)");
   if ((is_file || of_capture) != options.picture.empty())
     throw Error(ErrorKind::usage, is_file || of_capture
                                       ? "a frame.json or a capture has its picture itself; --picture is for a scene"
@@ -136,16 +136,17 @@ int judge_capture(const JudgeOptions& options, const std::vector<Bound>& bounds,
   const std::vector<std::string> command = capture_command(options.subject, options.capture.reader);
   folder.make();
   const std::string frames = outputs.folder + "/" + outputs.inner;
-  const ReadCapture read = read_capture(command, frames, options.capture.words());
-  if (!options.arguments.json)
-    for (const std::string& line : read.said)
-      if (int light = 0, end = 0; std::sscanf(line.c_str(), "light %d:%n", &light, &end) < 1 || end == 0)
-        fmt::print("{}\n", printable(line));  // what it says of a light stands beside the verdict of the light
+  const std::vector<std::string> read =
+      read_capture(command, frames, options.capture.words(), [&](const std::string& line) {
+        int light = 0, end = 0;  // what it says of a light stands beside the verdict of the light
+        if (!options.arguments.json && (std::sscanf(line.c_str(), "light %d:%n", &light, &end) < 1 || end == 0))
+          print_line(line);
+      });
   const auto has_map = [&](const std::string& frame) { return names_map(options, frame); };
-  bounds_for(options, bounds, std::any_of(read.frames.begin(), read.frames.end(), has_map), true);
+  bounds_for(options, bounds, std::any_of(read.begin(), read.end(), has_map), true);
   auto lights = nlohmann::ordered_json::array();
   Verdict worst = bounds.empty() ? Verdict::measured : Verdict::held;
-  for (const std::string& path : read.frames) {
+  for (const std::string& path : read) {
     const std::string stem = std::filesystem::path(path).stem().string();
     JudgeOptions of_frame = options;
     of_frame.subject = path;
@@ -173,7 +174,7 @@ int judge_capture(const JudgeOptions& options, const std::vector<Bound>& bounds,
   if (options.arguments.json) return exit_code_of(worst);
   fmt::print(
       "\n{0}/judge.json and, in {1}, the frames and their pictures are written; noonmark judge {2} prints all of one\n",
-      printable(outputs.folder), printable(frames), printable(read.frames.front()));
+      printable(outputs.folder), printable(frames), printable(read.front()));
   return exit_code_of(worst);
 }
 

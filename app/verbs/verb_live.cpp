@@ -58,7 +58,7 @@ int write_page(const LiveOptions& options) {
   const Scene scene = make_scene(settings.scene);
   require_live(scene, settings);
   const std::string page = live_page(scene, settings, build_facts().version);
-  if (const std::string above = fs::path(file).parent_path().string(); !above.empty()) make_folder(above);
+  make_folder_above(file);
   write_file_atomically(file, page);
   fmt::print("{} is written: {} triangles, {:.0f} kB; open it in a browser, it needs no network\n", printable(file),
              scene.triangles.size(), std::ceil(static_cast<double>(page.size()) / 1000));

@@ -121,7 +121,7 @@ int draw_section(const SectionOptions& options) {
   const auto theme = static_cast<report::SectionTheme>(
       std::find(report::section_themes.begin(), report::section_themes.end(), options.theme) -
       report::section_themes.begin());
-  if (const std::string above = fs::path(options.out).parent_path().string(); !above.empty()) make_folder(above);
+  make_folder_above(options.out);
   write_file_atomically(options.out, report::section_svg(section, theme));
   fmt::print("{}, pixel {},{}{}: {}\n\n", printable(m.scene.name), pixel.at.x, pixel.at.y,
              pixel.why.empty() ? "" : " (" + pixel.why + ")", report::section_title(section));

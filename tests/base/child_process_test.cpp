@@ -29,6 +29,23 @@ TEST(ChildProcess, GivesItsCodeAndBothStreams) {
   EXPECT_EQ(read_file(log), "") << "the log is begun anew";
 }
 
+// The program waits for a file that is made when its first line is handed over, up to 10 s.
+TEST(ChildProcess, HandsLinesOverWhileItRuns) {
+  const TemporaryFolder folder;
+  const std::string heard = folder.file("heard");
+  std::vector<std::string> lines;
+  const int code = run_program({"/bin/sh", "-c",
+                                "echo one; echo; i=0; until test -e " + heard +
+                                    "; do i=$((i + 1)); test $i -lt 500 || exit 9; sleep 0.02; done; printf two >&2"},
+                               folder.file("log"), [&](const std::string& line) {
+                                 lines.push_back(line);
+                                 std::ofstream(heard) << line;
+                               });
+  EXPECT_EQ(code, 0);
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "", "two"}));
+  EXPECT_EQ(read_file(folder.file("log")), "one\n\ntwo");
+}
+
 // Whether a process runs: neither gone nor a zombie that nobody waits for.
 bool runs(const std::string& pid) {
   std::ifstream stat("/proc/" + pid + "/stat");

@@ -44,10 +44,10 @@ class Capture : public OwnFrame {
 
 TEST_F(Capture, ItsFramesAreWrittenAndListed) {
   reader(two_lights(""));
-  const std::vector<std::string> words = {"capture", "shot.rdc", "--reader", "reader",    "--out",
-                                          "out",     "--light",  "2",        "--casters", "map"};
+  const std::vector<std::string> words = {"capture", "shot.rdc", "--reader", "reader", "--out",
+                                          "out",     "--light",  "2",        "--bias", "0.001"};
   ASSERT_EQ(run(words), 0) << output_;
-  EXPECT_TRUE(says("two lights --light=2 --casters=map")) << output_;
+  EXPECT_TRUE(says("two lights --light=2 --bias=0.001")) << output_;
   EXPECT_TRUE(says("out/frames/light-1.json is written")) << output_;
   ASSERT_EQ(run({"judge", "out/frames/light-1.json", "--out", "alone"}), 0) << output_;
   // A later run leaves nothing of an earlier one, and only that.

@@ -95,6 +95,9 @@ TEST_F(UsersFiles, ThatANewFileWouldReplaceStay) {
     EXPECT_EQ(run(words), 2) << output_;
     EXPECT_TRUE(says("is there already")) << output_;
     EXPECT_EQ(text(file), "mine");
+    Words below = words;
+    below.back() = file + "/" + file;
+    EXPECT_EQ(run(below), 2) << "a file is no folder" << output_;
     EXPECT_EQ(run(words + Words{"--overwrite"}), 0) << output_;
     EXPECT_NE(text(file), "mine");
   }
