@@ -69,9 +69,11 @@ bool set_too_large(const PointRecord& point) {
   return has_usable_bias(point) && *bias_as_set(point) > usable_window(point)->high;
 }
 
-// "The method fails at 9 of 32 points: no value keeps ... ."
-Markup bad_item(std::string_view what, const Markup& how, const std::vector<bool>& chosen) {
-  return item("bad", prose("{}{}.", bold(prose("{} {}", what, where_text(chosen))), how));
+// "The method fails at 9 of 32 points: no value keeps ... (which points)." section: has the windows of all points.
+Markup bad_item(std::string_view what, const Markup& how, const std::vector<bool>& chosen, std::string_view section) {
+  const bool some = std::find(chosen.begin(), chosen.end(), false) != chosen.end();
+  return item("bad", prose("{}{}{}.", bold(prose("{} {}", what, where_text(chosen))), how,
+                           some ? prose(" ({})", section_link(section, "which points")) : Markup()));
 }
 
 // The same of the points whose free setting is this one.
@@ -82,7 +84,7 @@ bool of_setting(const PointRecord& point) {
 
 // How a window of the free setting is told.
 struct WindowWords {
-  const char* name;  // "bias"
+  const char* name;  // "bias", also of the section that has the windows
   std::string keeps;
   const char *too_small, *too_large;
 };
@@ -147,14 +149,11 @@ Markup window_items_of(const Results& results) {
   Markup out;
   const auto fails = flags_of(results, of_setting<setting, lacks_window>);
   const auto hidden = flags_of(results, of_setting<setting, hides_window>);
-  if (any(hidden)) {
-    const Where where = where_text(results, hidden, fails);
-    out += item("bad", prose("{}{}{}", bold(prose("The usable {} is {} {}", words.name, window_not_known, where.count)),
-                             where.list.empty() ? "." : ", with", where.list));
-  }
+  if (any(hidden))
+    out += bad_item(fmt::format("The usable {} is {}", words.name, window_not_known), "", hidden, words.name);
   if (any(fails)) {
     out += bad_item(setting == FreeSetting::bias ? "The method fails" : "No reduction is usable",
-                    prose(": no value of {} keeps {}", parameter, words.keeps), fails);
+                    prose(": no value of {} keeps {}", parameter, words.keeps), fails, words.name);
     if (setting == FreeSetting::reduction) out += item("note", prose("What breaks it:{}", why_no_reductions(results)));
   } else if (!any(hidden)) {
     const bool all = std::all_of(results.points.begin(), results.points.end(), is_of);
@@ -166,8 +165,10 @@ Markup window_items_of(const Results& results) {
   }
   const auto low = flags_of(results, of_setting<setting, set_too_small>),
              high = flags_of(results, of_setting<setting, set_too_large>);
-  if (any(low)) out += bad_item(fmt::format("The {} as set is too small", words.name), words.too_small, low);
-  if (any(high)) out += bad_item(fmt::format("The {} as set is too large", words.name), words.too_large, high);
+  if (any(low))
+    out += bad_item(fmt::format("The {} as set is too small", words.name), words.too_small, low, words.name);
+  if (any(high))
+    out += bad_item(fmt::format("The {} as set is too large", words.name), words.too_large, high, words.name);
   if (!any(low) && !any(high) && any(flags_of(results, of_setting<setting, has_usable_bias>)))
     out += item("good", prose("The {} as set lies within the usable window at every point that has one.", words.name));
   return out;

@@ -11,6 +11,7 @@
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/moment_cures.h"
+#include "compare/report/blocks.h"
 #include "compare/report/data.h"
 #include "compare/report/sections.h"
 #include "compare/report/tables.h"

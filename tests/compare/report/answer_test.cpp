@@ -60,6 +60,8 @@ TEST(Answer, AFilteredMapIsAnsweredWithItsReduction) {
            "it good"));
   EXPECT_TRUE(
       says("No reduction is usable at 1 of 3 points</b>: no value of lookup.reduction keeps the leak at most 0.1"));
+  EXPECT_TRUE(says("darkens at most 0.1\u202f% each (<a href=\"#reduction\">which points</a>)."));
+  EXPECT_TRUE(says("<section id=\"reduction\""));
   EXPECT_TRUE(says(
       ">resolution 256\u202ftexels</a>: without a reduction the leak is 1%; 0.27 keeps it within 0.1%, and there the "
       "reduction darkens 0.135% and over-darkening is 0.01%"));
