@@ -222,7 +222,15 @@ Setting kind_row(const Rows& rows, const KindParameter& parameter, Member of) {
       });
 }
 
-std::vector<Setting> motion_rows();   // technique/motion_rows.cpp
-std::vector<Setting> cascade_rows();  // technique/cascade_rows.cpp
+// The rows of a group or two, each in the file of its name; those of the truth are in lookup_rows.cpp. The table has them in this
+// order.
+std::vector<Setting> view_rows();
+std::vector<Setting> motion_rows();
+std::vector<Setting> light_rows();
+std::vector<Setting> map_rows();
+std::vector<Setting> cascade_rows();
+std::vector<Setting> bias_rows();
+std::vector<Setting> lookup_rows();
+std::vector<Setting> truth_rows();
 
 }  // namespace noonmark::setting_rows
