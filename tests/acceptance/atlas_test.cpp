@@ -74,7 +74,7 @@ TEST(Atlas, EachRowFailsAndHoldsWhereItSays) {
       const std::optional<PointRecord> point = last_point(bench, row, part, part.bounds.front().where);
       ASSERT_TRUE(point);
       for (const BoundResult& bound : evaluate_bounds({&*point, 1}, {&part.bounds.front(), 1}, none))
-        EXPECT_TRUE(bound.held) << bound_text(bound) << ", found " << found_text(bound);
+        EXPECT_TRUE(bound.held) << bound_text(bound) << ", found " << found_text(bound, {&*point, 1});
       holds = true;
     }
     EXPECT_TRUE(fails) << "no technique fails";
