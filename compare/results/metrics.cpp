@@ -14,6 +14,7 @@
 #include "technique/settings.h"
 
 namespace noonmark {
+namespace metric_rows {
 namespace {
 
 using enum Metric::Is;
@@ -513,8 +514,9 @@ const MetricTable& table() {
 }
 
 }  // namespace
+}  // namespace metric_rows
 
-std::span<const Metric> metrics_table() { return table().rows; }
+std::span<const Metric> metrics_table() { return metric_rows::table().rows; }
 
 bool is_of_lights(std::string_view name) {
   return std::any_of(metrics_table().begin(), metrics_table().end(),
