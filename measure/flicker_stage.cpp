@@ -77,60 +77,57 @@ Scene still_scene(const Scene& now, const SceneSettings& next) {
   return scene;
 }
 
-}  // namespace
+// The next frame: its camera, and its maps with the choice that it makes of them. scene: of this frame, with the next one's camera and
+// light.
+struct NextFrame {
+  NextFrame(const FlickerInput& in, const Scene& of, const Settings& settings)
+      : scene(of), camera(effective_camera(of, settings.view)) {
+    const ReceiverImage& receivers = in.view.receivers;
+    const bool several = in.techniques.size() > 1;
+    std::optional<ViewSlice> visible;  // in the next frame's picture
+    if (several && settings.cascades.depths == CascadeDepths::visible)
+      visible = visible_depths(settings, in.stages.take_view(in.renderer, scene, settings.view).receivers, camera);
+    techniques = techniques_of(scene, settings, visible);
+    if (several) in.renderer.load_receivers(receivers, camera.eye_m);
+    choice = in.renderer.choose_maps(techniques.front());
+  }
+  const Scene& scene;
+  Camera camera;
+  std::vector<Technique> techniques;
+  MapChoice choice;
+};
 
-Settings next_frame(const Settings& settings) {
-  Settings next = settings;
-  ++next.view.motion.frame;
-  if (settings.view.motion.time_s != 0)
-    next.scene.time_s = settings.scene.time_s.value_or(0) + settings.view.motion.time_s;
-  return next;
+// Whether each map that has a part in the receiver's result holds it.
+bool all_hold(std::span<const Technique> techniques, const MapChoice& choice, size_t i, glm::dvec3 place,
+              double reach) {
+  for (size_t k = 0; k < techniques.size(); ++k)
+    if (choice.share(i, static_cast<int>(k)) > 0 && !holds(techniques[k].frame, place, reach)) return false;
+  return true;
 }
 
-Flicker trace_flicker(const FlickerInput& in) {
+// The receivers that count. pixels: becomes where the next frame sees each of them.
+FlickerPoints counted_points(const FlickerInput& in, const NextFrame& next, const Settings& settings,
+                             Image<uint32_t>& pixels) {
   const ReceiverImage& receivers = in.view.receivers;
   const int width = receivers.width(), height = receivers.height();
-  const Settings& settings = in.techniques.front().settings;
-  const Settings next = next_frame(settings);
-  const bool several = in.techniques.size() > 1;
-  std::optional<Scene> moved;
-  if (settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, next.scene);
-  const Scene& scene = moved ? *moved : *in.loaded.scene;
-  const Camera camera = effective_camera(scene, next.view);
-  std::optional<ViewSlice> visible;  // in the next frame's picture
-  if (several && settings.cascades.depths == CascadeDepths::visible)
-    visible = visible_depths(next, in.stages.take_view(in.renderer, scene, next.view).receivers, camera);
-  const std::vector<Technique> next_techniques = techniques_of(scene, next, visible);
-  const Technique& next_technique = next_techniques.front();
-  const LightFrame& next_light = next_technique.frame;
-
-  // The receivers that count.
-  const CameraFrame camera_frame = make_camera_frame(camera, width, height);
-  const bool still = same_place(camera, in.view.camera);
+  const CameraFrame camera_frame = make_camera_frame(next.camera, width, height);
+  const bool still = same_place(next.camera, in.view.camera);
+  const LightFrame& next_light = next.techniques.front().frame;
   std::optional<raytrace::SeenReceivers> seen;
   std::optional<ReceiverTruth> truth;
-  if (!still) seen = in.loaded.tracer->seen_by(receivers, camera);
+  if (!still) seen = in.loaded.tracer->seen_by(receivers, next.camera);
   if (!same_light(in.techniques.front().frame, next_light))
-    truth = in.loaded.tracer->receiver_truth(receivers, next_light, {effective_light(scene, next)});
+    truth = in.loaded.tracer->receiver_truth(receivers, next_light, {effective_light(next.scene, settings)});
   const ReceiverTruth& before = in.truth.receivers;
   const ReceiverTruth& after = truth ? *truth : before;
   FlickerPoints points{Image<uint8_t>(width, height, 0), Image<uint8_t>(width, height, 0)};
-  const double reach = reach_of_taps(next_technique.taps);
-  Image<uint32_t> pixels(width, height, 0);
-  // Whether each map that has a part in the receiver's result holds it.
-  const auto all_hold = [&](std::span<const Technique> techniques, const MapChoice& choice, size_t i) {
-    const glm::dvec3 place(receivers.position[i]);
-    for (size_t k = 0; k < techniques.size(); ++k)
-      if (choice.share(i, static_cast<int>(k)) > 0 && !holds(techniques[k].frame, place, reach)) return false;
-    return true;
-  };
-  if (several) in.renderer.load_receivers(receivers, camera.eye_m);
-  const MapChoice next_choice = in.renderer.choose_maps(next_technique);  // as the next frame's camera chooses
+  const double reach = reach_of_taps(next.techniques.front().taps);
   for (size_t i = 0; i < pixels.size(); ++i) {
     pixels[i] = static_cast<uint32_t>(i);
     if (!before.facing[i] || before.ambiguous[i]) continue;
+    const glm::dvec3 place(receivers.position[i]);
     if (!still) {
-      const uint32_t pixel = pixel_seen_at(camera_frame, glm::dvec3(receivers.position[i]), width, height);
+      const uint32_t pixel = pixel_seen_at(camera_frame, place, width, height);
       if (pixel == no_pixel) {
         ++points.outside;
         continue;
@@ -151,21 +148,46 @@ Flicker trace_flicker(const FlickerInput& in) {
       continue;
     }
     points.counted[i] = 1;
-    points.held[i] = all_hold(in.techniques, in.choice, i) && all_hold(in.techniques, next_choice, i) &&
-                     all_hold(next_techniques, next_choice, i);
+    points.held[i] = all_hold(in.techniques, in.choice, i, place, reach) &&
+                     all_hold(in.techniques, next.choice, i, place, reach) &&
+                     all_hold(next.techniques, next.choice, i, place, reach);
   }
+  return points;
+}
+
+bool same_maps(std::span<const Technique> a, std::span<const Technique> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Technique& x, const Technique& y) { return same_map(x.frame, y.frame); });
+}
+
+}  // namespace
+
+Settings next_frame(const Settings& settings) {
+  Settings next = settings;
+  ++next.view.motion.frame;
+  if (settings.view.motion.time_s != 0)
+    next.scene.time_s = settings.scene.time_s.value_or(0) + settings.view.motion.time_s;
+  return next;
+}
+
+Flicker trace_flicker(const FlickerInput& in) {
+  const ReceiverImage& receivers = in.view.receivers;
+  const Settings& settings = in.techniques.front().settings;
+  const Settings of_next = next_frame(settings);
+  std::optional<Scene> moved;
+  if (settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, of_next.scene);
+  const NextFrame next(in, moved ? *moved : *in.loaded.scene, of_next);
+  Image<uint32_t> pixels(receivers.width(), receivers.height(), 0);
+  FlickerPoints points = counted_points(in, next, of_next, pixels);
 
   // The lookups, each of which differs from the one before in one respect. Of several maps by the next frame's choice.
   const auto shown = [&](std::span<const Technique> techniques) {
-    const MapStage map = in.stages.draw_maps(in.renderer, scene, techniques);
-    return mixed_results(in.stages.look_up(in.renderer, *map.map, techniques), next_choice);
+    const MapStage map = in.stages.draw_maps(in.renderer, next.scene, techniques);
+    return mixed_results(in.stages.look_up(in.renderer, *map.map, techniques), next.choice);
   };
-  const auto same_maps = [](std::span<const Technique> a, std::span<const Technique> b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const Technique& x, const Technique& y) { return same_map(x.frame, y.frame); });
-  };
+  const bool several = in.techniques.size() > 1;
   std::optional<Image<float>> choice;
-  std::vector<Technique> same_depths = next_techniques;
+  std::vector<Technique> same_depths = next.techniques;
   for (size_t k = 0; k < same_depths.size(); ++k) {
     const LightFrame& now = in.techniques[k].frame;
     same_depths[k].frame.near_m = now.near_m;
@@ -173,17 +195,18 @@ Flicker trace_flicker(const FlickerInput& in) {
   }
   if (several) {  // the next frame's choice, with its eye, in this frame's maps
     std::vector<Technique> chosen(in.techniques.begin(), in.techniques.end());
-    for (size_t k = 0; k < chosen.size(); ++k) chosen[k].cascade = next_techniques[k].cascade;
+    for (size_t k = 0; k < chosen.size(); ++k) chosen[k].cascade = next.techniques[k].cascade;
     choice = shown(chosen);
   }
   const Image<float>& before_grid = choice ? *choice : in.r5;
   const Image<float> grid = same_maps(same_depths, in.techniques) ? before_grid : shown(same_depths);
-  const Image<float> depth = same_maps(next_techniques, same_depths) ? grid : shown(next_techniques);
+  const Image<float> depth = same_maps(next.techniques, same_depths) ? grid : shown(next.techniques);
   Image<float> last = depth;
-  const bool turns = next_technique.taps.variants > 1 || next_technique.taps.scaled_by_view;
+  const TapPattern& taps = next.techniques.front().taps;
+  const bool turns = taps.variants > 1 || taps.scaled_by_view;
   if (turns) {
-    in.renderer.load_receivers(receivers, camera.eye_m, &pixels);
-    last = shown(next_techniques);
+    in.renderer.load_receivers(receivers, next.camera.eye_m, &pixels);
+    last = shown(next.techniques);
   }
   if (turns || several) in.renderer.load_receivers(receivers, in.view.camera.eye_m);
   return flicker_of({in.r5, before_grid, grid, depth, last}, std::move(points));
