@@ -1,6 +1,6 @@
 // What a point is measured for beside the ladder of its picture. Only what was asked for is made.
 //
-//   Extras extras = extras_of({bench, asked, looked, maps, checks}, curve, MetricSet::all);
+//   Extras extras = extras_of(in, curve_options, MetricSet::all);
 //   for (const auto& extra : extras.each) extra->put(measurement);
 #pragma once
 #include <memory>

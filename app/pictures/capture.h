@@ -1,7 +1,7 @@
 // Frames of another program, read from a RenderDoc capture by the reader, a Python program of its own (captures/).
 //
 //   const std::vector<std::string> command = capture_command("frame.rdc", "");
-//   for (const std::string& frame : read_capture(command, "out/frames", {"--light=1"}, print_line).frames) print(frame);
+//   for (const std::string& frame : read_capture(command, "out/frames", {"--light=1"}, print_line)) print(frame);
 #pragma once
 #include <functional>
 #include <string>
