@@ -273,9 +273,9 @@ MapDepths Renderer::read_map(const ShadowMap& map, const std::shared_ptr<const T
 }
 
 double map_bytes(double texels, bool kept, bool cube) {
-  // A small one with the exact map and the tie map [12.6], the texture that probes a cube [4], a large one alone [4.3]. The set of
-  // the texels that are asked for takes 2 bits of each.
-  constexpr double per_kept_texel = 14, per_index_texel = 4, per_large_texel = 5;
+  // A small one with the exact map and the tie map [12.6], the texture that probes a cube [4], a large one alone [4.3; with Mesa 25
+  // 5.6]. The set of the texels that are asked for takes 2 bits of each.
+  constexpr double per_kept_texel = 14, per_index_texel = 4, per_large_texel = 6;
   constexpr double per_band_texel = 12, most_bands = 60e6;
   const double each = kept ? per_kept_texel + (cube ? per_index_texel : 0) : per_large_texel;
   return texels * each + std::min(texels * per_band_texel, most_bands);

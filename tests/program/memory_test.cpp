@@ -171,15 +171,15 @@ double peak_of_this_process() {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Strips have half a MB. The taps of the widest kernel fill 30 of them.
+// Strips have half a MB. The taps of the widest kernel fill 120 of them.
 TEST_F(Memory, DoesNotGrowWithTheKernel) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // a new process: other tests of this one may have used more
   const auto measure = [](const char* size) {
     Settings settings;
     for (const auto& [name, value] :
          std::initializer_list<std::pair<const char*, const char*>>{{"scene.name", "plane"},
-                                                                    {"view.width_px", "160"},
-                                                                    {"view.height_px", "100"},
+                                                                    {"view.width_px", "320"},
+                                                                    {"view.height_px", "200"},
                                                                     {"filter.kind", "box"},
                                                                     {"filter.size", size},
                                                                     {"map.resolution", "256"}})
@@ -197,7 +197,7 @@ TEST_F(Memory, DoesNotGrowWithTheKernel) {
       {
         const double bytes = grows_by();
         std::cerr << "it grows by " << bytes << " bytes\n";
-        _exit(bytes < 7e6 ? 0 : 1);  // all taps together would take 15 MB
+        _exit(bytes < 25e6 ? 0 : 1);  // all taps together would take 61 MB, the wide kernel's shader up to 15 (Mesa 25)
       },
       testing::ExitedWithCode(0), "it grows by");
 }
