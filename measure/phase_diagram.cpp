@@ -182,7 +182,7 @@ std::string technique_text(const Settings& settings) {
 }
 
 // Throws Error(usage) if more receivers are ambiguous than one of the bounds lets be wrong.
-void require_known(const ReceiverTruth& truth, const CauseBounds& bounds) {
+void require_known(const ReceiverTruth& truth) {
   PointRecord record;
   double& facing = record.metrics["facing"];
   double& ambiguous = record.metrics["ambiguous"];
@@ -191,7 +191,7 @@ void require_known(const ReceiverTruth& truth, const CauseBounds& bounds) {
     ambiguous += truth.facing[i] && truth.ambiguous[i];
   }
   ambiguous /= facing;
-  if (hides_more_than(record, bounds))
+  if (hides_bounds(record))
     throw Error(ErrorKind::usage,
                 fmt::format("it is not known which texels and biases are usable: {}", ambiguous_note(record)));
 }
@@ -225,7 +225,7 @@ Settings phase_settings(const Settings& given, const Scene& scene) {
 PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& tracer, const Scene& scene,
                            const ViewStage& view, const TruthStage& truth, const Settings& given,
                            const PhaseOptions& options, const RowDone& row_done) {
-  require_known(truth.receivers, options);
+  require_known(truth.receivers);
   PhaseDiagram diagram;
   diagram.width_px = view.receivers.width();
   diagram.height_px = view.receivers.height();
@@ -286,7 +286,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
 
 PhaseDiagram rejudged_phase(const PhaseDiagram& measured, const Scene& scene, const ViewStage& view,
                             const TruthStage& truth, const Settings& given, const PhaseOptions& options) {
-  require_known(truth.receivers, options);
+  require_known(truth.receivers);
   PhaseDiagram diagram = measured;
   static_cast<CauseBounds&>(diagram) = options;
   Settings settings = given;

@@ -45,7 +45,7 @@ Settings Screening::of_choice(Settings settings, size_t level, size_t place, con
 }
 
 void Screening::see(const PointRecord& record) {
-  if (hides_more_than(record, request_.curve))
+  if (hides_bounds(record))
     throw Error(ErrorKind::usage,
                 fmt::format("no bound on acne or Peter Panning can be said to hold: {}", ambiguous_note(record)));
   const double lit = metric_of(record, "lit");

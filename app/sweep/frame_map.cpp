@@ -89,7 +89,7 @@ std::string bias_text(const GivenClimb& climbed, const Settings& declared, const
   const auto in_unit = [&](double depth) { return fmt::format("{:.3g}", depth / climbed.depth_per_unit); };
   std::string says = fmt::format("{} is {} {}; ", curve.parameter, find_setting(curve.parameter).get(declared),
                                  find_setting("bias.unit").get(declared));
-  if (hides_more_than(frame, curve)) return says + "what is usable is " + std::string(window_not_known);
+  if (hides_bounds(frame)) return says + "what is usable is " + std::string(window_not_known);
   if (!curve.window_min_depth) return says + "no value of it keeps both acne and Peter Panning below 0.1%";
   says += "from " + in_unit(*curve.window_min_depth);
   if (curve.window_max_depth) says += " to " + in_unit(*curve.window_max_depth);

@@ -202,7 +202,7 @@ std::optional<Interval> usable_window(const BiasCurve& curve) {
   return Interval{*low, *high};
 }
 
-bool hides_window(const PointRecord& point) { return has_curve(point) && hides_more_than(point, curve_bounds(point)); }
+bool hides_window(const PointRecord& point) { return has_curve(point) && hides_bounds(point); }
 
 std::optional<Interval> usable_window(const PointRecord& point) {
   if (hides_window(point)) return std::nullopt;

@@ -68,8 +68,8 @@ std::optional<double> bias_as_set(const PointRecord& point);
 // The usable window of the curve: at every placement of the grid if the point has placements, otherwise at its own.
 // In window depth. Empty if no bias is good enough.
 std::optional<Interval> usable_window(const BiasCurve& curve);
-// Whether the point has a curve, but so many receivers are ambiguous that its usable window is not known (hides_more_than() its
-// bounds, compare/judge/undecided.h).
+// Whether the point has a curve, but so many receivers are ambiguous that its usable window is not known (hides_bounds(),
+// compare/judge/undecided.h).
 bool hides_window(const PointRecord& point);
 // The window of the point's free setting. Empty also without a curve, and where it hides_window().
 std::optional<Interval> usable_window(const PointRecord& point);

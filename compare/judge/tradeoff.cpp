@@ -55,9 +55,8 @@ ComparedChoice at_best_bias(const Choice& choice, const Results& results) {
   ComparedChoice one;
   one.choice = choice, one.usable = joined_window(choice), one.good = good_choice(choice, results);
   one.judged = has_criterion(choice, results);
-  if (std::any_of(choice.points.begin(), choice.points.end(), [](const PointRecord* point) {
-        return hides_more_than(*point, has_curve(*point) ? curve_bounds(*point) : CauseBounds());
-      }))
+  if (std::any_of(choice.points.begin(), choice.points.end(),
+                  [](const PointRecord* point) { return hides_bounds(*point); }))
     one.window = Window::unknown;
   if (!has_curves(choice)) return one;
   if (one.window != Window::unknown) one.window = one.usable ? Window::usable : Window::empty;

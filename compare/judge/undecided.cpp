@@ -66,9 +66,7 @@ std::string undecided_note(const BoundResult& bound, const PointRecord& point) {
                      quantity_text(undecided, "fraction"), bound.metric);
 }
 
-bool hides_more_than(const PointRecord& point, const CauseBounds& bounds) {
-  return many_ambiguous_of(point) > std::min(bounds.acne_bound, bounds.peter_panning_bound);
-}
+bool hides_bounds(const PointRecord& point) { return many_ambiguous_of(point) > 0; }
 
 double many_ambiguous(double ambiguous, double receivers) {
   const double usual = much_ambiguous * receivers;
@@ -84,12 +82,13 @@ double ambiguous_room(const PointRecord& point, std::string_view quantity) {
     if (is_cascade_bias(quantity)) return of_curve;
     quantity.remove_prefix(quantity.rfind('.') + 1);
   }
-  if (quantity.starts_with("edge_displacement") || quantity.starts_with("peter_panning_gap")) return any;
   for (const CurveQuantity& row : curve_quantities())
     if (row.name == quantity) return of_curve;
   for (const Metric& row : metrics_table())
-    if (row.name == quantity)  // what is not plotted is a count or a check, and map_ is a share of texels
+    if (row.name == quantity) {  // what is not plotted is a count or a check, and map_ is a share of texels
+      if (row.of_any_size) return any;
       return row.unit == "fraction" && row.plotted && !quantity.starts_with("map_") ? share : 0;
+    }
   return is_brought(point, quantity) ? share : 0;
 }
 

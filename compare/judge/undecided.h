@@ -31,11 +31,11 @@ inline constexpr double much_ambiguous = 0.001;
 // few at an edge are no sign: their number must be further above what is usual than three of its standard deviations.
 double many_ambiguous(double ambiguous, double receivers);
 
-// Whether many receivers are ambiguous, and more than one of the bounds lets be wrong: then it is not known which values keep them.
-bool hides_more_than(const PointRecord& point, const CauseBounds& bounds);
+// Whether many receivers are ambiguous: then it is not known which biases keep a bound, and which error is the least.
+bool hides_bounds(const PointRecord& point);
 
 // By how much the quantity of all facing receivers may differ from that of the counted ones: of a share the ambiguous share,
-// and infinity of a largest distance, and of what a curve says if that hides_more_than() its bounds. 0 where not many are ambiguous,
+// and infinity of what has no such limit (Metric::unbounded) and of what a curve says. 0 where not many are ambiguous,
 // where the record does not have their number, of a quantity that does not depend on the truth, and of any other name (a setting).
 double ambiguous_room(const PointRecord& point, std::string_view quantity);
 

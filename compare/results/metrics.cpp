@@ -28,7 +28,7 @@ constexpr Metric before_causes[] = {
     {"wrong_patch", "fraction",
      "The largest patch of wrong pixels, as a share of the whole picture: counted receivers that touch at a side or a "
      "corner, and whose R5 and R1 are not on the same side of one half.",
-     plot},
+     plot | unbounded},
 };
 
 // After the row of a cause.
@@ -37,7 +37,7 @@ constexpr std::pair<std::string_view, Metric> beside_causes[] = {
      {"aliasing_rms", "fraction",
       "Root mean square of aliasing over the receivers. A filter spreads jagged edges over more pixels, each less "
       "wrong: that lowers this number and leaves the mean as it is.",
-      plot}},
+      plot | unbounded}},
     {"peter_panning",
      {"peter_panning_lit", "fraction",
       "The part of peter_panning at receivers that are lit in truth. Without a filter and without a normal offset it "
@@ -45,10 +45,11 @@ constexpr std::pair<std::string_view, Metric> beside_causes[] = {
       plot}},
     {"leak",
      {"leak_largest", "fraction", "Of a map of moments: the largest leak of a receiver, as a share of full light.",
-      plot | moments}},
+      plot | moments | unbounded}},
     {"over_darkening",
      {"over_darkening_largest", "fraction",
-      "Of a map of moments: the largest over-darkening of a receiver, as a share of full light.", plot | moments}},
+      "Of a map of moments: the largest over-darkening of a receiver, as a share of full light.",
+      plot | moments | unbounded}},
     {"undecided",
      {"undecided_taps", "fraction",
       "Weight of the taps whose truth changes within float error, whether they are right or wrong.", plot}},
@@ -58,25 +59,26 @@ constexpr Metric measured_with_causes[] = {
     {"peter_panning_gap_m", "m",
      "Largest width of a lit gap between an occluder and its shadow, along the light's trace on the surface (at a "
      "corner it is wider than along the wall). Of a map of moments: where Peter Panning lights by a half or more.",
-     plot},
+     plot | unbounded},
     {"edge_displacement_texels", "texels",
-     "Largest distance from an aliased tap to the true shadow edge, across the light's rays, in texels there.", plot},
+     "Largest distance from an aliased tap to the true shadow edge, across the light's rays, in texels there.",
+     plot | unbounded},
     {"edge_displacement_mean_texels", "texels",
      "Mean over the receivers of the distance from the farthest aliased tap to the true shadow edge, across the "
      "light's rays, in texels there.",
-     plot},
+     plot | unbounded},
     {"edge_displacement_pixels", "pixels",
      "Largest distance in the picture from an edge that filter, displacement and aliasing draw to the nearest true "
      "shadow edge (R1) on the same surface. A soft edge lies where it crosses one half.",
-     plot},
+     plot | unbounded},
     {"edge_displacement_mean_pixels", "pixels",
      "Mean over the pixels of the drawn edges of their distance in the picture to the nearest true shadow edge on the "
      "same surface.",
-     plot},
+     plot | unbounded},
     {"edge_displacement_p95_pixels", "pixels",
      "The distance in the picture to the nearest true shadow edge on the same surface that 95% of the pixels of the "
      "drawn edges do not exceed.",
-     plot},
+     plot | unbounded},
     {"receivers", "count", "Number of pixels that see a surface.", number},
     {"facing", "count", "Number of receivers that face the light.", number},
     {"counted", "count",
@@ -90,7 +92,7 @@ constexpr Metric measured_with_causes[] = {
     {"attached", "count",
      "Number of receivers that face away from the light. They are dark by shading and are left out of all errors.",
      number},
-    {"lit", "fraction", "Share of the counted receivers that the light reaches (R1).", number},
+    {"lit", "fraction", "Share of the counted receivers that the light reaches (R1).", unbounded},
     {"ambiguous", "fraction",
      "Share of the facing receivers whose truth R1 changes within float error. They are left out of all errors.",
      number},
@@ -137,16 +139,16 @@ constexpr Metric measured_with_causes[] = {
     {"counted_area_m2", "m2",
      "Area of the light's plane that the counted receivers cover. Under a spot or point light: the sum of their areas "
      "across their light rays.",
-     number},
+     unbounded},
     {"filter_area_m2", "m2", "The filter's blur as an area of the light's plane instead of a share of the picture.",
-     plot},
+     plot | unbounded},
     {"displacement_area_m2", "m2", "Displacement as an area of the light's plane instead of a share of the picture.",
-     plot},
+     plot | unbounded},
     {"aliasing_area_m2", "m2",
-     "Aliasing, dark and light, as an area of the light's plane instead of a share of the picture.", plot},
-    {"acne_area_m2", "m2", "Acne as an area of the light's plane instead of a share of the picture.", plot},
+     "Aliasing, dark and light, as an area of the light's plane instead of a share of the picture.", plot | unbounded},
+    {"acne_area_m2", "m2", "Acne as an area of the light's plane instead of a share of the picture.", plot | unbounded},
     {"peter_panning_area_m2", "m2", "Peter Panning as an area of the light's plane instead of a share of the picture.",
-     plot},
+     plot | unbounded},
     {"contract", "fraction",
      "Share of the facing receivers at which R4, R5 or the lookup in the tie map is not, bit for bit, what the "
      "technique's definition gives for the numbers read back (where a sampler blends taps: not within its rounding). "
@@ -176,14 +178,16 @@ constexpr Metric measured_with_causes[] = {
     {"best_reduction", "",
      "Of a map of moments: the lookup.reduction of least error against R1, on the exact map. Measured with a curve, "
      "but not with lookup.reduction_span or a blend band of cascades.",
-     plot | moments},
-    {"best_reduction_error", "fraction", "Of a map of moments: mean |R4 - R1| at best_reduction.", plot | moments},
+     plot | moments | unbounded},
+    {"best_reduction_error", "fraction", "Of a map of moments: mean |R4 - R1| at best_reduction.",
+     plot | moments | unbounded},
     {"reduction_min", "",
      "Of a map of moments: the least lookup.reduction at which the leak is within curve.peter_panning_bound, and "
      "over-darkening and what the reduction darkens are each within curve.acne_bound. Left out if no reduction is. "
      "Measured with a curve.",
-     plot | moments},
-    {"reduction_max", "", "Of a map of moments: the largest such lookup.reduction, at most 0.99.", plot | moments},
+     plot | moments | unbounded},
+    {"reduction_max", "", "Of a map of moments: the largest such lookup.reduction, at most 0.99.",
+     plot | moments | unbounded},
     {"rounding_excess", "",
      "Largest error of the numbers that the lookup computes (address, reference depth, N.L, and what bias and filter "
      "need) against the light's frame in double, as a multiple of the largest error that float arithmetic can make. "
@@ -229,11 +233,11 @@ constexpr Metric measured_with_causes[] = {
     {"shaded_rmse", "",
      "Root mean square difference over the receivers of two shaded frames (Blinn-Phong clay, linear light, 1 is "
      "white): one with the map's shadow (R5), one with the true shadow (R1).",
-     plot},
+     plot | unbounded},
     {"flip", "",
      "Mean FLIP over the picture of the two shaded frames as they are shown (8-bit sRGB, 67 pixels per degree): from "
      "0, nobody sees a difference, to 1.",
-     plot},
+     plot | unbounded},
     {"map_used", "fraction",
      "Share of the map's texels that hold anything: a depth below 1, as OpenGL draws it. The rest is empty space about "
      "the scene.",
@@ -352,17 +356,17 @@ constexpr Metric of_several_lights[] = {
      "Frame of several lights: root mean square difference over the counted pixels and the three colours of the shaded "
      "frame and the true one (diffuse clay, linear light; white is the light that 95% of the pixels that are lit in "
      "truth do not exceed).",
-     plot | lights},
+     plot | lights | unbounded},
     {"lights_flip", "",
      "Frame of several lights: mean FLIP of the shaded frame and the true one, as they are shown (8-bit sRGB, 67 "
      "pixels per degree).",
-     plot | lights},
+     plot | lights | unbounded},
     {"light_error", "fraction",
      "This light's part of the frame's error: mean over the frame's counted pixels of w |R5 - R1|.", plot | lights},
     {"light_share", "fraction",
      "light_error as a share of its sum over all lights of the frame. The sum is at least lights_error: at a pixel, "
      "two lights can err against each other.",
-     plot | lights},
+     plot | lights | unbounded},
     {"light_weight", "fraction",
      "This light's share of the light without shadows: mean w over the frame's counted pixels.", plot | lights},
     {"lights_counted", "count",
@@ -379,9 +383,9 @@ constexpr Metric over_placements[] = {
     {"reduction_min_worst", "",
      "Of a map of moments without cascades: the least lookup.reduction that is within both bounds of reduction_min at "
      "every placement of the texel grid. Left out if no reduction is.",
-     plot | placements | moments},
+     plot | placements | moments | unbounded},
     {"reduction_max_worst", "", "Of a map of moments without cascades: the largest such lookup.reduction.",
-     plot | placements | moments},
+     plot | placements | moments | unbounded},
     {"error_worst_shown", "fraction",
      "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.",
      plot | placements},
@@ -502,7 +506,8 @@ const MetricTable& table() {
              text(std::string(what) + " over the placements of the texel grid (map.placements) of " +
                   std::string(name) + ", on the exact map" +
                   (std::string_view(ending) == "worst" ? ". The largest of all placements may be a tenth more." : ".")),
-             plot | placements | (only_of_moments(name) ? moments : number)});
+             plot | placements | (only_of_moments(name) ? moments : number) |
+                 (name == "aliasing_rms" ? unbounded : number)});
       }
     t.rows.insert(t.rows.end(), std::begin(over_placements), std::end(over_placements));
     t.rows.insert(t.rows.end(), std::begin(from_frame_to_frame), std::end(from_frame_to_frame));

@@ -16,7 +16,8 @@ struct Metric {
     frames = 8,      // another renderer's frame (frames/judge.h)
     lights = 16,     // a frame of several lights (measure/lights_frame.h)
     cascades = 32,   // cascades.count above 1
-    moments = 64     // a lookup in a map of moments (lookup.kind)
+    moments = 64,    // a lookup in a map of moments (lookup.kind)
+    unbounded = 128  // a receiver more or less can change it by any amount; of other fractions by its share at most
   };
   constexpr Metric(std::string_view its_name, std::string_view its_unit, std::string_view its_help, unsigned is)
       : name(its_name),
@@ -28,13 +29,14 @@ struct Metric {
         of_frames(is & frames),
         of_lights(is & lights),
         of_cascades(is & cascades),
-        of_moments(is & moments) {}
+        of_moments(is & moments),
+        of_any_size(is & unbounded) {}
 
   std::string_view name;
   std::string_view
       unit;  // "fraction", "m", "depth", "texels", "pixels", "deg", "count", "bytes", "ms"; "": a plain number
   std::string_view help;  // one sentence
-  bool plotted, of_placements, of_motion, of_frames, of_lights, of_cascades, of_moments;
+  bool plotted, of_placements, of_motion, of_frames, of_lights, of_cascades, of_moments, of_any_size;
   bool optional() const { return of_placements || of_motion || of_frames || of_lights || of_cascades || of_moments; }
 };
 

@@ -556,6 +556,8 @@ TEST(Bounds, AWindowIsNotKnownWhereMuchIsAmbiguous) {
   point.metrics["facing"] = 1e6;
   ASSERT_TRUE(point.curve);
   point.curve->window_min_depth = 0, point.curve->window_max_depth = 1;
+  point.curve->acne_bound = point.curve->peter_panning_bound =
+      0.2;  // more than is ambiguous, but its window would be another
   for (const double ambiguous : {0.0, 0.142}) {
     point.metrics["ambiguous"] = ambiguous;
     EXPECT_EQ(hides_window(point), ambiguous > 0);
@@ -582,6 +584,9 @@ TEST(Bounds, AValueThatHoldsSaysHowMuchIsAmbiguous) {
   EXPECT_EQ(ambiguous_room(points[0], "cascades.2.error"), 0.142);
   EXPECT_EQ(ambiguous_room(points[0], "cascades.2.texel_m"), 0);
   EXPECT_EQ(ambiguous_room(points[0], "map.resolution"), 0) << "no quantity";
+  for (const char* metric : {"aliasing_area_m2", "aliasing_rms", "aliasing_rms_worst", "leak_largest", "reduction_max",
+                             "flip", "wrong_patch", "edge_displacement_texels", "lit", "light_share"})
+    EXPECT_TRUE(std::isinf(ambiguous_room(points[0], metric)) || find_metric(metric).of_lights) << metric;
 }
 
 }  // namespace
