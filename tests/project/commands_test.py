@@ -46,7 +46,6 @@ NOT_RUN = {
     "node shoot.mjs": "engine_frames.are_judged does, where node and Chromium are",
     "noonmark judge": "engine_frames.are_judged has frames of an engine",
     "noonmark capture": "picture.Capture does, with a reader of its own",
-    "xvfb-run": "it needs RenderDoc and a program to capture",
     "AFTER_S=": "it needs RenderDoc and a program to capture",
     "cc -shared": "it needs a header of RenderDoc's",
     "noonmark check frames.toml": "engine_frames.are_judged has frames of an engine",
