@@ -32,7 +32,8 @@ std::string what_to_install(const std::string& why) {
   const std::string library = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
   if (library == image_module_file)
     return "it belongs in lib/noonmark, beside the program's folder; build or install again";
-  if (library.starts_with("libOpenImageIO")) return "on Debian, apt install libopenimageio2.4";
+  const std::string soname = "libOpenImageIO.so.";  // and its version, which the package has in its name
+  if (library.starts_with(soname)) return "on Debian, apt install libopenimageio" + library.substr(soname.size());
   return fmt::format("{} is a library that OpenImageIO needs; install the package that contains it", library);
 }
 

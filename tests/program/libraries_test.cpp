@@ -1,4 +1,5 @@
 // Which shared libraries the program loads, and its messages if one is missing.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,6 +34,12 @@ class Libraries : public Program {
     const int code = run(arguments);
     unsetenv("LD_LIBRARY_PATH");
     return code;
+  }
+  // "2.4": of the OpenImageIO that is here.
+  std::string image_version() {
+    run({"doctor"});
+    std::smatch found;
+    return std::regex_search(output_, found, std::regex("OpenImageIO ([0-9]+\\.[0-9]+)\\.")) ? found[1].str() : "";
   }
 };
 
@@ -113,6 +120,7 @@ TEST_F(Libraries, WithoutOpenGlSaysWhatToInstall) {
     EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
     EXPECT_EQ(run_without(missing, {"settings"}), 0) << output_;
   }
+  if (!dlopen("libOpenGL.so.0", RTLD_LAZY) || !dlopen("libGL.so.1", RTLD_LAZY)) return;  // only one of them is installed
   for (const char* one : {"libOpenGL.so.0", "libGL.so.1"})
     EXPECT_EQ(run_without({one}, {"doctor"}), 0) << "one of the two libraries must be enough: " << output_;
 }
@@ -120,7 +128,7 @@ TEST_F(Libraries, WithoutOpenGlSaysWhatToInstall) {
 // OpenImageIO reads the pictures of other programs; what the program writes needs it nowhere.
 TEST_F(Libraries, WithoutOpenImageIoMeasuresAndReadsNoPictures) {
   write("pictures.toml", "scene = \"plate\"\nexr = true\n[view]\nwidth_px = 16\nheight_px = 9\n");
-  const std::vector<std::string> missing = {"noonmark_images.so", "libOpenImageIO.so.2.4"};
+  const std::vector<std::string> missing = {"noonmark_images.so", "libOpenImageIO.so." + image_version()};
   EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
   EXPECT_TRUE(says("Pictures  NOT USABLE") && says("noonmark_images.so")) << output_;
   EXPECT_TRUE(says("it belongs in lib/noonmark") && !says("apt install")) << output_;
@@ -137,8 +145,9 @@ TEST_F(Libraries, WithoutOpenImageIoMeasuresAndReadsNoPictures) {
 }
 
 TEST_F(Libraries, AdvisesOnTheOneThatIsMissing) {
-  EXPECT_EQ(run_without({"libOpenImageIO.so.2.4"}, {"doctor"}), 4) << output_;
-  EXPECT_TRUE(says("Pictures  NOT USABLE") && says("apt install libopenimageio2.4")) << output_;
+  const std::string version = image_version();
+  EXPECT_EQ(run_without({"libOpenImageIO.so." + version}, {"doctor"}), 4) << output_;
+  EXPECT_TRUE(says("Pictures  NOT USABLE") && says("apt install libopenimageio" + version)) << output_;
   EXPECT_TRUE(says("OpenGL    ") && !says("OpenGL    NOT USABLE")) << output_;
   // A library that OpenImageIO needs and the program itself does not.
   EXPECT_EQ(run_without({"libGLX.so.0"}, {"doctor"}), 4) << output_;
