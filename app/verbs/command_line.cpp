@@ -29,8 +29,9 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_option_opts(const CLI::Option* option) const override {
     std::string text = CLI::Formatter::make_option_opts(option);
     if (option->get_default_str().empty()) return text;
-    const std::string by_default = "=" + option->get_default_str();
-    if (const size_t at = text.find(by_default); at != std::string::npos) text.erase(at, by_default.size());
+    const std::string value = option->get_default_str();
+    for (const std::string& by_default : {"=" + value, " [" + value + "] "})  // of CLI11 2.3 and of 2.4
+      if (const size_t at = text.find(by_default); at != std::string::npos) text.erase(at, by_default.size());
     return text;
   }
   std::string make_option_desc(const CLI::Option* option) const override {
