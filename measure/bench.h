@@ -175,7 +175,7 @@ struct Bench {
   ShownMaps show_maps(const Asked& asked, const ViewStage& seen, KeptMaps& kept, const PointMaps& maps,
                       MetricSet metrics, bool keep_fetched = false, Checks checks = Checks::all);
 
-  // Each map of a point with its ladder. Fills `extras` with what they read on the way.
+  // Computes the ladder of each map of a point. While the taps of a map are in memory, each of the extras reads them.
   std::vector<ClimbedMap> climb(const Asked& asked, const ViewStage& seen, const PointMaps& maps, Extras& extras,
                                 MetricSet metrics, Checks checks);
 

@@ -180,7 +180,7 @@ Flicker trace_flicker(const FlickerInput& in) {
   Image<uint32_t> pixels(receivers.width(), receivers.height(), 0);
   FlickerPoints points = counted_points(in, next, of_next, pixels);
 
-  // The lookups, each of which differs from the one before in one respect. Of several maps by the next frame's choice.
+  // Each lookup differs from the one before it in one respect. With several maps, the next frame says which map a receiver uses.
   const auto shown = [&](std::span<const Technique> techniques) {
     const MapStage map = in.stages.draw_maps(in.renderer, next.scene, techniques);
     return mixed_results(in.stages.look_up(in.renderer, *map.map, techniques), next.choice);

@@ -23,8 +23,8 @@ std::map<std::string, double> join_laws(MetricsOfMaps maps, bool read_moments);
 std::map<std::string, double> join_soundness(MetricsOfMaps maps, const std::map<std::string, double>& of_first);
 
 // The metrics of placement_metrics(): means over all counted receivers of what each map has at its own worst, mean and best. The grids
-// of cascades lie independently of each other, so each is a real placement of the whole. Which placement it is has no name
-// then. receivers: the sum of the shares that each map has in the results of its receivers (PlacementStage::receivers). Where
+// of cascades lie independently of each other, so each is a real placement of the whole. Several maps have no common placement that could be
+// named. receivers: the sum of the shares that each map has in the results of its receivers (PlacementStage::receivers). Where
 // maps share receivers, wrong_* and aliasing_rms_* are left out: a pixel that two maps have a part in has no sum over them. Of one map
 // its own, unchanged.
 std::map<std::string, double> join_placements(MetricsOfMaps maps, std::span<const double> receivers, bool shared);

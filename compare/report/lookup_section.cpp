@@ -58,7 +58,7 @@ Markup point_cell(const PointRecord& point, const std::vector<std::string>& swep
   return td(css("text"), point_link(point.id, phrase.empty() ? fmt::format("Point {}", point.id) : phrase));
 }
 
-// placed: whether the table has columns for the placements of the map's grid.
+// placed: the table also has the columns of the placements (map.placements above 1).
 Markup window_row(const PointRecord& point, const std::vector<std::string>& swept, bool placed) {
   const auto metric = [&](const char* name) { return metric_of(point, name); };
   const bool hidden = hides_window(point), usable = !hidden && !std::isnan(metric("reduction_min"));

@@ -174,13 +174,13 @@ TEST(Cost, CountsTheOperationsOfEachLookup) {
     s.lookup.kind = row.kind;
     s.lookup["moments"] = row.form;
     EXPECT_EQ(lookup_cost(s).operations, row.operations) << row.kind << " " << row.form;
-    s.lookup["reduction"] = 0.3;  // less it, over the rest, held between 0 and 1
+    s.lookup["reduction"] = 0.3;  // (v - reduction) / (1 - reduction), clamped to 0 ... 1
     EXPECT_EQ(lookup_cost(s).operations, row.operations + 4) << row.kind << " " << row.form;
   }
   for (const LookupKind& lookup : lookups())
-    EXPECT_TRUE(!lookup.reads_moments() ||
-                std::ranges::any_of(rows, [&](const Row& row) { return row.kind == lookup.name; }))
-        << lookup.name;
+    EXPECT_TRUE(!lookup.reads_moments() || std::ranges::any_of(rows, [&](const Row& row) {
+      return row.kind == lookup.name;
+    })) << lookup.name;
 }
 
 TEST(Cost, EveryFilterFetches) {
