@@ -48,7 +48,7 @@ std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& out
                                                       outcome.counts(), printable(listed.out));
 }
 
-// Nobody looks at the pictures of bounds that hold.
+// Where the experiment does not say which points get pictures, those that break a bound do.
 Experiment experiment_to_check(const std::string& path, const ExperimentArguments& arguments) {
   Experiment experiment = experiment_from(path, arguments);
   if (!experiment.pictures_given) experiment.pictures = "broken";

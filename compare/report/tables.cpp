@@ -361,10 +361,9 @@ Markup making_section(const Results& results) {
   out += truth_in_words(results);
   if (std::all_of(results.points.begin(), results.points.end(),
                   [](const PointRecord& p) { return p.pictures.empty(); }))
-    out +=
-        paragraph(css("note"), prose("No point has pictures. {} with the same file and folder draws those of point 0; "
-                                     "the experiment's key {} says which others.",
-                                     code("noonmark run"), code("pictures")));
+    out += paragraph(css("note"), prose("No point has pictures. The experiment's key {} says which points do: {} draws "
+                                        "those of point 0.",
+                                        code("pictures"), code("pictures = \"first\"")));
   // The settings that all points share, for a reader who wants to repeat the experiment.
   Markup fixed;
   if (!results.points.empty())

@@ -102,7 +102,7 @@ TEST_F(Program, ChecksAFolderWithAResultsFolderForEachExperiment) {
   EXPECT_EQ(run({"check", "exps", "--out", "out"}), 1) << output_;
 }
 
-// A bound that holds needs no picture; --overwrite leaves none of the run before.
+// A check whose bounds hold writes no pictures. After --overwrite none of the run before are left.
 TEST_F(Program, DrawsForACheckOnlyWhatIsBroken) {
   const auto experiment = [&](const std::string& max) {
     return write("one.toml",
