@@ -554,11 +554,10 @@ Experiment load_experiment(const std::string& path, const std::vector<std::strin
                             shell_quoted(path)));
   for (const BuiltinScene& scene : builtin_scenes())
     if (path == scene.name && !std::filesystem::exists(path))
-      throw Error(
-          ErrorKind::usage,
-          fmt::format("{0} is a built-in scene, not an experiment; noonmark render --set scene.name={0} renders "
-                      "it, and noonmark map {0} and noonmark recommend {0} take its name",
-                      path));
+      throw Error(ErrorKind::usage,
+                  fmt::format("{0} is a built-in scene, not an experiment; noonmark render {0}, noonmark map {0} and "
+                              "noonmark recommend {0} take its name",
+                              path));
   std::string text;
   try {
     text = read_file(path, max_experiment_bytes);

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "app/verbs/option_values.h"
 #include "base/error.h"
+#include "scenes/library.h"
 
 namespace noonmark {
 namespace {
@@ -26,6 +28,15 @@ std::string points_text(const Experiment& experiment, size_t count) {
 }
 
 }  // namespace
+
+Experiment experiment_or_scene(const std::string& path, ExperimentArguments arguments) {
+  std::error_code none;
+  if (path.empty() || std::filesystem::path(path).extension() == ".toml" ||
+      (!names_file(path) && std::filesystem::exists(path, none)))
+    return experiment_from(path, arguments);
+  take_scene(arguments, path);
+  return experiment_from("", arguments);
+}
 
 Settings the_point(const Experiment& experiment, long point, std::string_view verb) {
   const std::vector<Settings> all = points(experiment);

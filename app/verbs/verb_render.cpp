@@ -270,7 +270,7 @@ int render_point(const RenderOptions& options) {
   const auto& [path, point, arguments] = options;
   const VerbOutputs outputs = outputs_of("render", path, arguments.out);
   OutputFolder folder(outputs);
-  const Experiment experiment = experiment_from(path, arguments);
+  const Experiment experiment = experiment_or_scene(path, arguments);
   const Settings settings = the_point(experiment, point, "render");
   const std::string& out = outputs.folder;
   folder.make();
@@ -302,7 +302,9 @@ int render_point(const RenderOptions& options) {
 RunVerb add_render(CLI::App& verb) {
   const auto options = std::make_shared<RenderOptions>();
   ExperimentArguments& arguments = options->arguments;
-  add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
+  add_experiment(verb, options->experiment,
+                 "An experiment's TOML file, a built-in scene or a model; without one, the default settings")
+      ->type_name(value_kind::experiment_or_scene);
   add_point(verb, options->point);
   add_sets(verb, arguments);
   add_parts(verb, arguments);

@@ -35,7 +35,7 @@ TEST_F(Messages, AWrongOptionIsNamedInPlainWords) {
 TEST_F(Messages, TheExperimentsFaultComesBeforeThatOfTheFolder) {
   write("file", "");
   write("x.toml", "scne = \"plate\"\n");
-  for (const char* verb : {"run", "check", "render"}) {
+  for (const char* verb : {"run", "check"}) {
     EXPECT_EQ(run({verb, "x.toml", "--out", "file/below"}), 2);
     EXPECT_TRUE(says("did you mean 'scene'") && !says("folder")) << output_;
   }

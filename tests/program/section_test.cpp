@@ -27,6 +27,21 @@ TEST_F(SectionVerb, DrawsTheWorstPixelAndSaysWhyItIsWrong) {
   EXPECT_NE(svg.find("prefers-color-scheme:dark"), std::string::npos);
 }
 
+// The name of a scene, as map, live and recommend take it, is the same as its setting.
+TEST_F(SectionVerb, TakesTheNameOfAScene) {
+  ASSERT_EQ(section({"--set", "scene.name=plate", "--pixel", "40,30"}), 0) << output_;
+  const std::string by_setting = text("section.svg");
+  ASSERT_EQ(run({"section", "plate", "--set", "view.width_px=96", "--set", "view.height_px=54", "--pixel", "40,30",
+                 "--overwrite"}),
+            0)
+      << output_;
+  EXPECT_EQ(text("section.svg"), by_setting);
+  EXPECT_EQ(run({"render", "plate", "--set", "view.width_px=96", "--set", "view.height_px=54"}), 0) << output_;
+  EXPECT_EQ(run({"render", "plat"}), 2) << output_;
+  EXPECT_TRUE(says("plate")) << "the nearest name: " << output_;
+  EXPECT_EQ(run({"render", "plate", "--set", "scene.name=bowl"}), 2) << output_;
+}
+
 TEST_F(SectionVerb, DrawsTheSameFileTwice) {
   ASSERT_EQ(section({"--pixel", "40,30"}), 0) << output_;
   const std::string once = text("section.svg");
