@@ -359,6 +359,12 @@ Markup making_section(const Results& results) {
                                           "as a GPU would, but they do not predict a GPU's milliseconds.",
                                           software, bold("software times")));
   out += truth_in_words(results);
+  if (std::all_of(results.points.begin(), results.points.end(),
+                  [](const PointRecord& p) { return p.pictures.empty(); }))
+    out +=
+        paragraph(css("note"), prose("No point has pictures. {} with the same file and folder draws those of point 0; "
+                                     "the experiment's key {} says which others.",
+                                     code("noonmark run"), code("pictures")));
   // The settings that all points share, for a reader who wants to repeat the experiment.
   Markup fixed;
   if (!results.points.empty())
