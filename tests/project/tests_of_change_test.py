@@ -42,8 +42,9 @@ faults += [f"{name} has the label {label}, which is no room" for name, of in lab
            if not label.startswith("tests/") and label not in ("always", "documents", "package", "slow") and label.removeprefix("whole:") not in rooms]
 faults += [f"{name} has no label of its folder" for name, of in labels.items() if not any(label.startswith("tests/") for label in of)]
 rows = re.findall(r"^\| `([^`]+)` \| [0-9]+ s \|", (source / "CONTRIBUTING.md").read_text(), re.M)
-faults += [f"CONTRIBUTING.md: no test is called {row}" for row in rows
-           if not any((name + ".").startswith(row + ".") for name in labels) and not row.startswith(("engine_", "documents.", "program.", "picture."))]
+# What needs a program that is not built yet, or Python's packages, may be unknown.
+faults += [f"CONTRIBUTING.md: no test's name begins with {row}" for row in rows
+           if not any((name + ".").startswith((row + ".", row + "_")) for name in labels) and not row.startswith(("program.", "picture."))]
 if not rows or not any("slow" in of for of in labels.values()):
     faults.append("no test is slow")
 sys.exit("\n".join(faults) or 0)
