@@ -176,16 +176,9 @@ void print_curve_over(const Measurement& m) {
                &at == &best ? "  least error" : "");
 }
 
-// clock: what the times come from.
-void print_ladder(const Measurement& m, const char* clock) {
-  const auto value = [&](const char* name) { return m.record.metrics.at(name); };
-  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
-             value("facing"), value("counted"));
-  if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
-  fmt::print("\n");
-  if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
-  if (nothing_judged(m.record)) return;
-  const auto of_one_receiver = [](const Metric& metric) { return metric.name.ends_with("_largest"); };
+bool of_one_receiver(const Metric& metric) { return metric.name.ends_with("_largest"); }
+
+void print_shares(const Measurement& m) {
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
@@ -199,6 +192,47 @@ void print_ladder(const Measurement& m, const char* clock) {
                        ? "  (not exactly as the truth, however little; judge by the error)"
                        : "");
     }
+}
+
+void print_window(const Measurement& m, const BiasCurve& c) {
+  const char* there = m.uniform() ? "" : " (m and texels at the median receiver)";
+  if (hides_window(m.record))
+    fmt::print("\n  usable {}: {}\n", c.parameter, window_not_known);
+  else if (c.window_min_depth)
+    fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",
+               c.parameter, *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
+               *c.window_max_depth * c.m_per_depth, *c.window_min_depth * c.texels_per_depth,
+               *c.window_max_depth * c.texels_per_depth, there);
+  else
+    fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
+               c.peter_panning_bound);
+  if (c.acne_free_bias_depth && !hides_window(m.record) && c.parameter == "bias.constant") {
+    fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
+               *c.acne_free_bias_depth * c.m_per_depth, m.uniform() ? "" : " at the median receiver");
+    // The law's bias in the parameter's own unit, which each receiver converts to depth by itself. The law does not
+    // include the effect of other parts of the bias.
+    const Bias& bias = m.technique.bias;
+    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() || m.technique.moves_casters())
+      fmt::print(", on top of the other parts");
+    else if (m.uniform() || m.technique.settings.bias.unit == BiasUnit::m)
+      fmt::print("; by law 1 the planes in the picture need {:.4g} m", m.record.metrics.at("acne_free_bias_law_m"));
+    else if (m.technique.settings.bias.unit == BiasUnit::depth)
+      fmt::print("; by law 1 the planes in the picture need {:.4g} depth",
+                 m.record.metrics.at("acne_free_bias_law_depth"));
+    fmt::print("\n");
+  }
+}
+
+// clock: what the times come from.
+void print_ladder(const Measurement& m, const char* clock) {
+  const auto value = [&](const char* name) { return m.record.metrics.at(name); };
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
+             value("facing"), value("counted"));
+  if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
+  fmt::print("\n");
+  if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
+  if (nothing_judged(m.record)) return;
+  print_shares(m);
   print_cascades(m);
   print_placements(m);
   print_flicker(m);
@@ -232,31 +266,7 @@ void print_ladder(const Measurement& m, const char* clock) {
     print_curve_of_cascades(m, c);
     return;
   }
-  const char* there = m.uniform() ? "" : " (m and texels at the median receiver)";
-  if (hides_window(m.record))
-    fmt::print("\n  usable {}: {}\n", c.parameter, window_not_known);
-  else if (c.window_min_depth)
-    fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",
-               c.parameter, *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
-               *c.window_max_depth * c.m_per_depth, *c.window_min_depth * c.texels_per_depth,
-               *c.window_max_depth * c.texels_per_depth, there);
-  else
-    fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
-               c.peter_panning_bound);
-  if (c.acne_free_bias_depth && !hides_window(m.record) && c.parameter == "bias.constant") {
-    fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
-               *c.acne_free_bias_depth * c.m_per_depth, m.uniform() ? "" : " at the median receiver");
-    // The law's bias in the parameter's own unit, which each receiver converts to depth by itself. The law does not
-    // include the effect of other parts of the bias.
-    const Bias& bias = m.technique.bias;
-    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() || m.technique.moves_casters())
-      fmt::print(", on top of the other parts");
-    else if (m.uniform() || m.technique.settings.bias.unit == BiasUnit::m)
-      fmt::print("; by law 1 the planes in the picture need {:.4g} m", value("acne_free_bias_law_m"));
-    else if (m.technique.settings.bias.unit == BiasUnit::depth)
-      fmt::print("; by law 1 the planes in the picture need {:.4g} depth", value("acne_free_bias_law_depth"));
-    fmt::print("\n");
-  }
+  print_window(m, c);
   fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
 }
 
