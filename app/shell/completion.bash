@@ -3,7 +3,7 @@
 # parts from its lists. It is installed where bash-completion finds it; otherwise source this file.
 
 # These read a help on standard input. The verbs: "  run   Measure ...".
-_noonmark_verbs() { awk '/^[A-Z]/ { on = /^Subcommands:/ } on && /^  [a-z]/ { print $1 }'; }
+_noonmark_verbs() { awk '/^Examples:/ { exit } /^  [a-z]/ { print $1 }'; }
 # The options: "  -h,--help   Print ...".
 _noonmark_options() { awk '/^  -/ { sub(/^-.,/, "", $1); print $1 }'; }
 # The kinds of the values of an option, or of the arguments without one: "  --out FOLDER   Folder ..." has FOLDER.

@@ -15,7 +15,7 @@ roff='
     return text ~ /^[.\x27]/ ? "\\&" text : text
   }'
 
-verbs() { "$program" --help | awk '/^[A-Z]/ { listed = /^Subcommands:/ } listed && /^  [a-z]/ { print $1 }'; }
+verbs() { "$program" --help | awk '/^Examples:/ { exit } /^  [a-z]/ { print $1 }'; }
 
 # A verb: its synopsis, its description, then its arguments and options as the help lists them:
 #   "  --name VALUE     description". The description is in the next line if the name is long.
@@ -47,33 +47,14 @@ verb_section() {
     END { flush() }'
 }
 
-# "Exit codes: 0 done; 1 a bound ...; otherwise what has to change:\n2 the command line ...": one paragraph for each
-# code.
+# "Exit codes say ...": a paragraph, then one for each code: "  1  the shadows: ...", which may go on in a line further in.
 # shellcheck disable=SC2016
 exit_status() {
   "$program" --help | awk "$roff"'
-    /^Exit codes: / { listed = 1; sub(/^Exit codes: /, "") }
-    listed && NF { sub(/^ +/, ""); text = text " " $0 }
-    END {
-      while (match(text, /(^|[;:]) [0-9] /)) {
-        end = RSTART + RLENGTH
-        said(substr(text, 1, RSTART - 1))
-        code = substr(text, end - 2, 1)
-        text = substr(text, end)
-      }
-      said(text)
-    }
-    function said(words) {
-      if (code == "") return
-      sub(/; otherwise what has to change$/, "", words)
-      rest = ""
-      if (match(words, /\. /)) {
-        rest = substr(words, RSTART + 2)
-        words = substr(words, 1, RSTART - 1)
-      }
-      printf ".TP\n.B %s\n%s\n", code, roff(words)
-      if (rest != "") printf ".PP\n%s\n", roff(rest)
-    }'
+    /^Exit codes / { listed = 1; print roff($0); next }
+    !listed { next }
+    /^  [0-9]  / { printf ".TP\n.B %s\n", $1; sub(/^  [0-9]  /, "") }
+    NF { sub(/^ +/, ""); print roff($0) }'
 }
 
 version=$("$program" --version)

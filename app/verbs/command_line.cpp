@@ -3,24 +3,54 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <vector>
 
 #include "app/verbs/command_line_error.h"
+#include "app/verbs/terminal_text.h"
 #include "base/build_facts.h"
 #include "base/error.h"
 
 namespace noonmark {
 namespace {
 
-constexpr const char* exit_codes =
-    "Exit codes: 0 done, all held; 1 a bound or a law is broken, or a value is worse than in the baseline;\n"
-    "otherwise what has to change:\n"
-    "2 the command line or the experiment (wrong usage; a point too large for memory; a results' folder that\n"
-    "  cannot be used); 3 a file (a bad scene or picture, or one too large for memory; damaged results; a full disk);\n"
-    "4 the machine (no usable OpenGL, ray tracer or picture library, no memory, threads or open files left);\n"
-    "5 Noonmark: a defect; 6 nothing: the sweep is incomplete. Of several experiments, the largest code is returned.";
+constexpr const char* footer =
+    "Examples:\n"
+    "  noonmark live cube-room          a page with sliders: see what bias and resolution do\n"
+    "  noonmark recommend cube-room     the cheapest settings that are right\n"
+    "  noonmark help check              the options of a verb\n"
+    "\n"
+    "Exit codes say what has to change. Of several experiments, the largest is returned.\n"
+    "  0  nothing: done, all held\n"
+    "  1  the shadows: a bound or a law is broken, or a value is worse than in the baseline\n"
+    "  2  the command line or the experiment: wrong usage, a point too large for memory, a results' folder\n"
+    "     that cannot be used\n"
+    "  3  a file: a bad scene or picture, or one too large for memory; damaged results; a full disk\n"
+    "  4  the machine: no usable OpenGL, ray tracer or picture library; no memory, threads or files\n"
+    "  5  Noonmark: a defect\n"
+    "  6  nothing yet: the sweep is incomplete";
+
+constexpr size_t widest_help = 100;  // columns
+
+// The text in lines that end before the help's right edge, each but the first behind so many blanks.
+std::string wrapped(const std::string& text, size_t indent, size_t columns) {
+  std::string out;
+  size_t at = indent;
+  std::istringstream words(text);
+  for (std::string word; words >> word; at += word.size()) {
+    if (at > indent && at + 1 + word.size() > columns) {
+      out += "\n" + std::string(indent, ' ');
+      at = indent;
+    } else if (at > indent) {
+      out += " ";
+      ++at;
+    }
+    out += word;
+  }
+  return out;
+}
 
 // Writes the default of an option behind its description: "Number of texel sizes (default: 25)". CLI11 writes it behind the
 // name, which is hard to read if the default is a sentence.
@@ -36,7 +66,8 @@ class HelpFormatter : public CLI::Formatter {
   }
   std::string make_option_desc(const CLI::Option* option) const override {
     const std::string by_default = option->get_default_str();
-    return option->get_description() + (by_default.empty() ? "" : fmt::format(" (default: {})", by_default));
+    return wrapped(option->get_description() + (by_default.empty() ? "" : fmt::format(" (default: {})", by_default)),
+                   column_width_, columns_);
   }
   // At least two blanks between the name and the description. The scripts in app/shell/ find the end of the name by them;
   // CLI11 leaves one behind a name that just fits.
@@ -46,6 +77,15 @@ class HelpFormatter : public CLI::Formatter {
     const size_t filled = line.ends_with('\n') ? 0 : line.size();
     return line + std::string(column_width_ - filled, ' ') + make_option_desc(option) + "\n";
   }
+  std::string make_subcommand(const CLI::App* verb) const override {
+    return fmt::format("  {:<12}{}\n", verb->get_name(), wrapped(verb->get_description(), 14, columns_));
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return wrapped(app->get_description(), 0, columns_) + "\n\n";
+  }
+
+ private:
+  size_t columns_ = std::min(terminal_columns().value_or(widest_help), widest_help);
 };
 
 // What was asked for, help or the version. CLI11 writes to C++ streams; this writes its text through stdio, like all other
@@ -61,16 +101,21 @@ int print_asked(const CLI::App& app, const CLI::Success& asked) {
 
 CommandLine::CommandLine()
     : app_(std::make_unique<CLI::App>(
-          "Noonmark measures whether a shadow map is right. It renders a scene's shadows with OpenGL shadow maps\n"
-          "and with Embree shadow rays, and reports for every wrong pixel why it is wrong.")) {
-  app_->formatter(std::make_shared<HelpFormatter>());
-  app_->footer(exit_codes);
+          "Noonmark measures whether a shadow map is right. It renders a scene's shadows with OpenGL shadow maps and "
+          "with Embree shadow rays, and says of every wrong pixel why it is wrong.",
+          "noonmark")) {
+  const auto formatter = std::make_shared<HelpFormatter>();
+  formatter->label("SUBCOMMAND", "VERB ...");
+  app_->formatter(formatter);
   app_->require_subcommand(1);
   app_->set_version_flag("--version", fmt::format("{} ({})", build_facts().version, build_facts().commit));
   for (const Verb& row : verb_table()) {
-    CLI::App* verb = app_->add_subcommand(row.name, row.help);  // inherits formatter and footer
+    CLI::App* verb = app_->add_subcommand(row.name, row.help);  // inherits the formatter
+    verb->group(row.heading);
+    verb->footer(fmt::format("Example:\n  {}", row.example));
     runs_[row.name] = row.add(*verb);
   }
+  app_->footer(footer);  // after the verbs, which would inherit it
 }
 
 CommandLine::~CommandLine() = default;

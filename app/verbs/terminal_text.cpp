@@ -1,6 +1,7 @@
 #include "app/verbs/terminal_text.h"
 
 #include <fmt/color.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,12 +18,21 @@ constexpr std::pair<std::string_view, fmt::terminal_color> verdict_colours[] = {
     {"worse", fmt::terminal_color::red},      {"missing", fmt::terminal_color::red},
     {"warning", fmt::terminal_color::yellow}, {"changed", fmt::terminal_color::yellow}};
 
+constexpr int fewest_columns = 60;  // in fewer, a line of help would be a few words beside an empty column
+
 }  // namespace
 
 bool terminal_has_colours() {
   const char *const refused = std::getenv("NO_COLOR"), *const term = std::getenv("TERM");
   return isatty(STDOUT_FILENO) == 1 && (refused == nullptr || *refused == '\0') && term != nullptr &&
          std::string_view(term) != "dumb";
+}
+
+std::optional<size_t> terminal_columns() {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) != 1 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < fewest_columns)
+    return std::nullopt;
+  return size.ws_col;
 }
 
 std::string with_coloured_verdicts(std::string_view text) {

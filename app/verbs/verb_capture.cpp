@@ -81,8 +81,8 @@ RunVerb add_capture(CLI::App& verb) {
 }  // namespace
 
 Verb verb_capture() {
-  return {"capture", "Write the frames that a RenderDoc capture holds, one for each light, to look at and to judge",
-          add_capture};
+  return {"capture", "Write the frames that a RenderDoc capture holds, one for each light",
+          "noonmark capture frame.rdc --out frames", add_capture};
 }
 
 }  // namespace noonmark

@@ -322,7 +322,8 @@ RunVerb add_check(CLI::App& verb) {
 }  // namespace
 
 Verb verb_check() {
-  return {"check", "Run experiments and judge their bounds and laws: the exit code is the verdict", add_check};
+  return {"check", "Run experiments and judge their bounds and laws: the exit code is the verdict",
+          "noonmark check shadows.toml", add_check};
 }
 
 }  // namespace noonmark

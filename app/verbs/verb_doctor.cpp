@@ -105,7 +105,8 @@ RunVerb add_doctor(CLI::App&) {
 }  // namespace
 
 Verb verb_doctor() {
-  return {"doctor", "Print which OpenGL, ray tracer and libraries are used, or what is missing", add_doctor};
+  return {"doctor", "Print which OpenGL, ray tracer and libraries are used, or what is missing", "noonmark doctor",
+          add_doctor};
 }
 
 }  // namespace noonmark

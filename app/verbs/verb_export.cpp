@@ -85,7 +85,8 @@ RunVerb add_export(CLI::App& verb) {
 }  // namespace
 
 Verb verb_export() {
-  return {"export", "Write a scene, its camera and its lights as a .glb that other renderers can show", add_export};
+  return {"export", "Write a scene, its camera and its lights as a .glb that other renderers can show",
+          "noonmark export cube-room --out cube-room.glb", add_export};
 }
 
 }  // namespace noonmark

@@ -28,6 +28,6 @@ RunVerb add_help(CLI::App& verb) {
 
 }  // namespace
 
-Verb verb_help() { return {"help", "Print the help of a verb", add_help}; }
+Verb verb_help() { return {"help", "Print the help of a verb", "noonmark help recommend", add_help}; }
 
 }  // namespace noonmark

@@ -74,6 +74,9 @@ RunVerb add_init(CLI::App& verb) {
 
 }  // namespace
 
-Verb verb_init() { return {"init", "Write a first experiment for a model of your own, ready to run", add_init}; }
+Verb verb_init() {
+  return {"init", "Write a first experiment for a model of your own, ready to run", "noonmark init model.glb",
+          add_init};
+}
 
 }  // namespace noonmark

@@ -76,8 +76,8 @@ RunVerb add_inspect(CLI::App& verb) {
 }  // namespace
 
 Verb verb_inspect() {
-  return {"inspect", "Say what a model holds, how large it is and what is not modelled, and draw it with its shadow",
-          add_inspect};
+  return {"inspect", "Say what a model holds and what is not modelled, and draw it with its shadow",
+          "noonmark inspect model.glb", add_inspect};
 }
 
 }  // namespace noonmark

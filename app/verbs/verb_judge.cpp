@@ -259,7 +259,8 @@ RunVerb add_judge(CLI::App& verb) {
 }  // namespace
 
 Verb verb_judge() {
-  return {"judge", "Judge the shadows of another renderer's frame against the truth, without OpenGL", add_judge};
+  return {"judge", "Judge the shadows of another renderer's frame against the truth, without OpenGL",
+          "noonmark judge frame.json", add_judge};
 }
 
 }  // namespace noonmark

@@ -63,9 +63,8 @@ RunVerb add_live(CLI::App& verb) {
 }  // namespace
 
 Verb verb_live() {
-  return {"live",
-          "Write one HTML page that draws a scene's map and shadows with sliders, and names why each pixel is wrong",
-          add_live};
+  return {"live", "Write a page with sliders: a scene's map and shadows, and why each pixel is wrong",
+          "noonmark live model.glb", add_live};
 }
 
 }  // namespace noonmark

@@ -151,7 +151,7 @@ RunVerb add_map(CLI::App& verb) {
 }  // namespace
 
 Verb verb_map() {
-  return {"map", "Draw a scene's phase diagram: which texel sizes and biases are usable, and what is wrong elsewhere",
+  return {"map", "Draw which texel sizes and biases of a scene are usable: its phase diagram", "noonmark map cube-room",
           add_map};
 }
 

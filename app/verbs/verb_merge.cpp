@@ -98,8 +98,8 @@ RunVerb add_merge(CLI::App& verb) {
 }  // namespace
 
 Verb verb_merge() {
-  return {"merge", "Join the results of an experiment's shares (--shard) and judge the whole, as check does",
-          add_merge};
+  return {"merge", "Join the results of an experiment's shares (--shard) and judge the whole",
+          "noonmark merge out/whole out/share-1 out/share-2", add_merge};
 }
 
 }  // namespace noonmark

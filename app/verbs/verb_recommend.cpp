@@ -546,9 +546,8 @@ RunVerb add_recommend(CLI::App& verb) {
 }  // namespace
 
 Verb verb_recommend() {
-  return {"recommend",
-          "Search the cheapest settings that hold the bounds in every view and at every placement of the grid",
-          add_recommend};
+  return {"recommend", "Search the cheapest settings that hold the bounds in every view",
+          "noonmark recommend model.glb --lines three", add_recommend};
 }
 
 }  // namespace noonmark

@@ -329,7 +329,8 @@ RunVerb add_render(CLI::App& verb) {
 }  // namespace
 
 Verb verb_render() {
-  return {"render", "Measure one point and write its pictures, its ladder and all numbers behind it", add_render};
+  return {"render", "Measure one point and write its pictures, its ladder and all numbers behind it",
+          "noonmark render cube-room --set map.resolution=512", add_render};
 }
 
 }  // namespace noonmark

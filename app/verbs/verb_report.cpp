@@ -39,6 +39,9 @@ RunVerb add_report(CLI::App& verb) {
 
 }  // namespace
 
-Verb verb_report() { return {"report", "Write report.html and results.csv again from stored results", add_report}; }
+Verb verb_report() {
+  return {"report", "Write report.html and results.csv again from stored results", "noonmark report out/shadows",
+          add_report};
+}
 
 }  // namespace noonmark

@@ -88,6 +88,9 @@ RunVerb add_run(CLI::App& verb) {
 
 }  // namespace
 
-Verb verb_run() { return {"run", "Measure every point of an experiment and write its report", add_run}; }
+Verb verb_run() {
+  return {"run", "Measure every point of an experiment and write its report",
+          "noonmark run shadows.toml --out out/shadows", add_run};
+}
 
 }  // namespace noonmark

@@ -21,6 +21,8 @@ RunVerb add_scenes(CLI::App&) {
 
 }  // namespace
 
-Verb verb_scenes() { return {"scenes", "List the built-in scenes and the artefacts that each provokes", add_scenes}; }
+Verb verb_scenes() {
+  return {"scenes", "List the built-in scenes and the artefacts that each provokes", "noonmark scenes", add_scenes};
+}
 
 }  // namespace noonmark

@@ -26,8 +26,8 @@ RunVerb add_schema(CLI::App& verb) {
 }  // namespace
 
 Verb verb_schema() {
-  return {"schema", "Print the JSON schema of the experiment file, with which editors complete and check it",
-          add_schema};
+  return {"schema", "Print the JSON schema of the experiment file, by which editors complete it",
+          "noonmark schema > experiment.schema.json", add_schema};
 }
 
 }  // namespace noonmark

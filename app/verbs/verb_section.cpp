@@ -171,8 +171,8 @@ RunVerb add_section(CLI::App& verb) {
 }  // namespace
 
 Verb verb_section() {
-  return {"section", "Draw why one pixel is right or wrong: the plane of its light ray, cut through surface and map",
-          add_section};
+  return {"section", "Draw why one pixel is wrong: the plane of its light ray, through surface and map",
+          "noonmark section cube-room --worst acne", add_section};
 }
 
 }  // namespace noonmark

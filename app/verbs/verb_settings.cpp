@@ -44,7 +44,8 @@ RunVerb add_settings(CLI::App& verb) {
 }  // namespace
 
 Verb verb_settings() {
-  return {"settings", "List every setting, metric and quantity: unit, range, default, meaning", add_settings};
+  return {"settings", "List every setting, metric and quantity: unit, range, default, meaning",
+          "noonmark settings --html > settings.html", add_settings};
 }
 
 }  // namespace noonmark

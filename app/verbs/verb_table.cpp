@@ -1,3 +1,6 @@
+#include <initializer_list>
+#include <vector>
+
 #include "app/verbs/verbs.h"
 
 namespace noonmark {
@@ -25,11 +28,20 @@ Verb verb_help();
 Verb verb_version();
 
 std::span<const Verb> verb_table() {
-  static const Verb table[] = {
-      verb_run(),    verb_check(),     verb_render(), verb_section(), verb_judge(),  verb_capture(), verb_map(),
-      verb_live(),   verb_recommend(), verb_init(),   verb_inspect(), verb_report(), verb_merge(),   verb_scenes(),
-      verb_export(), verb_settings(),  verb_schema(), verb_doctor(),  verb_help(),   verb_version(),
-  };
+  static const std::vector<Verb> table = [] {
+    std::vector<Verb> all;
+    const auto add = [&](const char* heading, std::initializer_list<Verb> verbs) {
+      for (Verb verb : verbs) {
+        verb.heading = heading;
+        all.push_back(verb);
+      }
+    };
+    add("Begin here", {verb_live(), verb_init(), verb_recommend(), verb_check(), verb_judge()});
+    add("Look closer", {verb_render(), verb_section(), verb_map(), verb_inspect()});
+    add("Measure more", {verb_run(), verb_merge(), verb_report(), verb_export(), verb_capture()});
+    add("Look up", {verb_scenes(), verb_settings(), verb_schema(), verb_doctor(), verb_help(), verb_version()});
+    return all;
+  }();
   return table;
 }
 

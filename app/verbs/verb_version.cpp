@@ -16,6 +16,8 @@ RunVerb add_version(CLI::App& verb) {
 
 }  // namespace
 
-Verb verb_version() { return {"version", "Print the version and the commit, as --version does", add_version}; }
+Verb verb_version() {
+  return {"version", "Print the version and the commit, as --version does", "noonmark version", add_version};
+}
 
 }  // namespace noonmark

@@ -20,10 +20,12 @@ using RunVerb = std::function<int(const std::string& command)>;
 
 struct Verb {
   const char* name;
-  const char* help;  // one line without a full stop
+  const char* help;     // one line of the help, without a full stop
+  const char* example;  // a command that begins with "noonmark NAME"
   // Adds what the verb takes: options and arguments, each with its help, its default, its checks and the word of its
   // kind (app/verbs/option_values.h).
   RunVerb (*add)(CLI::App& verb);
+  const char* heading = "";  // of the help, under which it stands; verb_table() gives it
 };
 
 // In the order of the help.

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "app/verbs/command_line.h"
@@ -43,6 +44,23 @@ TEST(Verbs, EachHasItsOwnNameAndALineOfHelp) {
     EXPECT_GT(help.size(), 10u) << row.name;
     EXPECT_EQ(help.find('\n'), std::string::npos) << row.name;
     EXPECT_FALSE(help.ends_with('.')) << row.name;
+    EXPECT_LE(help.size(), 86u) << row.name << ": more than a line of the help";
+    EXPECT_NE(std::string(row.heading), "") << row.name;
+  }
+}
+
+// Each word that begins with -- is an option of the verb.
+TEST(Verbs, TheExampleIsACommandOfTheVerb) {
+  for (const Verb& row : verb_table()) {
+    std::istringstream words(row.example);
+    std::string program, verb;
+    words >> program >> verb;
+    EXPECT_EQ(program + " " + verb, std::string("noonmark ") + row.name);
+    const Added added(row);
+    for (std::string word; words >> word;)
+      if (word.starts_with("--")) {
+        EXPECT_NO_THROW((void)added.default_of(word)) << row.example;
+      }
   }
 }
 

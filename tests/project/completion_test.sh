@@ -44,7 +44,7 @@ has() {
   bad=1
 }
 
-verbs=$(./noonmark --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z]*\) .*/\1/p')
+verbs=$(./noonmark --help | sed -n '/^Examples:/q;s/^  \([a-z][a-z]*\) .*/\1/p')
 expect "$(sort <<<"$verbs" | tr '\n' ' ' | sed 's/ $//')" ''
 has check ''
 expect 'recommend' rec

@@ -13,7 +13,7 @@ plain=$(sed 's/\\-/-/g' "$page")  # roff's \- is -
 section() { awk -v head=".SS noonmark $1 " '/^\.S[SH] / { on = index($0, head) == 1 } on' <<<"$plain"; }
 words() { grep -oE -- '(^|[ ,])--[a-z][a-z-]*' | grep -oE -- '--.*' | sort -u; }
 
-verbs=$("$program" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z]*\) .*/\1/p')
+verbs=$("$program" --help | sed -n '/^Examples:/q;s/^  \([a-z][a-z]*\) .*/\1/p')
 (($(wc -w <<<"$verbs") >= 7)) || complain "the help lists no verbs: '$verbs'"
 for option in $("$program" --help | words); do
   grep -q -- "$option" <<<"$plain" || complain "the page lacks $option"
@@ -42,7 +42,7 @@ listed=$(sed -n '/^| verb |/,/^$/s/^| `\([a-z]*\)[ `].*/\1/p' "$reference/comman
 
 codes() { sort | tr '\n' ' '; }
 in_page=$(sed -n '/^\.SH EXIT STATUS/,/^\.SH FILES/s/^\.B \([0-9]\)$/\1/p' <<<"$plain" | codes)
-in_help=$("$program" --help | sed -n '/^Exit codes:/,$p' | tr '\n' ' ' | grep -oE '[:;] +[0-9] ' | tr -dc '0-9\n' | codes)
+in_help=$("$program" --help | sed -n '/^Exit codes /,$s/^  \([0-9]\)  .*/\1/p' | codes)
 in_reference=$(sed -n '/^| exit code |/,/^$/s/^| \([0-9]\) |.*/\1/p' "$reference/exit-codes.md" | codes)
 [[ $in_page == "$in_help" && $in_page == "$in_reference" && $in_page == '0 1 2 3 4 5 6 ' ]] ||
   complain "exit codes: '$in_page' in the page, '$in_help' in the help, '$in_reference' in exit-codes.md"
