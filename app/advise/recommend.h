@@ -5,7 +5,7 @@
 // map's grid, and of them three answers between cost and error (compare/judge/answers.h).
 //
 //   const Advice advice = search(bench, request, [](const std::string& step) { print(step); });
-//   for (const std::string& line : advice_text(advice)) print(line);          // app/advise/recommend_text.h
+//   for (const std::string& line : answer_text(advice)) print(line);          // app/advise/recommend_text.h
 //
 // The search:
 // 1. Screening (app/advise/recommend_screening.h), under the first condition and at one placement: each technique, from the

@@ -87,7 +87,8 @@ std::string subject_in(const std::string& advice) {
 
 std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines) {
   json all;
-  all["text"] = advice_text(advice);
+  all["text"] = answer_text(advice);
+  all["reasons"] = reasons_text(advice);
   all["rejected"] = rejected_text(advice);
   all["notes"] = advice.request.about;
   all["scene"] = subject_of(advice.request.conditions.front());

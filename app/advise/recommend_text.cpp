@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "app/advise/engine_forms.h"
@@ -406,27 +407,18 @@ std::vector<std::string> lookups_text(const Advice& advice) {
   return lines;
 }
 
-// How wide the window of the answer's bias is, and whether that is little. Empty without a bias.
-std::vector<std::string> bias_lines(const Answer& answer, const AdviceRequest& request) {
-  const Tried& tried = answer.tried;
-  std::vector<std::string> lines;
-  if (tried.bias)
-    lines.push_back(fmt::format(
-        "{} keeps {} from {:.3g} to {:.3g} {} under {} and at all {} placements of the map's grid that were "
-        "searched{}. That is {}, because conditions that were not searched may be a little worse, and other "
-        "rasterisers "
-        "add acne.",
-        tried.bias->parameter, bounds_text(searched_bounds(request.curve)), tried.bias->window.low,
-        tried.bias->window.high, tried.bias->unit, counted(answer.conditions, "condition"), answer.placements,
-        tried.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
-                           : "; " + margin_text(*tried.bias),
-        searched_text()));
-  if (tried.bias && is_fragile(*tried.bias))
-    lines.push_back(
-        fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider "
-                    "was found that costs little more.",
-                    100 * fragile_below));
-  return lines;
+namespace {
+
+// How wide the window of the answer's bias is.
+std::string bias_line(const Answer& answer, const AdviceRequest& request) {
+  const BiasChoice& bias = *answer.tried.bias;
+  return fmt::format(
+      "{} keeps {} from {:.3g} to {:.3g} {} under {} and at all {} placements of the map's grid that were searched{}. "
+      "That is {}, because conditions that were not searched may be a little worse, and other rasterisers add acne.",
+      bias.parameter, bounds_text(searched_bounds(request.curve)), bias.window.low, bias.window.high, bias.unit,
+      counted(answer.conditions, "condition"), answer.placements,
+      bias.narrow ? "; that is narrow, so a small change of the scene can break it" : "; " + margin_text(bias),
+      searched_text());
 }
 
 std::string verified_line(const Answer& answer, int width_px) {
@@ -444,17 +436,45 @@ std::string verified_line(const Answer& answer, int width_px) {
       share_text(answer.verified.worst_error));
 }
 
-std::vector<std::string> advice_text(const Advice& advice) {
+// What must be known of the answer before it is used.
+std::vector<std::string> cautions(const Advice& advice) {
+  const Tried& tried = advice.answer()->tried;
+  const MapPlace& place = advice.request.places[tried.place];
+  std::vector<std::string> lines;
+  if (tried.error >= advice.shadowed || (advice.request.error && advice.shadowed <= *advice.request.error))
+    lines.push_back(needed_text(advice));
+  if (tried.bias && is_fragile(*tried.bias))
+    lines.push_back(
+        fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider was found "
+                    "that costs little more.",
+                    100 * fragile_below));
+  if (place.of_casters)
+    lines.push_back(
+        "The map holds what casts shadows, and not the ground around it. Outside of the map everything is lit: an "
+        "object that leaves it casts no shadow (--set map.fit=tight: a map of everything).");
+  if (place.moves_with)
+    lines.push_back(fmt::format(
+        "The map lies over {}: a camera that leaves them needs another place, or the map of the whole scene "
+        "(--set map.fit=tight).",
+        place.covers));
+  return lines;
+}
+
+void append(std::vector<std::string>& lines, std::vector<std::string> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(lines));
+}
+
+}  // namespace
+
+std::vector<std::string> answer_text(const Advice& advice) {
   if (!advice.answer()) {
     std::vector<std::string> lines = about_lines(advice.request);
-    for (std::string& line : nothing_works(advice)) lines.push_back(std::move(line));
+    append(lines, nothing_works(advice));
     return lines;
   }
   const Answer& answer = *advice.answer();
   const Tried& tried = answer.tried;
-  std::vector<std::string> lines = about_lines(advice.request);
-  if (advice.shadowed == 0) lines.push_back(needed_text(advice));
-  lines.push_back(fmt::format("Set {}.", settings_text(tried, advice.request, answer.extent_m)));
+  std::vector<std::string> lines = {fmt::format("Set {}.", settings_text(tried, advice.request, answer.extent_m))};
   lines.push_back(fmt::format(
       "That is the answer \"{}\". All answers keep {}{}{}{}{}:", kinds_text(answer), glossed_bounds_text(advice),
       eye_bounds_text(advice.request),
@@ -465,34 +485,35 @@ std::vector<std::string> advice_text(const Advice& advice) {
           ? ""
           : fmt::format("; those on acne, Peter Panning and the error with the lines of {} too",
                         fmt::join(advice.request.held_in, " and "))));
-  for (std::string& line : answers_table(advice)) lines.push_back(std::move(line));
+  append(lines, answers_table(advice));
   const auto is_filtered = [](const Answer& one) { return one.tried.filtered(); };
   if (std::any_of(advice.answers.begin(), advice.answers.end(), is_filtered) &&
       !std::all_of(advice.answers.begin(), advice.answers.end(), is_filtered))
     lines.push_back(filtered_beside_compared(advice.request.curve));
-  lines.push_back(pictures_text(advice, answer));
-  if (std::string steps = steps_text(advice); !steps.empty()) lines.push_back(std::move(steps));
-  for (std::string& line : bias_lines(answer, advice.request)) lines.push_back(std::move(line));
-  if (std::string kept = kept_filtered_text(answer, advice.request.curve); !kept.empty())
-    lines.push_back(std::move(kept));
+  lines.push_back(fmt::format(
+      "Errors are the largest under {}. The report measures larger pictures, so its numbers differ a little.",
+      counted(answer.conditions, "condition")));
+  append(lines, cautions(advice));
+  append(lines, about_lines(advice.request));
+  append(lines, lookups_text(advice));
+  return lines;
+}
+
+std::vector<std::string> reasons_text(const Advice& advice) {
+  if (!advice.answer()) return {};
+  const Answer& answer = *advice.answer();
+  const Tried& tried = answer.tried;
+  std::vector<std::string> lines = {pictures_text(advice, answer), steps_text(advice)};
+  if (tried.bias) lines.push_back(bias_line(answer, advice.request));
+  lines.push_back(kept_filtered_text(answer, advice.request.curve));
   lines.push_back(verified_line(answer, advice.request.width_px));
-  if (const std::string both = promise_of_both(answer); !both.empty()) lines.push_back(both);
+  lines.push_back(promise_of_both(answer));
   if (tried.worst) {
     const std::string causes = causes_text(*tried.worst);
     lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy,
                                 share_text(tried.error), causes.empty() ? "" : ", most of it " + causes));
   }
   if (advice.shadowed > 0) lines.push_back(needed_text(advice));
-  if (advice.request.places[tried.place].of_casters)
-    lines.push_back(
-        "The map holds what casts shadows, and not the ground around it. Outside of the map everything is lit: an "
-        "object "
-        "that leaves it casts no shadow (--set map.fit=tight: a map of everything).");
-  if (advice.request.places[tried.place].moves_with)
-    lines.push_back(fmt::format(
-        "The map lies over {}: a camera that leaves them needs another place, or the map of the whole scene "
-        "(--set map.fit=tight).",
-        advice.request.places[tried.place].covers));
   lines.push_back(fmt::format("Its work is {} texels written and texture instructions a frame.", million(tried.cost)));
   if (const Tried* cheaper = next_cheaper(advice))
     lines.push_back(fmt::format("The next cheaper is {} ({}): {}.{}", settings_text(*cheaper, advice.request),
@@ -500,7 +521,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
   else
     lines.push_back(fmt::format("Nothing cheaper was tried: the smallest map among the choices has {} texels a side.",
                                 advice.request.resolutions.front()));
-  for (std::string& line : lookups_text(advice)) lines.push_back(std::move(line));
+  std::erase(lines, "");
   return lines;
 }
 

@@ -8,8 +8,12 @@
 
 namespace noonmark {
 
-// The answer as sentences, one in each element: first what it is for (AdviceRequest::about), or that nothing holds.
-std::vector<std::string> advice_text(const Advice& advice);
+// The answer as sentences, one in each element: what to set, the answers as a table, what must be known before it is used, and what it is
+// for (AdviceRequest::about); or that nothing holds.
+std::vector<std::string> answer_text(const Advice& advice);
+
+// What was measured and why it is the answer, for readers who ask; empty without an answer.
+std::vector<std::string> reasons_text(const Advice& advice);
 
 // What became of each lookup that was asked for, a sentence for each under a heading; empty if one was.
 std::vector<std::string> lookups_text(const Advice& advice);

@@ -8,6 +8,7 @@
 
 #include "app/advise/engine_trial.h"
 #include "app/advise/recommend_text.h"
+#include "base/shell_words.h"
 #include "base/text.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
@@ -16,7 +17,7 @@ namespace noonmark {
 
 std::string whole_text(const Advice& advice) {
   std::string text;
-  for (const auto& lines : {advice_text(advice), rejected_text(advice)})
+  for (const auto& lines : {answer_text(advice), reasons_text(advice), rejected_text(advice)})
     for (const std::string& line : lines) text += printable(line) + "\n";
   return text;
 }
@@ -25,7 +26,6 @@ namespace {
 
 // What to type into the engines that are shown, each with what it gave in the engine itself, and where the others are.
 void print_lines(const std::vector<EngineAdvice>& engines, std::span<const std::string> shown, const std::string& out) {
-  fmt::print("\nWhat to type:\n");
   std::vector<std::string> others;
   for (const EngineAdvice& engine : engines) {
     const std::string word = engine_word(engine.engine);
@@ -33,12 +33,12 @@ void print_lines(const std::vector<EngineAdvice>& engines, std::span<const std::
       others.push_back(fmt::format("{} ({})", engine.engine, word));
       continue;
     }
-    fmt::print("  {} ({})\n", engine.engine, engine.version);
-    for (const std::string& line : engine_lines(engine)) fmt::print("    {}\n", line);
+    fmt::print("\nWhat to type into {} ({}):\n", engine.engine, engine.version);
+    for (const std::string& line : engine_lines(engine)) fmt::print("  {}\n", line);
     for (const std::string& line : trial_text(engine)) fmt::print("{}\n", printable(line));
   }
-  fmt::print("{}/engines.txt has the lines for {}, and what each engine cannot express; --lines NAME prints others.\n",
-             printable(out), fmt::join(others, ", "));
+  if (!others.empty())
+    fmt::print("\nLines for {}: {}/engines.txt, or --lines NAME\n", fmt::join(others, ", "), printable(out));
 }
 
 }  // namespace
@@ -56,16 +56,13 @@ void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines
   for (const Settings& condition : request.conditions)
     for (const std::string& note : light_notes(bench.scene(condition.scene), condition)) of_lights.insert(note);
   for (const std::string& note : of_lights) fmt::print("note: {}\n", printable(note));
-  fmt::print(
-      "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.txt (also why simpler "
-      "settings do not do), {0}/recommended.json{1} and {0}/recommended-*.png are written\n",
-      printable(out), no_lines.empty() ? fmt::format(", {}/engines.txt", printable(out)) : "");
+  fmt::print("Why, and what simpler settings miss: {0}/recommended.txt; pictures: {0}/recommended-*.png\n",
+             printable(out));
   for (const Answer& answer : advice.answers)
     if (&answer != advice.answer())
-      fmt::print(
-          "{0}/recommended-{1}.toml and {0}/recommended-{1}-*.png are of the answer \"{1}\"; --answer {1} prints its "
-          "lines\n",
-          printable(out), answer_name(answer.kinds.front()));
+      fmt::print("The answer \"{0}\": {1}/recommended-{0}.toml; --answer {0} makes it the first\n",
+                 answer_name(answer.kinds.front()), printable(out));
+  fmt::print("Next: noonmark check {}/recommended.toml\n", printable(shell_quoted(out)));
 }
 
 }  // namespace noonmark

@@ -335,18 +335,13 @@ std::string why_no_engine_lines(std::span<const Settings> conditions) {
   return "";
 }
 
-// The engines whose lines are printed. Without a wish it is the first of those that have the lookup of an engine, or of all.
-std::vector<std::string> shown_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan,
-                                       const std::vector<EngineAdvice>& engines) {
+// The engines whose lines are asked for.
+std::vector<std::string> shown_engines(const RecommendOptions& options, const std::optional<TrialPlan>& plan) {
   std::vector<std::string> words;
   if (plan) words = plan->names;
   for (const std::string& word : options.held_in)
     if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
   if (options.lines) words.push_back(*options.lines);
-  const auto with_lines =
-      std::find_if(engines.begin(), engines.end(), [](const EngineAdvice& engine) { return !engine.lines.empty(); });
-  if (words.empty())
-    words.push_back(with_lines == engines.end() ? engine_words().front() : engine_word(with_lines->engine));
   return words;
 }
 
@@ -402,7 +397,7 @@ int recommend(const RecommendOptions& options) {
   };
   write_with_engines();
   if (!arguments.json)
-    for (const std::string& line : advice_text(advice)) fmt::print("{}\n", printable(line));
+    for (const std::string& line : answer_text(advice)) fmt::print("{}\n", printable(line));
   for (const Answer& answer : advice.answers) {
     const std::string stem =
         &answer == advice.answer() ? "recommended" : "recommended-" + answer_name(answer.kinds.front());
@@ -421,7 +416,7 @@ int recommend(const RecommendOptions& options) {
   }
   if (arguments.json) fmt::print("{}", advice_json(advice, engines));
   if (!advice.answer()) return 1;
-  if (!arguments.json) print_advice(advice, engines, shown_engines(options, plan, engines), no_lines, bench, out);
+  if (!arguments.json) print_advice(advice, engines, shown_engines(options, plan), no_lines, bench, out);
   require_frames(engines);
   return broken_in_engine(engines) ? 1 : 0;
 }
@@ -516,7 +511,7 @@ RunVerb add_recommend(CLI::App& verb) {
   verb.add_option("--lines", options->lines, "The engine whose lines are printed; engines.txt has those of all")
       ->check(one_of(words))
       ->type_name(joined(words))
-      ->default_str(fmt::format("those of --for and --engine, otherwise {}", words.front()));
+      ->default_str("those of --for and --engine");
   verb.add_option(
           "--for", options->held_in,
           "Search settings whose lines keep the bounds in this engine too, as far as Noonmark can measure what it "
