@@ -226,7 +226,8 @@ namespace {
 Markup metric_terms(const std::vector<Metric>& metrics) {
   Markup list;
   for (const Metric& metric : metrics)
-    list += term(with_small(metric_label(metric.name) + " " + code(metric.name), head_unit(metric.unit)), metric.help);
+    list += term(with_small(metric_label(metric.name) + " " + code(metric.name), head_unit(metric.unit)),
+                 std::string(metric.help) + also_text(metric));
   return list;
 }
 
@@ -280,7 +281,8 @@ Markup frames_in_words() {
 
 Markup meaning_section(const Results& results) {
   Markup out = judges_frames(results.points) ? frames_in_words() : ladder_in_words(results);
-  const std::vector<Metric> metrics = metrics_of(results.points);
+  std::vector<Metric> metrics = metrics_of(results.points);
+  std::erase_if(metrics, [](const Metric& metric) { return metric.is(Metric::made); });
   if (!metrics.empty())
     out += folded("glossary", false, prose("Each of the {} metrics in a sentence", metrics.size()),
                   terms("terms", metric_terms(metrics)));
