@@ -172,45 +172,33 @@ const char* edges_alone(const Coverage& changed, const Coverage& fixed) {
   return shrunk > 9 * grown ? "has surfaces that are too small" : nullptr;
 }
 
-// What the checks below say of a picture in another place.
-constexpr std::string_view misplaced = "the picture is flipped or shifted";
-
-}  // namespace
-
-Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
-  if (e.frame.receivers == GivenReceivers::none)
-    return not_checked(
-        "no positions or depths were given: the receivers are those of rays through the pixels' centres");
-  const int width = e.frame.visibility.width, height = e.frame.visibility.height;
+// Of the pixels that have a position: how far it lies from the pixel's centre and from the scene, and how large its numbers are.
+struct GivenPositions {
   Offsets all;
-  std::vector<double> off, moved, size;
-  size_t half = 0;
+  std::vector<double> off_px, moved_m, size_m;
+  size_t half = 0;  // whose three numbers are half floats
+};
+GivenPositions given_positions(const CheckEvidence& e) {
+  const int width = e.frame.visibility.width, height = e.frame.visibility.height;
+  GivenPositions given;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const size_t i = e.moved_m.index(x, y);
       const glm::dvec3 p = e.frame.positions[i];
       if (!std::isfinite(p.x)) continue;
       const glm::dvec2 at = glm::dvec2(e.frame.view.pixel_of(p, width, height)) - glm::dvec2(x + 0.5, y + 0.5);
-      all.add(at);
-      off.push_back(glm::length(at));
-      moved.push_back(e.moved_m[i]);
-      size.push_back(glm::length(p));
-      half += is_half(p.x) && is_half(p.y) && is_half(p.z);
+      given.all.add(at);
+      given.off_px.push_back(glm::length(at));
+      given.moved_m.push_back(e.moved_m[i]);
+      given.size_m.push_back(glm::length(p));
+      given.half += is_half(p.x) && is_half(p.y) && is_half(p.z);
     }
-  if (moved.empty()) return failed("no pixel has a position; write the world position of every pixel with a surface");
-  const auto count = static_cast<double>(moved.size());
-  const double median_size = quantile(size, 0.5), median_moved = quantile(moved, 0.5);
-  // A half float has 11 bits. Positions that are halves by chance, as on a grid of powers of two, have no rounding that moves
-  // them in the picture.
-  if (e.frame.receivers == GivenReceivers::positions && static_cast<double>(half) == count &&
-      quantile(off, 0.95) > 0.01)
-    return failed(
-        fmt::format("every position is a half float, which puts one of twenty more than {:.2g} pixels beside its "
-                    "place: write the positions as 32-bit floats",
-                    quantile(off, 0.95)));
-  const double least_stray_m = 0x1p-12 * median_size;
-  const std::vector<SurfacePositions> surfaces = positions_by_surface(e, least_stray_m);
-  // Those that nothing but the near plane can have moved are asked; where there are none, the picture as a whole.
+  return given;
+}
+
+// Fails where positions lie beside their pixels. Surfaces that nothing but the near plane can have moved are asked; where
+// there are none, the picture as a whole, whose median this is.
+std::optional<Outcome> beside_their_pixels(const std::vector<SurfacePositions>& surfaces, glm::dvec2 median) {
   size_t told = 0, moved_surfaces = 0;
   double others_px = 0;
   const SurfacePositions* worst = nullptr;
@@ -222,7 +210,6 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
     else if (++moved_surfaces; !worst || glm::length(one.median()) > glm::length(worst->median()))
       worst = &one;
   }
-  const glm::dvec2 median = all.median();
   if (told == 0 ? glm::length(median) > most_off_px : moved_surfaces == told) {
     const glm::dvec2 by = glm::length(median) > most_off_px ? median : worst->median();
     return failed(
@@ -231,15 +218,62 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
                     "jittered",
                     by.x, by.y));
   }
-  if (worst)
-    return failed(fmt::format(
-        "the positions on {} lie ({:+.2f}, {:+.2f}) pixels (x to the right, y down) from the centres of their pixels "
-        "in the "
-        "median, and those on {} other surfaces {:.3f} at most: {}",
-        worst->name, worst->median().x, worst->median().y, told - moved_surfaces, others_px,
-        moved_surfaces == 1
-            ? "it is drawn with another camera or pose than its positions"
-            : fmt::format("{} surfaces are drawn with another camera or pose than their positions", moved_surfaces)));
+  if (!worst) return std::nullopt;
+  return failed(fmt::format(
+      "the positions on {} lie ({:+.2f}, {:+.2f}) pixels (x to the right, y down) from the centres of their pixels "
+      "in the "
+      "median, and those on {} other surfaces {:.3f} at most: {}",
+      worst->name, worst->median().x, worst->median().y, told - moved_surfaces, others_px,
+      moved_surfaces == 1
+          ? "it is drawn with another camera or pose than its positions"
+          : fmt::format("{} surfaces are drawn with another camera or pose than their positions", moved_surfaces)));
+}
+
+// Fails where one surface is elsewhere, and the rest is where the scene has it. stray: the share of all positions off the scene.
+std::optional<Outcome> off_one_surface(const std::vector<SurfacePositions>& surfaces, double stray) {
+  if (!(stray < most_gone)) return std::nullopt;
+  const auto of = [](size_t part, size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); };
+  for (const SurfacePositions& one : surfaces) {
+    if (one.seen >= enough && of(one.gone, one.seen) > most_gone)
+      return failed(
+          fmt::format("at {:.0f}% of the {} pixels where the scene shows {} the positions lie before or behind it: it "
+                      "is elsewhere in the frame, or was not drawn",
+                      100 * of(one.gone, one.seen), one.seen, one.name));
+    if (one.count >= enough && of(one.stray_m.size(), one.count) > most_stray_of_surface)
+      return failed(
+          fmt::format("{:.0f}% of the {} positions on {} lie off it, half of these by more than {:.2g} m: its pose "
+                      "in the frame is another one, or its shape",
+                      100 * of(one.stray_m.size(), one.count), one.count, one.name, quantile(one.stray_m, 0.5)));
+  }
+  return std::nullopt;
+}
+
+// What the checks below say of a picture in another place.
+constexpr std::string_view misplaced = "the picture is flipped or shifted";
+
+}  // namespace
+
+Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
+  if (e.frame.receivers == GivenReceivers::none)
+    return not_checked(
+        "no positions or depths were given: the receivers are those of rays through the pixels' centres");
+  GivenPositions given = given_positions(e);
+  std::vector<double>& moved = given.moved_m;
+  if (moved.empty()) return failed("no pixel has a position; write the world position of every pixel with a surface");
+  const auto count = static_cast<double>(moved.size());
+  const double median_size = quantile(given.size_m, 0.5), median_moved = quantile(moved, 0.5);
+  // A half float has 11 bits. Positions that are halves by chance, as on a grid of powers of two, have no rounding that moves
+  // them in the picture.
+  if (e.frame.receivers == GivenReceivers::positions && static_cast<double>(given.half) == count &&
+      quantile(given.off_px, 0.95) > 0.01)
+    return failed(
+        fmt::format("every position is a half float, which puts one of twenty more than {:.2g} pixels beside its "
+                    "place: write the positions as 32-bit floats",
+                    quantile(given.off_px, 0.95)));
+  const double least_stray_m = 0x1p-12 * median_size;
+  const std::vector<SurfacePositions> surfaces = positions_by_surface(e, least_stray_m);
+  const glm::dvec2 median = given.all.median();
+  if (std::optional<Outcome> beside = beside_their_pixels(surfaces, median)) return *beside;
   if (is_reversed(e))
     return failed(
         "where a surface hides another, the positions are the hidden one's: the depths are reversed, so check the "
@@ -248,20 +282,7 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
   const double stray =
       static_cast<double>(std::count_if(moved.begin(), moved.end(), [&](double m) { return m > least_stray_m; })) /
       count;
-  // One surface is elsewhere, and the rest is where the scene has it.
-  for (const SurfacePositions& one : surfaces) {
-    const auto of = [](size_t part, size_t whole) { return static_cast<double>(part) / static_cast<double>(whole); };
-    if (one.seen >= enough && of(one.gone, one.seen) > most_gone && stray < most_gone)
-      return failed(
-          fmt::format("at {:.0f}% of the {} pixels where the scene shows {} the positions lie before or behind it: it "
-                      "is elsewhere in the frame, or was not drawn",
-                      100 * of(one.gone, one.seen), one.seen, one.name));
-    if (one.count >= enough && of(one.stray_m.size(), one.count) > most_stray_of_surface && stray < most_gone)
-      return failed(
-          fmt::format("{:.0f}% of the {} positions on {} lie off it, half of these by more than {:.2g} m: its pose "
-                      "in the frame is another one, or its shape",
-                      100 * of(one.stray_m.size(), one.count), one.count, one.name, quantile(one.stray_m, 0.5)));
-  }
+  if (std::optional<Outcome> elsewhere = off_one_surface(surfaces, stray)) return *elsewhere;
   if (stray > most_stray)
     return failed(
         fmt::format("{:.1f}% of the positions lie off the scene, half of all by more than {:.2g} m: the scene, its "

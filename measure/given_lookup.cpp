@@ -68,6 +68,8 @@ struct GivenLookup::Impl {
   Pipeline stages;
 
   void allow_rounding(const GivenPoint& point, GivenClimb& made);
+  void explain_by_offset(const GivenPoint& point, const ViewStage& view, const TruthStage& truth,
+                         const MapDepths& exact_depth, GivenClimb& made);
 };
 
 // Each receiver is looked up at the corners of a box about it, along the light's axes. It is far smaller than a texel, so a tap
@@ -112,6 +114,41 @@ void GivenLookup::Impl::allow_rounding(const GivenPoint& point, GivenClimb& made
   }
   if (asked >= enough_receivers) made.beyond_rounding = beyond / asked;
   made.interpolated = left_out / (asked + left_out);
+}
+
+// What the map holds beside the declared offset, and how far the maps differ if the exact map had it too.
+void GivenLookup::Impl::explain_by_offset(const GivenPoint& point, const ViewStage& view, const TruthStage& truth,
+                                          const MapDepths& exact_depth, GivenClimb& made) {
+  const Technique& technique = point.technique;
+  made.precision_with_offset = made.maps_differ;
+  // Depths that do not tell their format are taken for floats, and may be of 24 bits all the same: then an offset has one size
+  // at all depths.
+  std::vector<DepthFormat> formats = {technique.settings.map.format};
+  if (formats.front() == DepthFormat::d32f) formats.push_back(DepthFormat::d24);
+  for (const DepthFormat format : formats) {
+    const MapOffset offset = map_offset(point.depth, exact_depth, format);
+    if (format == formats.front()) made.offset = offset;
+    if (!offset.in_map()) continue;
+    const double unit = format == DepthFormat::d32f ? float_step(exact_depth) : renderer.polygon_offset_unit(format);
+    // What the declaration would be, looked up in the exact map that it gives.
+    Settings with = technique.settings;
+    with.map.format = format;
+    with.bias["polygon_factor"] += offset.factor;
+    with.bias["polygon_units"] += offset.constant / unit;
+    const Technique declaring(with, technique.frame);
+    const LookupStage again = stages.prepare_lookup(renderer, tracer, view, truth, declaring);
+    const gl::ShadowMap moved = renderer.upload_map(again.exact_depth, with.map);
+    const Image<float> r4 = mixed_results(stages.look_up(renderer, moved, {&declaring, 1}), only_map);
+    double differ = 0, counted = 0;
+    for (size_t i = 0; i < r4.size(); ++i)
+      if (is_counted(made.ladder, i)) {
+        if (point.missing.size() == 0 || !point.missing[i])
+          differ += std::abs(static_cast<double>(made.ladder[Rung::shown][i]) - r4[i]);
+        counted += 1;
+      }
+    if (made.offset_unit != 0 && !(differ / counted < made.precision_with_offset)) continue;
+    made.offset = offset, made.offset_unit = unit, made.precision_with_offset = differ / counted;
+  }
 }
 
 GivenLookup::GivenLookup(const Scene& scene, const raytrace::Tracer& tracer)
@@ -168,36 +205,7 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   made.maps_differ = made.metrics.at(made.is_scenes_map ? "precision" : std::string(frame_map));
   made.metrics["map_excess"] = 0;  // another renderer's map, whatever it holds, is no contradiction
   impl_->allow_rounding(point, made);
-  made.precision_with_offset = made.maps_differ;
-  // Depths that do not tell their format are taken for floats, and may be of 24 bits all the same: then an offset has one size
-  // at all depths.
-  std::vector<DepthFormat> formats = {technique.settings.map.format};
-  if (formats.front() == DepthFormat::d32f) formats.push_back(DepthFormat::d24);
-  for (const DepthFormat format : formats) {
-    const MapOffset offset = map_offset(point.depth, lookup.exact_depth, format);
-    if (format == formats.front()) made.offset = offset;
-    if (!offset.in_map()) continue;
-    const double unit =
-        format == DepthFormat::d32f ? float_step(lookup.exact_depth) : renderer.polygon_offset_unit(format);
-    // What the declaration would be, looked up in the exact map that it gives.
-    Settings with = technique.settings;
-    with.map.format = format;
-    with.bias["polygon_factor"] += offset.factor;
-    with.bias["polygon_units"] += offset.constant / unit;
-    const Technique declaring(with, technique.frame);
-    const LookupStage again = impl_->stages.prepare_lookup(renderer, impl_->tracer, view, truth, declaring);
-    const gl::ShadowMap moved = renderer.upload_map(again.exact_depth, with.map);
-    const Image<float> r4 = mixed_results(impl_->stages.look_up(renderer, moved, {&declaring, 1}), only_map);
-    double differ = 0, counted = 0;
-    for (size_t i = 0; i < r4.size(); ++i)
-      if (is_counted(made.ladder, i)) {
-        if (point.missing.size() == 0 || !point.missing[i])
-          differ += std::abs(static_cast<double>(made.ladder[Rung::shown][i]) - r4[i]);
-        counted += 1;
-      }
-    if (made.offset_unit != 0 && !(differ / counted < made.precision_with_offset)) continue;
-    made.offset = offset, made.offset_unit = unit, made.precision_with_offset = differ / counted;
-  }
+  impl_->explain_by_offset(point, view, truth, lookup.exact_depth, made);
   PointRecord record;
   record.metrics = made.metrics;
   if (const std::vector<Unsound> unsound = find_unsound({&record, 1}); !unsound.empty())

@@ -406,6 +406,44 @@ std::vector<std::string> lookups_text(const Advice& advice) {
   return lines;
 }
 
+// How wide the window of the answer's bias is, and whether that is little. Empty without a bias.
+std::vector<std::string> bias_lines(const Answer& answer, const AdviceRequest& request) {
+  const Tried& tried = answer.tried;
+  std::vector<std::string> lines;
+  if (tried.bias)
+    lines.push_back(fmt::format(
+        "{} keeps {} from {:.3g} to {:.3g} {} under {} and at all {} placements of the map's grid that were "
+        "searched{}. That is {}, because conditions that were not searched may be a little worse, and other "
+        "rasterisers "
+        "add acne.",
+        tried.bias->parameter, bounds_text(searched_bounds(request.curve)), tried.bias->window.low,
+        tried.bias->window.high, tried.bias->unit, counted(answer.conditions, "condition"), answer.placements,
+        tried.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
+                           : "; " + margin_text(*tried.bias),
+        searched_text()));
+  if (tried.bias && is_fragile(*tried.bias))
+    lines.push_back(
+        fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider "
+                    "was found that costs little more.",
+                    100 * fragile_below));
+  return lines;
+}
+
+std::string verified_line(const Answer& answer, int width_px) {
+  return fmt::format(
+      "Verified under the worst condition at {} other placements{}, {} pixels wide: the worst of them has "
+      "{} and {} error.",
+      answer.verified.placements,
+      answer.verified.rendered == answer.verified.placements
+          ? ", rendered by OpenGL"
+          : fmt::format(", {} of them rendered by OpenGL", answer.verified.rendered),
+      std::min(width_px, answer.tried.settings.view.width_px),
+      answer.tried.filtered() ? shares_text(answer.verified.filtered)
+                              : fmt::format("{} acne, {} Peter Panning", share_text(answer.verified.worst_acne),
+                                            share_text(answer.verified.worst_peter_panning)),
+      share_text(answer.verified.worst_error));
+}
+
 std::vector<std::string> advice_text(const Advice& advice) {
   if (!advice.answer()) {
     std::vector<std::string> lines = about_lines(advice.request);
@@ -434,36 +472,10 @@ std::vector<std::string> advice_text(const Advice& advice) {
     lines.push_back(filtered_beside_compared(advice.request.curve));
   lines.push_back(pictures_text(advice, answer));
   if (std::string steps = steps_text(advice); !steps.empty()) lines.push_back(std::move(steps));
-  if (tried.bias)
-    lines.push_back(fmt::format(
-        "{} keeps {} from {:.3g} to {:.3g} {} under {} and at all {} placements of the map's grid that were "
-        "searched{}. That is {}, because conditions that were not searched may be a little worse, and other "
-        "rasterisers "
-        "add acne.",
-        tried.bias->parameter, bounds_text(searched_bounds(advice.request.curve)), tried.bias->window.low,
-        tried.bias->window.high, tried.bias->unit, counted(answer.conditions, "condition"), answer.placements,
-        tried.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
-                           : "; " + margin_text(*tried.bias),
-        searched_text()));
-  if (tried.bias && is_fragile(*tried.bias))
-    lines.push_back(
-        fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider "
-                    "was found that costs little more.",
-                    100 * fragile_below));
+  for (std::string& line : bias_lines(answer, advice.request)) lines.push_back(std::move(line));
   if (std::string kept = kept_filtered_text(answer, advice.request.curve); !kept.empty())
     lines.push_back(std::move(kept));
-  lines.push_back(
-      fmt::format("Verified under the worst condition at {} other placements{}, {} pixels wide: the worst of them has "
-                  "{} and {} error.",
-                  answer.verified.placements,
-                  answer.verified.rendered == answer.verified.placements
-                      ? ", rendered by OpenGL"
-                      : fmt::format(", {} of them rendered by OpenGL", answer.verified.rendered),
-                  std::min(advice.request.width_px, tried.settings.view.width_px),
-                  tried.filtered() ? shares_text(answer.verified.filtered)
-                                   : fmt::format("{} acne, {} Peter Panning", share_text(answer.verified.worst_acne),
-                                                 share_text(answer.verified.worst_peter_panning)),
-                  share_text(answer.verified.worst_error)));
+  lines.push_back(verified_line(answer, advice.request.width_px));
   if (const std::string both = promise_of_both(answer); !both.empty()) lines.push_back(both);
   if (tried.worst) {
     const std::string causes = causes_text(*tried.worst);

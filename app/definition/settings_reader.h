@@ -35,7 +35,8 @@ class SettingsReader : protected TomlReader {
                                row.range_text()));
       return row.name == "scene.name" ? scene_path(text) : text;
     }
-    fail(node, fmt::format("{} cannot be this kind of value; it takes {}", row.name, row.range_text()));
+    fail(node, fmt::format("{} cannot be this kind of value; it takes {}{}", row.name, row.range_text(),
+                           node.is_array() ? "; [sweep] takes a list of its values" : ""));
   }
 
   std::string canonical(const Setting& row, const toml::node& node) const {

@@ -28,7 +28,7 @@ namespace {
 // Of a law that no point matches: where its file gives it, and which --set took its points away.
 std::string no_point_words(const Experiment& part, const std::string& name) {
   const auto law = std::find_if(part.laws.begin(), part.laws.end(), [&](const Law& one) { return one.name == name; });
-  std::string text = fmt::format("no point is left that {} speaks of", printable(law->name));
+  std::string text = fmt::format("no point is left that the law '{}' speaks of", printable(law->name));
   if (!law->location.empty()) text += fmt::format(" ({})", law->location);
   for (const auto& [setting, values] : law->where)
     if (const auto given = part.locations.find(setting);

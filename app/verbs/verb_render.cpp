@@ -173,63 +173,26 @@ void print_curve_over(const Measurement& m) {
                &at == &best ? "  least error" : "");
 }
 
-// clock: what the times come from.
-void print_ladder(const Measurement& m, const char* clock) {
-  const auto value = [&](const char* name) { return m.record.metrics.at(name); };
-  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
-             value("facing"), value("counted"));
-  if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
-  fmt::print("\n");
-  if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
-  if (nothing_judged(m.record)) return;
-  // Calls print(metric, value) for each metric of the point that is printed so. A point with one map has none of cascades.
-  const auto each = [&](Metric::Is printed, const auto& print) {
-    for (const Metric& metric : metrics_of({&m.record, 1}))
-      if (const auto found = m.record.metrics.find(std::string(metric.name));
-          metric.is(printed) && !metric.is(Metric::motion) && found != m.record.metrics.end())
-        print(metric, found->second);
-  };
+// Calls print(metric, value) for each metric of the point that is printed so. A point with one map has none of cascades.
+void each_printed(const Measurement& m, Metric::Is so, const auto& print) {
+  for (const Metric& metric : metrics_of({&m.record, 1}))
+    if (const auto found = m.record.metrics.find(std::string(metric.name));
+        metric.is(so) && !metric.is(Metric::motion) && found != m.record.metrics.end())
+      print(metric, found->second);
+}
+
+void print_shares(const Measurement& m) {
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
-  each(Metric::share, [&](const Metric& metric, double share) {
+  each_printed(m, Metric::share, [&](const Metric& metric, double share) {
     if (std::isnan(share)) return;
     fmt::print("  {:<32}{:>11.5f}%{}\n", metric.name, 100 * share,
                metric.name == "wrong" && m.technique.moments
                    ? "  (not exactly as the truth, however little; judge by the error)"
                    : "");
   });
-  print_cascades(m);
-  print_placements(m);
-  print_flicker(m);
-  fmt::print("\n");
-  print_fitted_map(m);
-  if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
-  each(Metric::value, [](const Metric& metric, double number) {
-    fmt::print("  {:<32}{:>12.5g} {}\n", metric.name, number, metric.unit);
-  });
-  // Up to 1 the map is fine enough for the camera.
-  each(Metric::above_1, [](const Metric& metric, double number) {
-    if (!(number <= 1)) fmt::print("  {:<32}{:>12.5g} texel widths for a pixel's\n", metric.name, number);
-  });
-  each(Metric::one_receiver, [](const Metric& metric, double share) {
-    fmt::print("  {:<32}{:>11.5f}% of the light of one receiver\n", metric.name, 100 * share);
-  });
-  print_reductions(m);
-  if (const std::string cures = cures_of_precision(m.record); !cures.empty() && !rounds_too_much(m.record))
-    fmt::print("  {}\n", cures);
-  print_curve_over(m);
-  for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
-    if (!m.record.metrics.contains(name)) continue;
-    const MedianInterval time = interval_of(m.record, name);
-    fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);
-  }
-  if (const std::string why = why_no_curve(m.record); !why.empty() && !has_curve(m.record))
-    fmt::print("\n  no bias curve: {}\n", why);
-  if (!m.record.curve) return;
-  const BiasCurve& c = *m.record.curve;
-  if (m.maps.size() > 1) {
-    print_curve_of_cascades(m, c);
-    return;
-  }
+}
+
+void print_window(const Measurement& m, const BiasCurve& c) {
   const char* there = m.uniform() ? "" : " (m and texels at the median receiver)";
   if (hides_window(m.record))
     fmt::print("\n  usable {}: {}\n", c.parameter, window_not_known);
@@ -250,11 +213,58 @@ void print_ladder(const Measurement& m, const char* clock) {
     if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() || m.technique.moves_casters())
       fmt::print(", on top of the other parts");
     else if (m.uniform() || m.technique.settings.bias.unit == BiasUnit::m)
-      fmt::print("; by law 1 the planes in the picture need {:.4g} m", value("acne_free_bias_law_m"));
+      fmt::print("; by law 1 the planes in the picture need {:.4g} m", m.record.metrics.at("acne_free_bias_law_m"));
     else if (m.technique.settings.bias.unit == BiasUnit::depth)
-      fmt::print("; by law 1 the planes in the picture need {:.4g} depth", value("acne_free_bias_law_depth"));
+      fmt::print("; by law 1 the planes in the picture need {:.4g} depth",
+                 m.record.metrics.at("acne_free_bias_law_depth"));
     fmt::print("\n");
   }
+}
+
+// clock: what the times come from.
+void print_ladder(const Measurement& m, const char* clock) {
+  const auto value = [&](const char* name) { return m.record.metrics.at(name); };
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
+             value("facing"), value("counted"));
+  if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
+  fmt::print("\n");
+  if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
+  if (nothing_judged(m.record)) return;
+  print_shares(m);
+  print_cascades(m);
+  print_placements(m);
+  print_flicker(m);
+  fmt::print("\n");
+  print_fitted_map(m);
+  if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
+  each_printed(m, Metric::value, [](const Metric& metric, double number) {
+    fmt::print("  {:<32}{:>12.5g} {}\n", metric.name, number, metric.unit);
+  });
+  // Up to 1 the map is fine enough for the camera.
+  each_printed(m, Metric::above_1, [](const Metric& metric, double number) {
+    if (!(number <= 1)) fmt::print("  {:<32}{:>12.5g} texel widths for a pixel's\n", metric.name, number);
+  });
+  each_printed(m, Metric::one_receiver, [](const Metric& metric, double share) {
+    fmt::print("  {:<32}{:>11.5f}% of the light of one receiver\n", metric.name, 100 * share);
+  });
+  print_reductions(m);
+  if (const std::string cures = cures_of_precision(m.record); !cures.empty() && !rounds_too_much(m.record))
+    fmt::print("  {}\n", cures);
+  print_curve_over(m);
+  for (const char* name : {"map_ms", "prefilter_ms", "lookup_ms"}) {
+    if (!m.record.metrics.contains(name)) continue;
+    const MedianInterval time = interval_of(m.record, name);
+    fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);
+  }
+  if (const std::string why = why_no_curve(m.record); !why.empty() && !has_curve(m.record))
+    fmt::print("\n  no bias curve: {}\n", why);
+  if (!m.record.curve) return;
+  const BiasCurve& c = *m.record.curve;
+  if (m.maps.size() > 1) {
+    print_curve_of_cascades(m, c);
+    return;
+  }
+  print_window(m, c);
   fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
 }
 

@@ -127,12 +127,12 @@ std::string parameter_of_all(const Results& results) {
 std::vector<std::string> window_cells(const PointRecord& point, bool biases, bool mixed) {
   const bool reduction = free_setting(point) == FreeSetting::reduction;
   const char* const what = reduction && mixed ? "reduction " : "";
+  if (hides_window(point)) return std::vector<std::string>(biases ? 5 : 3, "not known");
   const std::optional<Interval> window = usable_window(point);
   std::vector<std::string> cells{
-      window                ? fmt::format("{}{} … {}", what, number_text(window->low), number_text(window->high))
-      : hides_window(point) ? "not known"
-      : has_curve(point)    ? "none"
-                            : "–"};
+      window             ? fmt::format("{}{} … {}", what, number_text(window->low), number_text(window->high))
+      : has_curve(point) ? "none"
+                         : "–"};
   if (reduction) {
     cells.push_back(what + short_or_missing(best_depth(point)));
     if (biases) cells.insert(cells.end(), 2, "–");

@@ -380,7 +380,7 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"[map]\nresolution = 0", "2:14", "1 ... 16384"},
       {"[map]\nresolution = 512.5", "2:14", "1 ... 16384"},
       {"[map]\nresolution = \"512\"", "2:14", "without quotes"},
-      {"[map]\nresolution = [512]", "2:14", "cannot be this kind"},
+      {"[map]\nresolution = [512]", "2:14", "1 ... 16384; [sweep] takes a list"},
       {"[map]\nextent_m = nan", "2:12", "map.extent_m = 'nan' is not allowed"},
       {"[map]\nextent_m = inf", "2:12", "is not allowed"},
       {"[map]\nwrap = 1\nformat = 1", "2:8", "map.wrap = '1'"},  // the first mistake in the file is reported

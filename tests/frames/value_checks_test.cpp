@@ -148,16 +148,17 @@ double cosine_at(const Delivered& from, const LightFrame& light, size_t i) {
 // As it is, with ambient light, and as a screen shows it.
 TEST(Shaded, NLIsKnownUnderEveryLight) {
   using Shade = double (*)(double);
-  for (const char* scene : {"cube-room", "spot-room", "point-room"})
+  for (const char* scene : {"cube-room", "spot-room", "point-room"}) {
+    const Delivered from = good_frame(scene, width, height);
+    const LightFrame light = from.judged().light;
     for (const Shade shade : {Shade([](double x) { return 0.9 * x; }), Shade([](double x) { return 0.15 + 0.7 * x; }),
                               Shade([](double x) { return (1.2 * x + 0.05) / (1.2 * x + 1.05); })}) {
-      const Delivered from = good_frame(scene, width, height);
-      const LightFrame light = from.judged().light;
       Image<float> v = from.frame.visibility;
       for (size_t i = 0; i < v.size(); ++i) v[i] = static_cast<float>(shade(v[i] * cosine_at(from, light, i)));
       const CheckResult found = check_named(verdict_of(from, v), "shaded");
       EXPECT_EQ(found.state, CheckState::failed) << scene << ": " << found.says;
     }
+  }
 }
 
 // Acne, or edges of a filter that lie elsewhere: a third of the pixels is darker than the shading makes them.
