@@ -14,16 +14,16 @@ using enum Metric::Is;
 consteval Metric of_cause(std::string_view name, unsigned also = number) {
   const CauseRow& row =
       *std::find_if(cause_rows.begin(), cause_rows.end(), [&](const CauseRow& one) { return one.name == name; });
-  return {row.name, "fraction", row.help, plot | share | also | (is_of_moments(row) ? moments : number)};
+  return {row.name, "fraction", row.help, plot | share | csv | also | (is_of_moments(row) ? moments : number)};
 }
 
 // In the order in which stores and tables have them.
 constexpr Metric rows[] = {
     {"error", "fraction", "Mean |R5 - R1| over the counted receivers: what the GPU shows compared with the hard truth.",
-     plot | share | placed},
+     plot | share | placed | csv},
     {"error_soft", "fraction",
-     "Mean |R5 - R0|: what the GPU shows compared with the truth for the light with its size.", plot | share},
-    {"wrong", "fraction", "Share of the counted receivers whose R5 differs from R1.", plot | share | placed},
+     "Mean |R5 - R0|: what the GPU shows compared with the truth for the light with its size.", plot | share | csv},
+    {"wrong", "fraction", "Share of the counted receivers whose R5 differs from R1.", plot | share | placed | csv},
     {"wrong_patch", "fraction",
      "The largest patch of wrong pixels, as a share of the whole picture: counted receivers that touch at a side or a "
      "corner, and whose R5 and R1 are not on the same side of one half.",
@@ -87,7 +87,8 @@ constexpr Metric rows[] = {
     {"facing", "count", "Number of receivers that face the light."},
     {"counted", "count",
      "Number of facing receivers that are not ambiguous. Every fraction is a fraction of the counted receivers, unless "
-     "its text names others."},
+     "its text names others.",
+     csv},
     {"clipped", "count",
      "Number of pixels that see nothing because the camera's near or far plane cuts the surface off."},
     {"culled", "count", "Number of pixels that see nothing but the backs of single-sided faces."},
@@ -182,9 +183,9 @@ constexpr Metric rows[] = {
      "Of a map of moments: the least lookup.reduction at which the leak is within curve.peter_panning_bound, and "
      "over-darkening and what the reduction darkens are each within curve.acne_bound. Left out if no reduction is. "
      "Measured with a curve.",
-     plot | moments | unbounded},
+     plot | moments | unbounded | csv},
     {"reduction_max", "", "Of a map of moments: the largest such lookup.reduction, at most 0.99.",
-     plot | moments | unbounded},
+     plot | moments | unbounded | csv},
     {"rounding_excess", "",
      "Largest error of the numbers that the lookup computes (address, reference depth, N.L, and what bias and filter "
      "need) against the light's frame in double, as a multiple of the largest error that float arithmetic can make. "
@@ -201,7 +202,7 @@ constexpr Metric rows[] = {
      "Of cascades: mean |R5 in the next cascade - R5 in its own| over the receivers in the last 4% of a cascade that "
      "is not the last: the step that the picture has there without a blend band. Its parts by cause follow; they can "
      "add up to more than it, because their signs differ.",
-     plot | cascades | share},
+     plot | cascades | share | csv},
     {"seam_filter", "fraction", "Of seam_jump: mean |change| of the blur of the filter.", plot | cascades | share},
     {"seam_displacement", "fraction", "Of seam_jump: mean |change| of displacement.", plot | cascades | share},
     {"seam_aliasing", "fraction", "Of seam_jump: mean |change| of aliasing, dark and light together.",
@@ -267,7 +268,7 @@ constexpr Metric rows[] = {
     {"texel_work", "count",
      "Cost of the technique, the same on every machine: the texels of the map, each written once, and the texture "
      "instructions of the lookups of all facing receivers.",
-     plot},
+     plot | csv},
     {"traffic_bytes", "bytes",
      "Cost of the technique in bytes, the same on every machine: those of the map, each written once, and of the "
      "texels that the lookups read, without a cache.",
@@ -291,26 +292,26 @@ constexpr Metric rows[] = {
     {"map_ms", "ms",
      "Time of the shadow map pass, the median of nine samples: time of the GPU, or CPU time of the process if the "
      "renderer is software. Measured only if times are asked for (key times of the experiment).",
-     plot | timed},
+     plot | timed | csv},
     {"prefilter_ms", "ms",
      "Time of the passes that store and blur a map of moments, the median of nine samples: time of the GPU, or CPU "
      "time of the process if the renderer is software. Measured only if times are asked for (key times of the "
      "experiment).",
-     plot | moments | timed},
+     plot | moments | timed | csv},
     {"lookup_ms", "ms",
      "Time of the lookup pass over the picture, the median of nine samples: time of the GPU, or CPU time of the "
      "process if the renderer is software. Measured only if times are asked for (key times of the experiment).",
-     plot | timed},
+     plot | timed | csv},
     {"shadow_ms", "ms",
      "Time of all passes of map and lookup together, the median of nine samples: time of the GPU, or CPU time of the "
      "process if the renderer is software. Measured only if times are asked for (key times of the experiment).",
-     plot | timed},
+     plot | timed | csv},
     {"reduction_min_worst", "",
      "Of a map of moments without cascades: the least lookup.reduction that is within both bounds of reduction_min at "
      "every placement of the texel grid. Left out if no reduction is.",
-     plot | placements | moments | unbounded},
+     plot | placements | moments | unbounded | csv},
     {"reduction_max_worst", "", "Of a map of moments without cascades: the largest such lookup.reduction.",
-     plot | placements | moments | unbounded},
+     plot | placements | moments | unbounded | csv},
     {"error_worst_shown", "fraction",
      "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.",
      plot | placements},
@@ -337,25 +338,26 @@ constexpr Metric rows[] = {
     {"flicker", "fraction",
      "Mean |change of R5| from this frame to the next, over the world points that both frames see and whose truth R1 "
      "is the same in both.",
-     plot | motion | share},
+     plot | motion | share | csv},
     {"flicker_changed", "fraction",
      "Share of the world points over which flicker is taken whose R5 changes at all from this frame to the next.",
-     plot | motion | share},
+     plot | motion | share | csv},
     {"flicker_cascade", "fraction",
-     "The part of flicker that comes when a point goes from one cascade to another; 0 with one map.", motion | share},
+     "The part of flicker that comes when a point goes from one cascade to another; 0 with one map.",
+     motion | share | csv},
     {"flicker_grid", "fraction", "The part of flicker that comes when the texels move, grow or turn in the world.",
-     plot | motion | share},
+     plot | motion | share | csv},
     {"flicker_depth", "fraction",
      "The part of flicker that comes when near and far move, so that depths are rounded anew and a bias in window "
      "depth is another one in metres.",
-     plot | motion | share},
+     plot | motion | share | csv},
     {"flicker_kernel", "fraction",
      "The part of flicker that comes when the filter's kernel turns with the pixel, or grows with the view distance.",
-     plot | motion | share},
+     plot | motion | share | csv},
     {"flicker_coverage", "fraction",
      "The part of flicker at points that one of the two maps does not hold with all taps of the filter: the map's edge "
      "passes over them.",
-     plot | motion | share},
+     plot | motion | share | csv},
     {"flicker_truth", "fraction",
      "Share of the world points that both frames see whose truth R1 changes. They are left out of flicker.",
      plot | motion | share},
@@ -380,9 +382,9 @@ constexpr Metric rows[] = {
     {"lights_error", "fraction",
      "Frame of several lights: mean over the counted pixels of |sum of w (R5 - R1)|, where w is the light's share of "
      "the light that reaches the pixel without shadows.",
-     plot | lights},
+     plot | lights | csv},
     {"lights_error_soft", "fraction", "Frame of several lights: the same against the truth R0 of lights with a size.",
-     plot | lights},
+     plot | lights | csv},
     {"lights_rmse", "",
      "Frame of several lights: root mean square difference over the counted pixels and the three colours of the shaded "
      "frame and the true one (diffuse clay, linear light; white is the light that 95% of the pixels that are lit in "
@@ -393,11 +395,12 @@ constexpr Metric rows[] = {
      "pixels per degree).",
      plot | lights | unbounded},
     {"light_error", "fraction",
-     "This light's part of the frame's error: mean over the frame's counted pixels of w |R5 - R1|.", plot | lights},
+     "This light's part of the frame's error: mean over the frame's counted pixels of w |R5 - R1|.",
+     plot | lights | csv},
     {"light_share", "fraction",
      "light_error as a share of its sum over all lights of the frame. The sum is at least lights_error: at a pixel, "
      "two lights can err against each other.",
-     plot | lights | unbounded},
+     plot | lights | unbounded | csv},
     {"light_weight", "fraction",
      "This light's share of the light without shadows: mean w over the frame's counted pixels.", plot | lights},
     {"lights_counted", "count",
@@ -407,45 +410,46 @@ constexpr Metric rows[] = {
      "Number of pixels of the frame that a light reaches and that do not count, because the truth of a light that does "
      "is ambiguous.",
      lights},
-    {"lights_frame", "count", "The number of the frame of several lights to which the point belongs, from 0.", lights},
+    {"lights_frame", "count", "The number of the frame of several lights to which the point belongs, from 0.",
+     lights | csv},
     {"frame_error", "fraction",
      "Mean |V - R0|: the visibility V of another renderer's frame compared with the truth, which is R1 for a light "
      "without a size.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_wrong", "fraction",
      "Share of the counted receivers of another renderer's frame whose visibility is off by more than a half. A frame "
      "can be wrong nowhere and grey everywhere: frame_error stands beside it.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_penumbra", "fraction",
      "The part of frame_error where the truth is between lit and shadowed, because the light has a size.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_missing", "fraction",
      "The part of frame_error where the truth is dark, the frame is too light, and only casters that the frame's map "
      "lacks (not_in_map) are in the light's way.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_edge", "fraction",
-     "The part of frame_error within the edge distance of a true shadow edge, outside penumbrae.", plot | frames},
+     "The part of frame_error within the edge distance of a true shadow edge, outside penumbrae.", plot | frames | csv},
     {"frame_acne", "fraction",
      "The part of frame_error where the truth is lit, the frame is too dark, and no true shadow edge is near.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_contact", "fraction",
      "The part of frame_error where the truth is dark, the frame is too light, no true shadow edge is near, and the "
      "occluder is nearer to the receiver than the contact distance.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_leak", "fraction",
      "The part of frame_error where the truth is dark, the frame is too light, no true shadow edge is near, and the "
      "occluder is further away than the contact distance.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_lookup", "fraction",
      "Of a frame with its own map: mean |frame - R5|, the part that the declared lookup of that map does not show.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_map", "fraction",
      "Of a frame with its own map: mean |R5 - R4| if that map is not the scene's; 0 if it is, and the mean is "
      "precision.",
-     plot | frames},
+     plot | frames | csv},
     {"frame_lookup_differs", "fraction",
      "Of a frame with its own map: share of receivers at which the frame is off from R5 by more than a half.",
-     plot | frames},
+     plot | frames | csv},
 };
 
 }  // namespace

@@ -18,21 +18,21 @@ using enum Metric::Is;
 
 // What a row has also: "error_worst", of "error".
 struct Statistic {
-  Metric::Is of;
+  Metric::Is of, kept;  // kept: what it has of its row beside moments and unbounded
   std::string_view name;
   const char* words;  // its help; {} is the row's name
 };
 
 constexpr Statistic statistics[] = {
-    {placed, "mean", "Mean over the placements of the texel grid (map.placements) of {}, on the exact map."},
-    {placed, "worst",
+    {placed, number, "mean", "Mean over the placements of the texel grid (map.placements) of {}, on the exact map."},
+    {placed, csv, "worst",
      "Largest over the placements of the texel grid (map.placements) of {}, on the exact map. The largest of all "
      "placements may be a tenth more."},
-    {placed, "best", "Least over the placements of the texel grid (map.placements) of {}, on the exact map."},
-    {timed, "low",
+    {placed, number, "best", "Least over the placements of the texel grid (map.placements) of {}, on the exact map."},
+    {timed, csv, "low",
      "The lower end of the interval of {}: the second smallest sample. The interval holds the true median with 96%; "
      "two times differ only if their intervals do not overlap."},
-    {timed, "high", "The upper end of the interval of {}: the second largest sample."},
+    {timed, csv, "high", "The upper end of the interval of {}: the second largest sample."},
 };
 
 // Stores have the statistics of these before the other ones, and a store with columns in another order is refused.
@@ -57,11 +57,11 @@ struct MetricTable {
   }
   void add_also(const Metric& row, Metric::Is which, unsigned facts) {
     if (!row.is(which)) return;
-    facts |= made | (row.facts & (moments | unbounded));
     for (const Statistic& one : statistics)
       if (one.of == which)
         all.push_back({texts.emplace_back(stored_name(fmt::format("{}@{}", row.name, one.name))), row.unit,
-                       texts.emplace_back(fmt::format(fmt::runtime(one.words), row.name)), facts});
+                       texts.emplace_back(fmt::format(fmt::runtime(one.words), row.name)),
+                       facts | made | (row.facts & (moments | unbounded | one.kept))});
   }
 
   std::deque<std::string> texts;

@@ -32,7 +32,8 @@ struct Metric {
     value = 2048,         // below them, with its unit
     above_1 = 4096,       // there too, but only above 1
     one_receiver = 8192,  // as a share of the light of one receiver
-    made = 16384          // of another's row, which is placed or timed
+    made = 16384,         // of another's row, which is placed or timed
+    csv = 32768           // results.csv has it though nothing asks for it
   };
 
   std::string_view name;
