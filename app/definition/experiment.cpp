@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "compare/results/metrics.h"
 #include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 #include "scenes/library.h"
 #include "technique/setting_rules.h"
 
@@ -232,8 +232,7 @@ std::string time_asked_for(const Experiment& experiment) {
   for (const Experiment& part : experiment.parts) names.push_back(time_asked_for(part));
 
   for (const std::string& name : names)
-    for (const Metric& row : metrics_table())
-      if (row.name == name && row.unit == "ms") return name;
+    if (quantity_unit(name) == "ms") return name;
   return "";
 }
 

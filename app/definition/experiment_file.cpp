@@ -343,7 +343,7 @@ class Reader : private SettingsReader {
     for (const Item& item : items(table)) {
       if (item.key != "metrics") unknown(item, "key", key_names("plot"), "plot.");
       for (const toml::node* node : list(*item.node, "plot.metrics")) {
-        const std::string name = string(*node, "plot.metrics");
+        const std::string name = stored_name(string(*node, "plot.metrics"));
         at(node->source(), [&] { find_quantity(name); });
         if (std::find(experiment_.plot.begin(), experiment_.plot.end(), name) != experiment_.plot.end())
           fail(*node, fmt::format("plot.metrics names '{}' twice", name));
@@ -354,7 +354,7 @@ class Reader : private SettingsReader {
 
   void read_answer(const toml::table& table) {
     const auto metric = [this](const toml::node& node, const std::string& name) {
-      const std::string text = string(node, name);
+      const std::string text = stored_name(string(node, name));
       at(node.source(), [&] { find_metric(text); });
       return text;
     };

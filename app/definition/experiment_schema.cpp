@@ -244,7 +244,10 @@ std::string experiment_schema() {
     definitions["setting " + std::string(row.name)] = form;
   }
   Json metrics = Json::array(), quantities = Json::array();
-  for (const Metric& metric : metrics_table()) metrics.push_back(metric.name);
+  for (const Metric& row : metric_rows()) {
+    metrics.push_back(row.name);
+    for (const std::string& name : also_names(row)) metrics.insert(metrics.end(), {name, stored_name(name)});
+  }
   quantities = metrics;
   for (const CurveQuantity& quantity : curve_quantities()) quantities.push_back(quantity.name);
   definitions["metric"] = {{"enum", metrics}};

@@ -30,7 +30,7 @@ bool needs_own_map(std::string_view metric) {
 void require_frame_metric(std::string_view metric) {
   std::vector<std::string_view> names = {"receivers", "facing", "counted", "ambiguous"};
   for (const Metric& row : metrics_table())
-    if (row.of_frames) names.push_back(row.name);
+    if (row.is(Metric::frames)) names.push_back(row.name);
   for (int cause = 1; cause < compared_cause_count; ++cause) names.push_back(cause_name(static_cast<Cause>(cause)));
   if (std::find(names.begin(), names.end(), metric) != names.end()) return;
   find_metric(metric);  // an unknown name has its own message

@@ -23,7 +23,7 @@ void PromiseReader::read_bound(const toml::table& table) {
   const toml::node *max = nullptr, *min = nullptr;  // read when the metric is known
   for (const Item& item : items(table)) {
     if (item.key == "metric") {
-      bound.metric = string(*item.node, "metric");
+      bound.metric = stored_name(string(*item.node, "metric"));
       const std::vector<QuantityInfo> named = at(item.node->source(), [&] { return quantities_named(bound.metric); });
       if (!experiment_.frames.empty()) at(item.node->source(), [&] { require_frame_metric(bound.metric); });
       const auto of_curve = [](const QuantityInfo& info) { return info.of_curve; };

@@ -229,7 +229,7 @@ class FrameRun {
     record.times[point_time] = milliseconds_since(begin);
     if (!record.delivery.refused.empty())
       for (const Metric& row : metrics_table())
-        if (row.of_frames) record.metrics[std::string(row.name)] = std::numeric_limits<double>::quiet_NaN();
+        if (row.is(Metric::frames)) record.metrics[std::string(row.name)] = std::numeric_limits<double>::quiet_NaN();
     store_->add(record);
     outcome_.scenes.push_back(judged && names_file(scene_.name()) ? scene_.digest() : "");
     ++outcome_.measured;

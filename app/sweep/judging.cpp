@@ -18,7 +18,6 @@
 #include "compare/judge/laws.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
-#include "compare/report/csv.h"
 #include "compare/report/report.h"
 
 namespace noonmark {
@@ -126,8 +125,8 @@ void require_sound(const Results& results) {
                             text_of(unsound.front())));
 }
 
-void write_report(const Results& results, const std::string& out) {
-  write_file_atomically(out + "/results.csv", to_csv(results));
+void write_report(const Results& results, const std::string& out, CsvColumns columns) {
+  write_file_atomically(out + "/results.csv", to_csv(results, columns));
   write_file_atomically(out + "/report.html", render_report(results, [&](const std::string& path) {
                           return read_picture(out, path, results.points);
                         }));

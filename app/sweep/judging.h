@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/definition/experiment.h"
+#include "compare/report/csv.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
@@ -29,6 +30,6 @@ std::string refused_text(const Results& results);
 void require_sound(const Results& results);
 
 // Writes report.html and results.csv from the contents of the results' folder.
-void write_report(const Results& results, const std::string& out);
+void write_report(const Results& results, const std::string& out, CsvColumns columns = CsvColumns::asked);
 
 }  // namespace noonmark

@@ -56,11 +56,15 @@ Markup settings_section() {
   return section("settings", "Settings", tables);
 }
 
-template <class Row>
+template <class Row>  // Metric or CurveQuantity
 Markup numbers_section(std::string_view id, const Markup& title, std::span<const Row> table) {
   using namespace report;
   Markup rows;
-  for (const Row& row : table) rows += tr(Attribute("id", row.name), name_cell(row.name), td(row.unit), td(row.help));
+  for (const Row& row : table) {
+    std::string help(row.help);
+    if constexpr (std::is_same_v<Row, Metric>) help += also_text(row);
+    rows += tr(Attribute("id", row.name), name_cell(row.name), td(row.unit), td(help));
+  }
   return section(id, title, tabled(heads({"Name", "Unit", "Meaning"}), rows));
 }
 
@@ -177,7 +181,7 @@ std::string settings_page(const std::string& version) {
       " · ");
   return report::plain_page({.title = "Settings, metrics and keys",
                              .body = report::paragraph(links) + settings_section() +
-                                     numbers_section("metrics", "Metrics", metrics_table()) +
+                                     numbers_section("metrics", "Metrics", metric_rows()) +
                                      numbers_section("quantities", "Quantities of the bias curve", curve_quantities()) +
                                      experiment_section() + frame_section() + checks_section(),
                              .version = version});

@@ -44,13 +44,10 @@ void print_placements(const Measurement& m) {
   if (!metrics.contains("error_mean")) return;
   const int side = m.technique.settings.map.placements;
   fmt::print("\n  {:<32}{:>12}{:>12}\n", fmt::format("over {} placements, exact map", side * side), "mean", "worst");
-  constexpr std::string_view ending = "_mean";
-  for (const Metric& metric : metrics_table()) {
-    if (!metric.of_placements || !metric.name.ends_with(ending)) continue;
-    if (!metrics.contains(std::string(metric.name))) continue;  // a blend band has none of some
-    const std::string name(metric.name.substr(0, metric.name.size() - ending.size()));
-    fmt::print("  {:<32}{:>11.5f}%{:>11.5f}%\n", name, 100 * metrics.at(name + "_mean"),
-               100 * metrics.at(name + "_worst"));
+  for (const Metric& metric : metric_rows()) {
+    const std::string mean = fmt::format("{}_mean", metric.name), worst = fmt::format("{}_worst", metric.name);
+    if (!metric.is(Metric::placed) || !metrics.contains(mean)) continue;  // a blend band has none of some
+    fmt::print("  {:<32}{:>11.5f}%{:>11.5f}%\n", metric.name, 100 * metrics.at(mean), 100 * metrics.at(worst));
   }
   if (m.maps.size() > 1) {
     fmt::print("  each cascade at its own worst; OpenGL shows {:.5f}% error there\n",
@@ -71,9 +68,9 @@ void print_flicker(const Measurement& m) {
   fmt::print("\n  {:<32}{:>11.0f} points\n", fmt::format("from frame {} to frame {}", frame, frame + 1),
              m.record.metrics.at("flicker_points"));
   if (const std::string why = why_no_flicker(m.record); !why.empty()) fmt::print("  {}\n", why);
-  for (const Metric& metric : metrics_table())
+  for (const Metric& metric : metric_rows())
     if (const auto found = m.record.metrics.find(std::string(metric.name));
-        metric.of_motion && metric.unit == "fraction" && found != m.record.metrics.end())
+        metric.is(Metric::motion) && metric.is(Metric::share) && found != m.record.metrics.end())
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * found->second);
 }
 
@@ -176,22 +173,23 @@ void print_curve_over(const Measurement& m) {
                &at == &best ? "  least error" : "");
 }
 
-bool of_one_receiver(const Metric& metric) { return metric.name.ends_with("_largest"); }
+// Calls print(metric, value) for each metric of the point that is printed so. A point with one map has none of cascades.
+void each_printed(const Measurement& m, Metric::Is so, const auto& print) {
+  for (const Metric& metric : metrics_of({&m.record, 1}))
+    if (const auto found = m.record.metrics.find(std::string(metric.name));
+        metric.is(so) && !metric.is(Metric::motion) && found != m.record.metrics.end())
+      print(metric, found->second);
+}
 
 void print_shares(const Measurement& m) {
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
-  for (const Metric& metric : metrics_of({&m.record, 1}))
-    if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
-        !metric.of_frames && !metric.of_motion && !metric.of_lights && !of_one_receiver(metric) &&
-        metric.name != "best_reduction_error" &&                // printed otherwise
-        m.record.metrics.contains(std::string(metric.name))) {  // a point with one map has no metrics of cascades
-      const double share = m.record.metrics.at(std::string(metric.name));
-      if (!std::isnan(share))
-        fmt::print("  {:<32}{:>11.5f}%{}\n", metric.name, 100 * share,
-                   metric.name == "wrong" && m.technique.moments
-                       ? "  (not exactly as the truth, however little; judge by the error)"
-                       : "");
-    }
+  each_printed(m, Metric::share, [&](const Metric& metric, double share) {
+    if (std::isnan(share)) return;
+    fmt::print("  {:<32}{:>11.5f}%{}\n", metric.name, 100 * share,
+               metric.name == "wrong" && m.technique.moments
+                   ? "  (not exactly as the truth, however little; judge by the error)"
+                   : "");
+  });
 }
 
 void print_window(const Measurement& m, const BiasCurve& c) {
@@ -239,16 +237,16 @@ void print_ladder(const Measurement& m, const char* clock) {
   fmt::print("\n");
   print_fitted_map(m);
   if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
-  for (const char* name :
-       {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "edge_displacement_mean_pixels",
-        "edge_displacement_p95_pixels", "flip", "residual", "tap_residual", "rounding_excess"})
-    fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
+  each_printed(m, Metric::value, [](const Metric& metric, double number) {
+    fmt::print("  {:<32}{:>12.5g} {}\n", metric.name, number, metric.unit);
+  });
   // Up to 1 the map is fine enough for the camera.
-  for (const char* name : {"perspective_aliasing", "perspective_aliasing_p95"})
-    if (!(value(name) <= 1)) fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), "texel widths for a pixel's");
-  for (const Metric& metric : metrics_of({&m.record, 1}))
-    if (of_one_receiver(metric) && m.record.metrics.contains(std::string(metric.name)))
-      fmt::print("  {:<32}{:>11.5f}% of the light of one receiver\n", metric.name, 100 * value(metric.name.data()));
+  each_printed(m, Metric::above_1, [](const Metric& metric, double number) {
+    if (!(number <= 1)) fmt::print("  {:<32}{:>12.5g} texel widths for a pixel's\n", metric.name, number);
+  });
+  each_printed(m, Metric::one_receiver, [](const Metric& metric, double share) {
+    fmt::print("  {:<32}{:>11.5f}% of the light of one receiver\n", metric.name, 100 * share);
+  });
   print_reductions(m);
   if (const std::string cures = cures_of_precision(m.record); !cures.empty() && !rounds_too_much(m.record))
     fmt::print("  {}\n", cures);

@@ -14,7 +14,7 @@
 namespace noonmark {
 namespace {
 
-int write_report_again(const std::string& folder) {
+int write_report_again(const std::string& folder, bool all) {
   const std::string store = folder + "/results.sqlite";
   std::error_code none;
   if (std::filesystem::status(store, none).type() == std::filesystem::file_type::not_found)
@@ -22,9 +22,10 @@ int write_report_again(const std::string& folder) {
                                               "noonmark run or check wrote",
                                               folder));
   const Results results = ResultStore::read(store);
-  write_report(results, folder);
-  fmt::print("{} of {}; the report is {}/report.html\n", results.points.size(),
-             counted(static_cast<size_t>(results.planned_points), "point"), printable(folder));
+  write_report(results, folder, all ? CsvColumns::all : CsvColumns::asked);
+  fmt::print("{} of {}; the report is {}/report.html\n{}", results.points.size(),
+             counted(static_cast<size_t>(results.planned_points), "point"), printable(folder),
+             all ? "" : "results.csv has the columns that the experiment asks for; --all writes every one\n");
   return verdict_of(results) == Verdict::incomplete ? exit_code_of(Verdict::incomplete) : 0;
 }
 
@@ -34,7 +35,10 @@ RunVerb add_report(CLI::App& verb) {
       ->required()
       ->check(not_empty())
       ->type_name(value_kind::folder);
-  return [folder](const std::string&) { return write_report_again(*folder); };
+  const auto all = std::make_shared<bool>(false);
+  verb.add_flag("--all", *all,
+                "Write every column into results.csv: all settings, metrics and quantities of the curve");
+  return [folder, all](const std::string&) { return write_report_again(*folder, *all); };
 }
 
 }  // namespace

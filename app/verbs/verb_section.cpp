@@ -78,7 +78,7 @@ ChosenPixel pixel_of_largest_cause(const Measurement& m, const ProbeOf& probe_of
 ChosenPixel chosen_pixel(const SectionOptions& options, const Measurement& m) {
   if (!options.pixel.empty()) return {pixel_from(options.pixel), ""};
   const PointRecord& record = m.record;
-  const std::string& metric = options.worst;
+  const std::string metric = stored_name(options.worst);
   const ProbeOf probe_of = [&](size_t i) -> const LookupProbe& { return m.map_of(i).probe; };
   if (metric.empty()) return pixel_of_largest_cause(m, probe_of);
   auto worst = worst_pixel_of(record, metric);
@@ -107,7 +107,7 @@ int draw_section(const SectionOptions& options) {
   const Experiment experiment = scene_or_experiment(options.experiment, options.arguments);
   const Settings settings = the_point(experiment, options.point, "section");
   require_compared(settings, "a section");
-  if (!options.worst.empty()) (void)find_quantity(options.worst);
+  if (!options.worst.empty()) (void)find_quantity(stored_name(options.worst));
   require_room_to_start(false);
   Workbench bench(gl::DebugMode::log);
   const MemoryEstimate memory =

@@ -23,7 +23,8 @@ int list_settings() {
     fmt::print("{:<{}} {:<16} {}\n{:<{}} {}\n", row.name, width, row.get(defaults), row.help, "", width + 17,
                row.range_with_unit());
   fmt::print("\nMetrics: for [[bound]] and [plot].\n\n");
-  for (const Metric& metric : metrics_table()) fmt::print("{:<32} {:<10} {}\n", metric.name, metric.unit, metric.help);
+  for (const Metric& metric : metric_rows())
+    fmt::print("{:<32} {:<10} {}{}\n", metric.name, metric.unit, metric.help, also_text(metric));
   fmt::print("\nQuantities of the bias curve, for [[bound]]:\n\n");
   for (const CurveQuantity& quantity : curve_quantities())
     fmt::print("{:<32} {:<10} {}\n", quantity.name, quantity.unit, quantity.help);

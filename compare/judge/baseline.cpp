@@ -126,14 +126,6 @@ std::string name_of(const BaselinePoint& point, const std::set<std::string>& nam
   return words.empty() ? "the only point" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string_view unit_of(const std::string& name) {
-  for (const Metric& row : metrics_table())
-    if (row.name == name) return row.unit;
-  for (const CurveQuantity& row : curve_quantities())
-    if (row.name == name) return row.unit;
-  return "";
-}
-
 // other: what the value is compared with, from which it must be told.
 std::string value_text(double value, double room, double other, std::string_view unit) {
   return std::isfinite(value) ? text_with_room(value, room, unit, digits_to_tell(value, other))
@@ -174,11 +166,7 @@ class Comparison {
 
  private:
   // A name that this version does not know is not a time.
-  static bool is_time(const std::string& name) {
-    const std::span<const Metric> rows = metrics_table();
-    return std::any_of(rows.begin(), rows.end(),
-                       [&](const Metric& row) { return row.name == name && row.unit == "ms"; });
-  }
+  static bool is_time(const std::string& name) { return quantity_unit(name) == "ms"; }
 
   void compare(const std::string& name, double before, const BaselineValue& now, const std::string& point) {
     ++found_.compared;
@@ -194,7 +182,7 @@ class Comparison {
     const bool larger = change > 0;
     bool worse = now.better == Better::unknown || larger == (now.better == Better::smaller);
     if (was != is) worse = was;
-    const std::string_view unit = unit_of(name);
+    const std::string_view unit = quantity_unit(name);
     std::string text = fmt::format("{}: {} at {}; {} before, {} now", worse ? "worse" : "better", name, point,
                                    value_text(before, 0, worst, unit), value_text(now.value, now.room, before, unit));
     if (now.room > 0) text += "; so much of it is not known, because the receivers' truth is ambiguous";

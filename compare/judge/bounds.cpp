@@ -22,11 +22,6 @@
 namespace noonmark {
 namespace {
 
-bool is_of_moments(std::string_view name) {
-  return std::any_of(metrics_table().begin(), metrics_table().end(),
-                     [&](const Metric& metric) { return metric.name == name && metric.of_moments; });
-}
-
 constexpr std::string_view joins[] = {"worst", "mean", "median"};
 constexpr std::string_view placements[] = {"worst", "first"};
 
@@ -320,11 +315,7 @@ std::string_view verdict_of(const BoundResult& bound) {
 std::string bound_text(const BoundResult& bound) { return words_of(bound, false); }
 
 std::string_view bound_unit(const BoundResult& bound) {
-  for (const Metric& row : metrics_table())
-    if (row.name == bound.metric) return row.unit;
-  for (const CurveQuantity& row : curve_quantities())
-    if (row.name == bound.metric) return row.unit;
-  return "fraction";  // the cause of a rung on top of R5
+  return quantity_unit(bound.metric, "fraction");  // that of the cause of a rung on top of R5
 }
 
 std::optional<double> broken_limit(const BoundResult& bound) {
@@ -393,7 +384,8 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
     text += "  not known to hold: the receivers whose truth is ambiguous could break it\n";
   else if (!std::isfinite(bound.found))
     text += "  a value that could not be measured breaks every bound\n";
-  if (point && !point->metrics.contains(bound.metric) && is_of_moments(bound.metric))
+  const Metric* const metric = metric_named(bound.metric);
+  if (point && !point->metrics.contains(bound.metric) && metric && metric->is(Metric::moments))
     text += fmt::format(
         "  {} is measured only of a lookup in a map of moments; give those lookups a [[part]] and the bound as "
         "[[part.bound]]\n",

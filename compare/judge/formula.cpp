@@ -17,7 +17,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-constexpr const char* name_characters = "0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+constexpr const char* name_characters = "0123456789_.@abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
 constexpr const char* functions =
     "sin cos tan asin acos atan atan2 sin_deg cos_deg tan_deg atan_deg hypot sqrt exp ln log2 log10 abs min max floor";

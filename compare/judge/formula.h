@@ -4,7 +4,7 @@
 //   f.names();                                             // {"texel_m"}
 //   f.value([&](const std::string& name) { return metric_of(point, name); });
 //
-// Names are those of settings and metrics, with their dots, and any others for which the caller gives values.
+// Names are those of settings and metrics, with their dots and @, and any others for which the caller gives values.
 // - Operators: + - * / ^, comparisons (1 or 0), && || and a ? b : c.
 // - The constant pi.
 // - Functions of radians: sin cos tan asin acos atan atan2; of degrees: sin_deg cos_deg tan_deg.

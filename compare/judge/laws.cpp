@@ -87,11 +87,11 @@ class Reader {
   double predicted(const PointRecord& point) const { return value(predicted_, point); }
   double slack(const PointRecord& point) const { return value(slack_, point); }
 
-  // Of all formulas, each as often as it stands there.
+  // The stored names of all formulas, each as often as it stands there.
   std::vector<std::string> names() const {
     std::vector<std::string> all;
     const auto add = [&](const Formula& formula) {
-      all.insert(all.end(), formula.names().begin(), formula.names().end());
+      for (const std::string& name : formula.names()) all.push_back(stored_name(name));
     };
     for (const Formula* formula : {&measured_, &predicted_, &slack_}) add(*formula);
     for (const auto& [name, definition] : definitions_) add(definition);
@@ -143,7 +143,8 @@ class Reader {
   void check_names(const Law& law) const {
     std::vector<std::string> known = number_names();
     const auto check = [&](const Formula& formula) {
-      for (const std::string& name : formula.names()) {
+      for (const std::string& written : formula.names()) {
+        const std::string name = stored_name(written);
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         for (const Setting& row : settings_table())
           if (row.name == name) refuse(law, fmt::format("{} is no number; select its values with where", name));
@@ -167,7 +168,7 @@ class Reader {
     std::map<std::string, double> defined;
     const auto value_of = [&](const std::string& name) {
       const auto found = defined.find(name);
-      return found == defined.end() ? number_in(point, name) : found->second;
+      return found == defined.end() ? number_in(point, stored_name(name)) : found->second;
     };
     for (const auto& [name, definition] : definitions_) defined[name] = definition.value(value_of);
     return formula.value(value_of);
@@ -296,22 +297,16 @@ std::vector<std::string> curve_names(const Law& law) {
   for (const std::string* text : {&law.measured, &law.predicted, &law.slack}) {
     if (text->empty()) continue;
     const Formula formula(*text);
-    for (const std::string& name : formula.names()) {
-      const auto table = curve_quantities();
-      if (is_cascade_bias(name) ||
-          std::any_of(table.begin(), table.end(), [&](const CurveQuantity& row) { return row.name == name; }))
+    for (const std::string& written : formula.names())
+      if (const std::string name = stored_name(written); is_cascade_bias(name) || curve_quantity(name))
         names.push_back(name);
-    }
   }
   return names;
 }
 
 std::vector<std::string> metric_names(const Law& law) {
   std::vector<std::string> names = Reader(law).names();
-  std::erase_if(names, [](const std::string& name) {
-    const auto table = metrics_table();
-    return std::none_of(table.begin(), table.end(), [&](const Metric& row) { return row.name == name; });
-  });
+  std::erase_if(names, [](const std::string& name) { return !metric_named(name); });
   return names;
 }
 

@@ -160,12 +160,12 @@ std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
 bool must_have(const PointRecord& point, const SoundLimit& limit) {
   const Metric& metric = find_metric(limit.metric);
   const auto several = [&](const char* setting) { return number_of(setting_of(point, setting)).value_or(1) > 1; };
-  if (metric.of_cascades) return several("cascades.count");
-  if (metric.of_placements) return several("map.placements");
+  if (metric.is(Metric::cascades)) return several("cascades.count");
+  if (metric.is(Metric::placements)) return several("map.placements");
   // The frame of another renderer is looked up nowhere.
   const std::string frame = setting_of(point, "given.frame");
   const bool given = !frame.empty() && frame != find_setting("given.frame").get(Settings());
-  if (!metric.of_moments) return !metric.optional() && !given;
+  if (!metric.is(Metric::moments)) return !metric.optional() && !given;
   const auto kind = std::find_if(lookups().begin(), lookups().end(),
                                  [&](const LookupKind& one) { return one.name == setting_of(point, "lookup.kind"); });
   if (kind == lookups().end() || !kind->reads_moments()) return false;

@@ -94,13 +94,12 @@ double ambiguous_room(const PointRecord& point, std::string_view quantity) {
     if (is_cascade_bias(quantity)) return of_curve;
     quantity.remove_prefix(quantity.rfind('.') + 1);
   }
-  for (const CurveQuantity& row : curve_quantities())
-    if (row.name == quantity) return of_curve;
-  for (const Metric& row : metrics_table())
-    if (row.name == quantity) {  // what is not plotted is a count or a check, and map_ is a share of texels
-      if (row.of_any_size) return any;
-      return row.unit == "fraction" && row.plotted && !quantity.starts_with("map_") ? share : 0;
-    }
+  if (curve_quantity(quantity)) return of_curve;
+  if (const Metric* const row = metric_named(quantity)) {
+    if (row->is(Metric::unbounded)) return any;
+    // What is not plotted is a count or a check, and map_ is a share of texels.
+    return row->unit == "fraction" && row->is(Metric::plot) && !quantity.starts_with("map_") ? share : 0;
+  }
   return is_brought(point, quantity) ? share : 0;
 }
 

@@ -94,7 +94,7 @@ std::map<std::string, double> join_placements(MetricsOfMaps maps, std::span<cons
   const double all = std::accumulate(receivers.begin(), receivers.end(), 0.0);
   for (const Metric& metric : metrics_table()) {
     const std::string name(metric.name);
-    if (!metric.of_placements || !maps.front().contains(name)) continue;
+    if (!metric.is(Metric::placements) || !maps.front().contains(name)) continue;
     // A root mean square adds by its squares.
     const bool squares = name.starts_with("aliasing_rms");
     if (shared && (squares || name.starts_with("wrong_"))) continue;

@@ -39,12 +39,6 @@ Markup item(std::string_view kind, const Markup& content) { return element("li",
 
 std::string points_text(size_t count) { return fmt::format("{} point{}", count, count == 1 ? "" : "s"); }
 
-std::string_view unit_of(const std::string& metric, const Results& results) {
-  for (const Metric& row : metrics_of(results.points))
-    if (row.name == metric) return row.unit;
-  return "";
-}
-
 std::vector<bool> flags_of(const Results& results, bool (*holds)(const PointRecord&)) {
   std::vector<bool> flags;
   for (const PointRecord& point : results.points) flags.push_back(holds(point));
@@ -269,7 +263,7 @@ std::string last_run_or_new(const BoundResult& bound, const Results& results) {
 
 // since: of the last column; empty: the table has none.
 Markup bound_row(const BoundResult& bound, const Results& results, const std::string& since) {
-  const std::string_view unit = unit_of(bound.metric, results);
+  const std::string_view unit = bound_unit(bound);
   const bool of_frame = is_of_lights(bound.metric);
   std::string where = of_frame ? "" : bound.part;
   for (const auto& [name, values] : bound.where)

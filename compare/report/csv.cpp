@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -150,10 +151,53 @@ Table table_of(const Results& results) {
   return table;
 }
 
+// The names in a formula, as stores have them.
+void add_names(std::string_view formula, std::set<std::string>& names) {
+  const auto in_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '@';
+  };
+  for (auto begin = formula.begin(); (begin = std::find_if(begin, formula.end(), in_name)) != formula.end();) {
+    const auto end = std::find_if_not(begin, formula.end(), in_name);
+    names.insert(stored_name({begin, end}));
+    begin = end;
+  }
+}
+
+// What is named, and what every reader asks where a point has it.
+std::set<std::string> asked_columns(const Results& results) {
+  std::set<std::string> names{"point", "part", results.info.cost, results.info.accuracy};
+  names.insert(results.info.swept.begin(), results.info.swept.end());
+  names.insert(results.info.plot.begin(), results.info.plot.end());
+  for (const BoundResult& bound : results.bounds) {
+    names.insert(bound.metric);
+    const PlacedNames placed = placed_names(bound.metric);
+    if (bound.placement == "worst")
+      names.insert(placed.largest.begin(), placed.largest.end()),
+          names.insert(placed.least.begin(), placed.least.end());
+  }
+  for (const LawResult& law : results.laws)
+    for (const std::string* formula : {&law.measured, &law.predicted}) add_names(*formula, names);
+  for (const RecordField& field : record_fields())
+    if (field.group == delivery_group) names.emplace(field.name);
+  for (const PointRecord& point : results.points) {
+    for (const auto& [name, text] : point.settings)
+      if (setting_of(results.points.front(), name) != text) names.insert(name);
+    for (const auto& [name, value] : point.metrics)
+      if (const Metric* const row = metric_named(name); row && row->is(Metric::csv)) names.insert(name);
+    for (const RungCause& cause : point.causes) names.insert(cause.name);
+    for (const char* end : {"window_min_m", "window_max_m", "window_min_worst_m", "window_max_worst_m"})
+      if (quantity(point, end)) names.insert(end);
+  }
+  return names;
+}
+
 }  // namespace
 
-std::string to_csv(const Results& results) {
-  const Table table = table_of(results);
+std::string to_csv(const Results& results, CsvColumns columns) {
+  Table table = table_of(results);
+  if (columns == CsvColumns::asked)
+    std::erase_if(table.columns,
+                  [asked = asked_columns(results)](const Column& column) { return !asked.contains(column.name); });
   std::string csv;
   const auto add_row = [&](const auto& add_cell) {
     for (size_t i = 0; i < table.columns.size(); ++i) {

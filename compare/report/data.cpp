@@ -107,7 +107,7 @@ json metric_data(const Results& results) {
                    {"label", error_label(metric.name)},
                    {"unit", metric.unit},
                    {"help", metric.help},
-                   {"plotted", metric.plotted}});
+                   {"plotted", metric.is(Metric::plot)}});
   return out;
 }
 

@@ -162,7 +162,7 @@ std::string without_window(const Results& results, FreeSetting setting, std::str
 std::string frames_table(const Results& results) {
   std::vector<std::string> heading = {"frame", "delivery"}, metrics;
   for (const Metric& row : metrics_of(results.points))
-    if (row.of_frames) {
+    if (row.is(Metric::frames)) {
       metrics.emplace_back(row.name);
       heading.push_back(markdown(std::string(row.name)));
     }

@@ -212,11 +212,12 @@ Markup points_section(const Results& results, const ShownPoints& shown) {
   Markup rows;
   for (const PointRecord& point : shown.results.points) rows += points_row(point, results, columns);
   // With JavaScript, page/points_table.js makes the rows when they are seen. Without, this table has them.
-  Markup out = shown.note +
-               paragraph(css("js-only small"), prose("Click a head to sort, a row for the point's card.")) +
-               div(css("points-place js-only")) + "\n" +
-               element("noscript", div(css("scroll tall"), table("numbers", points_head(results, columns), rows))) +
-               "\n" + paragraph(css("small only-print"), "Paper has room for the first columns; results.csv has all.");
+  Markup out =
+      shown.note + paragraph(css("js-only small"), prose("Click a head to sort, a row for the point's card.")) +
+      div(css("points-place js-only")) + "\n" +
+      element("noscript", div(css("scroll tall"), table("numbers", points_head(results, columns), rows))) + "\n" +
+      paragraph(css("small"), prose("{} has what the experiment asks for; {} writes every column there.",
+                                    code("results.csv"), code("noonmark report FOLDER --all")));
   if (!same.empty()) out += paragraph(css("small"), prose("The same at every point: {}.", same));
   return section("points", shown.note.empty() ? "Every point" : "Points", out);
 }
@@ -226,7 +227,8 @@ namespace {
 Markup metric_terms(const std::vector<Metric>& metrics) {
   Markup list;
   for (const Metric& metric : metrics)
-    list += term(with_small(metric_label(metric.name) + " " + code(metric.name), head_unit(metric.unit)), metric.help);
+    list += term(with_small(metric_label(metric.name) + " " + code(metric.name), head_unit(metric.unit)),
+                 std::string(metric.help) + also_text(metric));
   return list;
 }
 
@@ -280,7 +282,8 @@ Markup frames_in_words() {
 
 Markup meaning_section(const Results& results) {
   Markup out = judges_frames(results.points) ? frames_in_words() : ladder_in_words(results);
-  const std::vector<Metric> metrics = metrics_of(results.points);
+  std::vector<Metric> metrics = metrics_of(results.points);
+  std::erase_if(metrics, [](const Metric& metric) { return metric.is(Metric::made); });
   if (!metrics.empty())
     out += folded("glossary", false, prose("Each of the {} metrics in a sentence", metrics.size()),
                   terms("terms", metric_terms(metrics)));

@@ -1,46 +1,64 @@
-// The table of metrics: each row describes one number of a point, with its unit and its meaning. The store, the bounds,
-// the experiment file and the report read it. The metrics are computed from the ladder (compare/ladder/ladder.h).
+// The metrics: each row describes one number of a point, with its unit and its meaning. The store, the bounds, the
+// experiment file and the report read it. The metrics are computed from the ladder (compare/ladder/ladder.h).
+//
+//   find_metric("error_worst").unit;     // "fraction"
+//   stored_name("error@worst");          // "error_worst": so it stands in stores, tables and pages
 #pragma once
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace noonmark {
 
 struct Metric {
-  // What its row says of it: whether a chart over the sweep makes sense, and of what alone it is measured.
+  // What its row says of it beside name, unit and meaning.
   enum Is : unsigned {
     number = 0,
-    plot = 1,
-    placements = 2,  // map.placements above 1
-    motion = 4,      // a [motion]
-    frames = 8,      // another renderer's frame (frames/judge.h)
-    lights = 16,     // a frame of several lights (measure/lights_frame.h)
-    cascades = 32,   // cascades.count above 1
-    moments = 64,    // a lookup in a map of moments (lookup.kind)
-    unbounded = 128  // a receiver more or less can change it by any amount; of other fractions by its share at most
+    plot = 1,  // a chart over the sweep makes sense
+    // Of what alone it is measured.
+    placements = 2,   // map.placements above 1
+    motion = 4,       // a [motion]
+    frames = 8,       // another renderer's frame (frames/judge.h)
+    lights = 16,      // a frame of several lights (measure/lights_frame.h)
+    cascades = 32,    // cascades.count above 1
+    moments = 64,     // a lookup in a map of moments (lookup.kind)
+    unbounded = 128,  // a receiver more or less can change it by any amount; of other fractions by its share at most
+    // What else there is of it, as metrics of their own whose names are made from its own.
+    placed = 256,  // mean, worst and best over the placements of the texel grid
+    timed = 512,   // low and high, the ends of the interval of its median (measure/pass_times.h)
+    // Where `render` prints it; without one of these nowhere, or with words of its own.
+    share = 1024,         // among the shares of the counted receivers, or of a motion's points
+    value = 2048,         // below them, with its unit
+    above_1 = 4096,       // there too, but only above 1
+    one_receiver = 8192,  // as a share of the light of one receiver
+    made = 16384,         // of another's row, which is placed or timed
+    csv = 32768           // results.csv has it though nothing asks for it
   };
-  constexpr Metric(std::string_view its_name, std::string_view its_unit, std::string_view its_help, unsigned is)
-      : name(its_name),
-        unit(its_unit),
-        help(its_help),
-        plotted(is & plot),
-        of_placements(is & placements),
-        of_motion(is & motion),
-        of_frames(is & frames),
-        of_lights(is & lights),
-        of_cascades(is & cascades),
-        of_moments(is & moments),
-        of_any_size(is & unbounded) {}
 
   std::string_view name;
   std::string_view
       unit;  // "fraction", "m", "depth", "texels", "pixels", "deg", "count", "bytes", "ms"; "": a plain number
   std::string_view help;  // one sentence
-  bool plotted, of_placements, of_motion, of_frames, of_lights, of_cascades, of_moments, of_any_size;
-  bool optional() const { return of_placements || of_motion || of_frames || of_lights || of_cascades || of_moments; }
+  unsigned facts = number;
+  constexpr bool is(Is fact) const { return facts & fact; }
+  bool optional() const { return facts & (placements | motion | frames | lights | cascades | moments); }
 };
 
+// The rows. noonmark settings lists them.
+std::span<const Metric> metric_rows();
+// All that a point can have: the rows, and what they have also.
 std::span<const Metric> metrics_table();
+// The names of what a row has also, as a reader may write them: "error@mean". Empty: nothing.
+std::vector<std::string> also_names(const Metric& row);
+// What follows the row's help where rows are listed: " Also error@mean, error@worst, error@best." or "".
+std::string also_text(const Metric& row);
+// The name under which a number stands in stores and tables. What follows an @ is moved before the unit: map_ms@low is
+// map_low_ms, window_min_m@worst is window_min_worst_m. Any other name is itself.
+std::string stored_name(std::string_view name);
+
+// The metric of a stored name; null if there is none.
+const Metric* metric_named(std::string_view name);
 // Whether it is a metric of a frame of several lights.
 bool is_of_lights(std::string_view name);
 // Throws Error(usage) that suggests the nearest name.

@@ -99,6 +99,12 @@ std::span<const CurveQuantity> curve_quantities() {
   return table;
 }
 
+const CurveQuantity* curve_quantity(std::string_view name) {
+  for (const CurveQuantity& row : curve_quantities())
+    if (row.name == name) return &row;
+  return nullptr;
+}
+
 std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points) {
   std::vector<const RungCause*> causes;
   for (const PointRecord& point : points)
@@ -119,9 +125,8 @@ bool knows_causes(std::span<const PointRecord> points) {
 
 bool has_cause(const PointRecord& point, std::string_view cause) {
   if (!point.metrics.contains(std::string(cause))) return false;
-  const bool by_place = !is_cause_of_own_map(cause) && cause != frame_missing &&
-                        std::any_of(metrics_table().begin(), metrics_table().end(),
-                                    [&](const Metric& row) { return row.name == cause && row.of_frames; });
+  const Metric* const row = metric_named(cause);
+  const bool by_place = !is_cause_of_own_map(cause) && cause != frame_missing && row && row->is(Metric::frames);
   return !by_place || !knows_causes({&point, 1});
 }
 
@@ -137,21 +142,16 @@ std::vector<Metric> metrics_of(std::span<const PointRecord> points) {
       return std::none_of(points.begin(), points.end(),
                           [&](const PointRecord& point) { return point.metrics.contains(std::string(row.name)); });
     });
-  const auto has_row = [](const RungCause* cause) {
-    return std::any_of(metrics_table().begin(), metrics_table().end(),
-                       [&](const Metric& row) { return row.name == cause->name; });
-  };
   for (const RungCause* cause : brought_causes(points))
-    if (!has_row(cause)) metrics.push_back({cause->name, "fraction", cause->help, true});
+    if (!metric_named(cause->name))
+      metrics.push_back({cause->name, "fraction", cause->help, Metric::plot | Metric::share});
   return metrics;
 }
 
 bool is_free_name(std::string_view name) {
   if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != name.npos) return false;
-  const auto is_this = [&](const auto& row) { return row.name == name; };
-  const auto is_taken = [&](const Metric& row) { return row.name == name && !row.of_frames; };
-  return std::none_of(metrics_table().begin(), metrics_table().end(), is_taken) &&
-         std::none_of(curve_quantities().begin(), curve_quantities().end(), is_this);
+  const Metric* const row = metric_named(name);
+  return (!row || row->is(Metric::frames)) && !curve_quantity(name);
 }
 
 std::string_view judged_rung(const PointRecord& point) {
@@ -159,16 +159,20 @@ std::string_view judged_rung(const PointRecord& point) {
 }
 
 QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> points) {
-  std::vector<std::string_view> names;
-  for (const Metric& row : metrics_of(points)) {
+  const std::vector<Metric> metrics = metrics_of(points);
+  for (const Metric& row : metrics)
     if (row.name == name) return {row.name, row.unit, row.help, false};
-    names.push_back(row.name);
-  }
-  for (const CurveQuantity& row : curve_quantities()) {
-    if (row.name == name) return {row.name, row.unit, row.help, true};
-    names.push_back(row.name);
-  }
+  if (const CurveQuantity* const row = curve_quantity(name)) return {row->name, row->unit, row->help, true};
+  std::vector<std::string_view> names;
+  for (const Metric& row : metrics) names.push_back(row.name);
+  for (const CurveQuantity& row : curve_quantities()) names.push_back(row.name);
   refuse_metric(name, names);
+}
+
+std::string_view quantity_unit(std::string_view name, std::string_view otherwise) {
+  if (const Metric* const row = metric_named(name)) return row->unit;
+  const CurveQuantity* const row = curve_quantity(name);
+  return row ? std::string_view(row->unit) : otherwise;
 }
 
 std::string why_no_curve(const PointRecord& point) {
@@ -201,10 +205,8 @@ std::string why_no_curve(const PointRecord& point) {
 std::optional<double> quantity(const PointRecord& point, std::string_view name) {
   const auto found = point.metrics.find(std::string(name));
   if (found != point.metrics.end()) return found->second;
-  if (!point.curve) return std::nullopt;
-  for (const CurveQuantity& row : curve_quantities())
-    if (row.name == name) return row.value(*point.curve);
-  return std::nullopt;
+  const CurveQuantity* const row = point.curve ? curve_quantity(name) : nullptr;
+  return row ? row->value(*point.curve) : std::nullopt;
 }
 
 namespace {
@@ -249,24 +251,13 @@ bool is_cascade_bias(std::string_view name) {
 }
 
 PlacedNames placed_names(std::string_view name) {
-  const std::string text(name);
-  const auto is_metric = [](const std::string& one) {
-    return std::any_of(metrics_table().begin(), metrics_table().end(),
-                       [&](const Metric& row) { return row.of_placements && row.name == one; });
-  };
-  if (is_metric(text + "_worst")) {
-    PlacedNames names{{text, text + "_worst"}, {text, text + "_best"}};
-    if (is_metric(text + "_worst_shown")) names.largest.push_back(text + "_worst_shown");
+  const std::string text(name), worst = stored_name(text + "@worst");
+  if (metric_named(worst)) {
+    PlacedNames names{{text, worst}, {text, stored_name(text + "@best")}};
+    if (const std::string shown = worst + "_shown"; metric_named(shown)) names.largest.push_back(shown);
     return names;
   }
-  // "window_min_m" -> "window_min_worst_m"
-  const auto& table = curve_quantities();
-  for (std::string_view unit : {"_depth", "_m", "_texels"}) {
-    if (!name.ends_with(unit)) continue;
-    const std::string worst = fmt::format("{}_worst{}", name.substr(0, name.size() - unit.size()), unit);
-    if (std::any_of(table.begin(), table.end(), [&](const CurveQuantity& row) { return row.name == worst; }))
-      return {{worst}, {worst}};
-  }
+  if (curve_quantity(worst)) return {{worst}, {worst}};
   return {};
 }
 

@@ -26,6 +26,8 @@ struct CurveQuantity {
   std::string sql;  // the same as SQL over the store's table `curves` as c
 };
 std::span<const CurveQuantity> curve_quantities();
+// Null if there is none of this name.
+const CurveQuantity* curve_quantity(std::string_view name);
 
 struct QuantityInfo {
   std::string_view name, unit, help;
@@ -34,6 +36,8 @@ struct QuantityInfo {
 // points: their own causes (PointRecord::causes) have names too; the result refers to them. Throws Error(usage) that
 // suggests the nearest name.
 QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> points = {});
+// The unit of a metric or quantity, or `otherwise` if no row has the name.
+std::string_view quantity_unit(std::string_view name, std::string_view otherwise = "");
 
 // The causes that rungs on top of R5 brought at any of these points: each name once, in the order in which the points
 // have them. The pointers are to the points' own.

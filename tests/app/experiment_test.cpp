@@ -40,6 +40,25 @@ TEST(Experiment, WithoutAnythingIsOnePointOfDefaults) {
   EXPECT_EQ(experiment.pictures, "first");
 }
 
+// The name with an @ and the name in stores are the same number, wherever a metric or quantity is named.
+TEST(Experiment, ReadsWhatFollowsAnAt) {
+  const auto text = [](const std::string& worst, const std::string& window, const std::string& time) {
+    return "[map]\nplacements = 2\n[plot]\nmetrics = [\"" + worst + "\", \"" + window + "\"]\n[answer]\ncost = \"" +
+           time + "\"\n[[bound]]\nmetric = \"" + worst + "\"\nmax = 1\n[[bound]]\nmetric = \"" + window +
+           "\"\nmin = 0\n";
+  };
+  const Experiment at = parse(text("acne@worst", "window_min_m@worst", "map_ms@low"));
+  const Experiment stored = parse(text("acne_worst", "window_min_worst_m", "map_low_ms"));
+  EXPECT_EQ(at.plot, (Texts{"acne_worst", "window_min_worst_m"}));
+  EXPECT_EQ(at.plot, stored.plot);
+  EXPECT_EQ(at.cost, "map_low_ms");
+  EXPECT_EQ(time_asked_for(at), "map_low_ms");
+  ASSERT_EQ(at.bounds.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) EXPECT_EQ(at.bounds[i].metric, stored.bounds[i].metric);
+  for (const char* none : {"acne@wrost", "flip@mean", "@worst", "acne@"})
+    EXPECT_THROW(parse("[plot]\nmetrics = [\"" + std::string(none) + "\"]\n"), Error) << none;
+}
+
 TEST(Experiment, ReadsEveryPart) {
   const Experiment e = parse(R"(
 title = "A title"

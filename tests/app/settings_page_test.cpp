@@ -38,13 +38,12 @@ TEST(SettingsPage, HasEveryRowOnce) {
         << section << ": " << name;
   };
   for (const Setting& row : settings_table()) once("settings", row.name);
-  for (const Metric& row : metrics_table()) once("metrics", row.name);
+  for (const Metric& row : metric_rows()) once("metrics", row.name);
   for (const CurveQuantity& row : curve_quantities()) once("quantities", row.name);
   for (const FrameKey& row : frame_keys()) once("frame", row.object.empty() ? std::string(row.name) : row.full_name());
   for (const FrameCheck& row : frame_checks()) once("checks", row.name);
   size_t keys = 0;
-  for (const char* table :
-       {"root", "plot", "answer", "curve", "phase", "frame", "bound", "law", "range", "lights"})
+  for (const char* table : {"root", "plot", "answer", "curve", "phase", "frame", "bound", "law", "range", "lights"})
     keys += experiment_keys(table).size();
   EXPECT_EQ(count_of(section_of(page, "experiment"), " scope=\"row\">"), keys);
 }

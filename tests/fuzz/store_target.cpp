@@ -77,7 +77,7 @@ void run(const std::string& bytes) {
     const Results results = ResultStore::open(path).load();
     const std::string html = render_report(results, [](const std::string& picture) { return sample_picture(picture); });
     require_report(html);
-    require_csv(to_csv(results));
+    for (const CsvColumns columns : {CsvColumns::asked, CsvColumns::all}) require_csv(to_csv(results, columns));
     require_no_markup(to_junit(results), "JUnit file");
     to_summary(results);
     law_table(results.laws);

@@ -13,20 +13,29 @@
 #include <vector>
 
 #include "base/file.h"
+#include "compare/report/csv.h"
+#include "compare/store/store.h"
 
 namespace noonmark::acceptance {
 
 namespace fs = std::filesystem;
 
-// All columns before the times, which are the last columns (compare/report/csv.h).
+// results.csv, and beside it every column of the points of its store.
+inline std::string with_all_columns(const fs::path& csv) {
+  const std::string store = (csv.parent_path() / "results.sqlite").string();
+  return read_file(csv.string()) + "\n" + to_csv(ResultStore::read(store), CsvColumns::all);
+}
+
+// The columns before the times, which are the last columns (compare/report/csv.h), of both.
 inline std::string without_times(const fs::path& csv) {
-  std::istringstream lines(read_file(csv.string()));
+  std::istringstream lines(with_all_columns(csv));
   std::string line, kept;
   size_t columns = 0;
   while (std::getline(lines, line)) {
     std::vector<std::string> fields;
     std::istringstream row(line);
     for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
+    if (fields.empty()) columns = 0;
     if (columns == 0) {
       while (columns < fields.size() && !fields[columns].ends_with("_ms")) ++columns;
     }

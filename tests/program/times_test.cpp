@@ -101,7 +101,7 @@ TEST_F(TimesOfASweep, StoppedBetweenTwoRoundsIsIncomplete) {
   EXPECT_EQ(wait_for(child), 6);
   EXPECT_EQ(rows_of(folder_ / "out/results.csv").size(), 4u);
   for (const char* name : {"map_ms", "lookup_low_ms", "shadow_high_ms"})
-    EXPECT_EQ(rows_of(folder_ / "out/results.csv")[0].at(name), "") << "all times or none";
+    EXPECT_FALSE(rows_of(folder_ / "out/results.csv")[0].contains(name)) << "all times or none";
   ASSERT_EQ(run({"check", "x.toml", "--out", "out"}), 0) << output_;
   expect_times("out");
 }

@@ -620,7 +620,7 @@ TEST(Bounds, AValueThatHoldsSaysHowMuchIsAmbiguous) {
   EXPECT_EQ(ambiguous_room(points[0], "map.resolution"), 0) << "no quantity";
   for (const char* metric : {"aliasing_area_m2", "aliasing_rms", "aliasing_rms_worst", "leak_largest", "reduction_max",
                              "flip", "wrong_patch", "edge_displacement_texels", "lit", "light_share"})
-    EXPECT_TRUE(std::isinf(ambiguous_room(points[0], metric)) || find_metric(metric).of_lights) << metric;
+    EXPECT_TRUE(std::isinf(ambiguous_room(points[0], metric)) || find_metric(metric).is(Metric::lights)) << metric;
 }
 
 }  // namespace

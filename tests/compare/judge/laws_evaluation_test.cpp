@@ -72,6 +72,17 @@ LawResult judge(const Law& l, const std::vector<PointRecord>& points) {
   return evaluate_laws(points, {&l, 1}, [](const PointRecord& p) { return "render " + std::to_string(p.id); }).at(0);
 }
 
+TEST(Laws, ReadWhatFollowsAnAt) {
+  PointRecord one = point(0, 64, "none", 0.5);
+  one.metrics["error_worst"] = 0.75;
+  Law with = law("error@worst + wide", "1.5");
+  with.let = {{"wide", "error_worst"}};
+  EXPECT_TRUE(judge(with, {one}).held);
+  EXPECT_EQ(metric_names(with), (std::vector<std::string>{"error_worst", "error_worst"}));
+  EXPECT_EQ(curve_names(law("window_min_m@worst", "0")), (std::vector<std::string>{"window_min_worst_m"}));
+  EXPECT_THROW(check_law(law("error@wurst", "0")), Error);
+}
+
 TEST(Laws, NamesAreSettingsMetricsAndDefinitions) {
   const std::vector<PointRecord> points = {point(0, 512, "none", 0.5)};
   Law l = law("error * map.resolution + acne", "two * 128 + 0.25");

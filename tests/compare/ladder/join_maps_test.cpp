@@ -131,7 +131,8 @@ TEST(JoinMaps, SoundnessIsThatOfTheWorst) {
 // Shares are weighted by the receivers; a root mean square by its squares. In a blend band a receiver counts with a share in each
 // map, so the weights need not be whole.
 TEST(JoinMaps, PlacementsAddOverTheReceivers) {
-  ASSERT_TRUE(find_metric("error_worst").of_placements && find_metric("aliasing_rms_mean").of_placements);
+  ASSERT_TRUE(find_metric("error_worst").is(Metric::placements) &&
+              find_metric("aliasing_rms_mean").is(Metric::placements));
   const Maps all = three({{"error_worst", {0.1, 0.5, not_a_number}},
                           {"acne_mean", {0, 0.25, not_a_number}},
                           {"wrong_worst", {0.1, 0.5, not_a_number}},

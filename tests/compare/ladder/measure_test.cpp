@@ -339,6 +339,26 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   EXPECT_EQ(find_metric("tap_residual").unit, "");
 }
 
+// What a row has also is a metric of its own, and no other row's.
+TEST(MetricsTable, ReadsWhatFollowsAnAt) {
+  size_t made = 0;
+  for (const Metric& row : metric_rows())
+    for (const std::string& name : also_names(row)) {
+      const Metric* const also = metric_named(stored_name(name));
+      ASSERT_TRUE(also) << name;
+      EXPECT_TRUE(also->is(Metric::made) && also->unit == row.unit) << name;
+      ++made;
+    }
+  EXPECT_EQ(made, 3u * 15 + 2 * 4);
+  EXPECT_EQ(metrics_table().size(), metric_rows().size() + made);
+  EXPECT_EQ(stored_name("error@worst"), "error_worst");
+  EXPECT_EQ(stored_name("map_ms@low"), "map_low_ms");
+  EXPECT_EQ(stored_name("window_min_m@worst"), "window_min_worst_m");
+  EXPECT_EQ(stored_name("window_width_depth@worst"), "window_width_worst_depth");
+  EXPECT_EQ(stored_name("aliasing*@worst"), "aliasing*_worst");
+  EXPECT_EQ(stored_name("error_worst"), "error_worst");
+}
+
 TEST(MetricsTable, SuggestsTheNearestName) {
   try {
     find_metric("peter_paning");

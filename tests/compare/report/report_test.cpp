@@ -192,7 +192,7 @@ TEST(Report, NumbersAreThereWithoutJavaScript) {
                 std::string::npos);
     }
   }
-  for (const Metric& metric : metrics_table())
+  for (const Metric& metric : metric_rows())
     EXPECT_NE(body.find(report::Markup(metric.help).html()), std::string::npos);
   for (const std::string text :
        {"noonmark run experiments/cube-room.toml", "896dc68", "llvmpipe", "software times", "CPU time of the process",
