@@ -56,7 +56,7 @@ struct Measurement {
 // Milliseconds by gl::DeviceInfo::times. Empty: not asked for.
 struct PassTimes {
   std::optional<double> map_ms, lookup_ms;
-  std::optional<double> prefilter_ms;  // with lookup_ms, of a lookup in a map of moments
+  std::optional<double> prefilter_ms;  // with lookup_ms, of a lookup that reads a filtered map
 };
 
 // Checks the address space that the driver, the rays and the image library need before the first point. Throws

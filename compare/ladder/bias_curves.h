@@ -180,7 +180,7 @@ BiasScale bias_scale(std::span<const ScaledMap> maps, const ReceiverImage& recei
 
 struct CurveOptions : CauseBounds {
   std::vector<double> bias_depth = {};  // ascending, from 0; empty: default_bias_grid()
-  ParameterValues over = {};            // of a lookup in a map of moments; its setting may be empty
+  ParameterValues over = {};            // its setting may be empty
 };
 
 // The biases of a curve, in window depth.
