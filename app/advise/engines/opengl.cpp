@@ -178,7 +178,7 @@ EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPa
                       "//"};
   if (reads_moments(place.settings)) {
     advice.lines.clear();
-    advice.cannot.push_back(no_lines_for_moments(
+    advice.cannot.push_back(no_lines_for_lookup(
         place.settings.lookup.kind,
         fmt::format(
             "The passes and the lookup are the application's own shaders; technique/lookups/{}.glsl of Noonmark "
