@@ -168,9 +168,9 @@ class Renderer {
   // techniques: as of lookup_maps(); which: the map of a cascade.
   MomentEvidence read_moments(const ShadowMap& map, std::span<const Technique> techniques, const TexelSet& texels,
                               size_t which = 0);
-  // The time of the passes that store and blur the moments of a map; as time_ms in render_map.
-  // Of cascades those of all maps; technique: any of them.
-  double time_moments(const ShadowMap& map, const Technique& technique);
+  // The time of the passes that filter a map, as time_ms in render_map; empty if the lookup compares its depths. Of cascades those
+  // of all maps; technique: any of them.
+  std::optional<double> time_prefilter(const ShadowMap& map, const Technique& technique);
 
   // What the lookup chooses for each receiver (shaders/cascade/choice.glsl). technique: of any of the cascades.
   MapChoice choose_maps(const Technique& technique);

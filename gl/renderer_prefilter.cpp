@@ -130,7 +130,8 @@ const std::vector<MomentTextures>& Renderer::Impl::moments_of(const ShadowMap& m
   return m.moments;
 }
 
-double Renderer::time_moments(const ShadowMap& map, const Technique& technique) {
+std::optional<double> Renderer::time_prefilter(const ShadowMap& map, const Technique& technique) {
+  if (!technique.moments) return std::nullopt;
   impl_->context->make_current();
   double time_ms = 0;
   impl_->moments_of(map, technique, &time_ms);

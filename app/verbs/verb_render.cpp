@@ -128,7 +128,7 @@ void print_curve_of_cascades(const Measurement& m, const BiasCurve& c) {
              100 * c.best_error);
 }
 
-// Of a lookup in a map of moments: what another lookup.reduction would do.
+// What another lookup.reduction would do.
 void print_reductions(const Measurement& m) {
   const auto& metrics = m.record.metrics;
   if (!metrics.contains("best_reduction")) return;
@@ -195,7 +195,7 @@ void print_ladder(const Measurement& m, const char* clock) {
       const double share = m.record.metrics.at(std::string(metric.name));
       if (!std::isnan(share))
         fmt::print("  {:<32}{:>11.5f}%{}\n", metric.name, 100 * share,
-                   metric.name == "wrong" && m.technique.moments
+                   metric.name == "wrong" && !m.ladder.of_comparisons()
                        ? "  (not exactly as the truth, however little; judge by the error)"
                        : "");
     }
