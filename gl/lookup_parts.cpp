@@ -15,7 +15,7 @@ std::string uniform(const KindRead<FilterSettings>& read) { return fmt::format("
 }  // namespace
 
 ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique) {
-  if (!technique.cascade) return {{"cascade", "shaders/cascade/single.glsl"}};
+  if (!technique.cascade) return {{"choice", "shaders/cascade/single.glsl"}};
   const std::string_view shape = technique.cascade->shape->name;
   const std::string blend = fmt::format("blend {}", shape);
   programs.define(blend, fmt::format("#include \"technique/blends/{0}.glsl\"\n"
@@ -24,7 +24,7 @@ ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique) {
                                      "  return {0}_blend(way);\n"
                                      "}}\n",
                                      shape));
-  return {{"cascade", std::string(technique.cascade->selection->shader)}, {"blend", blend}};
+  return {{"choice", std::string(technique.cascade->selection->shader)}, {"blend", blend}};
 }
 
 ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias) {
@@ -42,9 +42,9 @@ ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique) {
       "#include \"technique/lookups/shared/words.glsl\"\n"
       "#include \"technique/lookups/{0}.glsl\"\n"
       "uniform LookupParameters lookup;\n"
-      "vec4 stored_moments(float depth) {{ return {0}_moments(depth, lookup); }}\n"
-      "float lit_fraction(vec4 moments, float depth) {{\n"
-      "  return {0}_lit(moments, depth, lookup);\n"
+      "vec4 stored_texel(float depth) {{ return {0}_stored(depth, lookup); }}\n"
+      "float lit_fraction(vec4 stored, float depth) {{\n"
+      "  return {0}_lit(stored, depth, lookup);\n"
       "}}\n",
       name);
   if (technique.moments->spread())

@@ -16,17 +16,17 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
 //   float all_lit()                           its greatest value
 // If a formula gives the weights of the filter's taps, the text has before that file
 //   float filter_weight(int texel, float s)   the weight of texel 0 ... filter_size along one axis
-// <cascade> defines
+// <choice> defines
 //   Lookups lookups_of(vec3 position)         in which maps a receiver is looked up (shaders/cascade/lookups.glsl)
 ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
 
-// <cascade>, and of cascades <blend>, a text that it defines in `programs`:
+// <choice>, and of cascades <blend>, a text that it defines in `programs`:
 //   float weight_of_next(float place, float blend)   technique/blends/<name>.glsl at a place of technique/cascade_place.glsl
 ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique);
 
 // The slot of the passes that make a map of moments, <lookup>: the formulas of technique.moments, as
-//   vec4 stored_moments(float depth)                 what a texel of this window depth stores
-//   float lit_fraction(vec4 moments, float depth)    of a receiver of this biased depth, before light-bleed reduction
+//   vec4 stored_texel(float depth)                   what a texel of this window depth stores
+//   float lit_fraction(vec4 stored, float depth)     of a receiver of this biased depth, before light-bleed reduction
 // whose parameters set_lookup_uniforms() sets. It is part of lookup_slots() too.
 ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique);
 void set_lookup_uniforms(Program& program, const Technique& technique);

@@ -35,7 +35,7 @@ struct ExtraInput {
 struct Extras {
   std::vector<std::unique_ptr<Extra>> each;
   const BiasPart* counted = nullptr;  // the part of the bias whose thresholds the climb counts; null: none
-  bool reads_fetched = false;         // one reads what the lookups fetched from the drawn maps of moments
+  bool reads_fetched = false;         // one reads what the lookups fetched from the drawn maps
 };
 Extras extras_of(const ExtraInput& in, const std::optional<CurveOptions>& curve, MetricSet metrics);
 

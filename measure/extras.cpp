@@ -42,7 +42,7 @@ class FootprintExtra final : public Extra {
   ExtraInput in_;
 };
 
-// Which lookup.reduction is usable, of maps of moments.
+// Which lookup.reduction is usable.
 class ReductionsExtra final : public Extra {
  public:
   explicit ReductionsExtra(const CurveOptions& options) : options_(options) {}

@@ -28,8 +28,8 @@ constexpr double program = 260e6;  // libraries, OpenGL's compiler, one empty pi
 constexpr double per_pixel = 260;  // receivers, truth, probe, ladder, on both sides of OpenGL [236]
 // Of each cascade but the first: its probe, its truth, and the ladder of its receivers before it is joined.
 constexpr double per_cascade_pixel = 130;
-// Of a lookup in a map of moments: four more causes, and what is kept of each receiver for curve.over.
-constexpr double per_moment_pixel = 16 + 16 + 80;
+// Of a lookup in a filtered map: four more causes, and what is kept of each receiver for curve.over.
+constexpr double per_filtered_pixel = 16 + 16 + 80;
 // Pictures that are painted and encoded side by side, after much of the above has been freed: 3 bytes and the encoded ones
 // on each thread, and rows of the EXR files [7 on 2 threads].
 constexpr double per_picture_pixel = 60;
@@ -66,9 +66,9 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double map = gl::map_bytes(texels, kept_map, cube) + asked * raytrace::bytes_per_asked_texel;
   double scene = raytrace::truth_bytes(s, input.light, input.scene, input.open_edges);
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
-  const double moments = !reads_moments(s) ? 0
+  const double filtered = !pattern.blurred ? 0
                                            : gl::moment_bytes(s, texels, asked, pixels) +
-                                                 pixels * (per_moment_pixel + ReductionWindow::shown_bytes());
+                                                 pixels * (per_filtered_pixel + ReductionWindow::shown_bytes());
   const double maps = s.cascades.count;
   if (maps > 1) scene += pixels * sizeof(double) * maps;  // ReceiverTruth::share
   const double curve = input.curve && curve_part(s) ? bias_curve_bytes(taps, pattern.bilinear()) : 0;
@@ -82,16 +82,16 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   double placements = 0;
   if (side > 1) {                                           // of each map
     placements = placement_count_bytes(side * side) + map;  // the worst placement is rendered too
-    if (kind_of_light(input.light).placements_form_lattice() && !reads_moments(s))
+    if (kind_of_light(input.light).placements_form_lattice() && !pattern.blurred)
       placements += raytrace::placement_bytes(pixels, side, static_cast<double>(input.scene.triangles));
     else  // measured one by one, beside the point itself: a probe, an exact map and taps each
-      placements += strip + pixels * (per_pixel + (reads_moments(s) ? ReductionWindow::receiver_bytes() : 0));
+      placements += strip + pixels * (per_pixel + (pattern.blurred ? ReductionWindow::receiver_bytes() : 0));
   }
   placements *= maps;
   // A snapped map is drawn cell by cell and then put in order; the next frame of a motion has maps of its own.
   const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? maps : 0));
   const double motion = s.view.motion.any() ? pixels * flicker_bytes_per_pixel : 0;
-  const double kept = maps * (strip + map + moments) + more_maps;
+  const double kept = maps * (strip + map + filtered) + more_maps;
   double live = 0;
   if (input.pictures && maps == 1) {
     const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
@@ -113,7 +113,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
           {"the shadow map",
            maps > 1 ? "lower map.resolution, cascades.resolutions or cascades.count" : "lower map.resolution",
            maps * map + more_maps},
-          {"the map of moments", "lower map.resolution, or set map.moments = 16f", maps * moments},
+          {"the map of moments", "lower map.resolution, or set map.moments = 16f", maps * filtered},
       },
       input.pictures && kept <= static_cast<double>(most_beside_live_bytes) ? kept : 0};
 }

@@ -18,7 +18,7 @@ class PlacementsExtra final : public Extra {
   void end(Climbed&) override { stages_.back()->finish(); }
   void put(Measurement& m) override;
 
-  // For the bands of a curve, of each map. Null of a map of moments.
+  // For the bands of a curve, of each map; null where there is none (PlacementStage::counts).
   std::vector<const PlacementCounts*> counts() const;
 
  private:

@@ -46,7 +46,7 @@ std::map<std::string, double> laws_of(const ClimbedMap& map, const Ladder& ladde
                                       const ViewStage& view) {
   const Technique& technique = map.technique;
   return measure_laws({ladder, *loaded.scene, view.receivers, view.camera, technique.frame,
-                       technique.settings.map.format, map.lookup.probe, technique.moments.has_value()});
+                       technique.settings.map.format, map.lookup.probe});
 }
 
 // What one of several maps has by itself: the numbers of its receivers in the ladder of the whole point. Hides the others for that
@@ -128,7 +128,7 @@ void add_maps(PointRecord& record, std::span<const ClimbedMap> maps, Ladder& lad
   Seam all;
   for (const Seam& seam : seams) all.add(seam);
   record.metrics.merge(seam_metrics(all));
-  record.metrics.merge(join_laws(of_each, maps.front().technique.moments.has_value()));
+  record.metrics.merge(join_laws(of_each));
   if (checks == Checks::none) return;
   record.metrics.merge(join_soundness(of_each, maps.front().climbed.soundness));
   record.metrics["cascade_choice_excess"] = choice.excess;

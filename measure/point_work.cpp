@@ -12,7 +12,8 @@ uint64_t nominal_cost(const Settings& s, const Settings* before, const std::opti
                       bool timed) {
   const auto anew = [&](const auto& key) { return !before || key(s) != key(*before); };
   const uint64_t pixels = static_cast<uint64_t>(s.view.width_px) * static_cast<uint64_t>(s.view.height_px);
-  const uint64_t taps = pixels * static_cast<uint64_t>(tap_pattern(s).taps);
+  const TapPattern pattern = tap_pattern(s);
+  const uint64_t taps = pixels * static_cast<uint64_t>(pattern.taps);
   const uint64_t texels = static_cast<uint64_t>(s.map.resolution) * static_cast<uint64_t>(s.map.rows());
   const uint64_t look = 300 * taps, compare = 200 * taps;
   uint64_t ns = 10'000'000 + compare;
@@ -29,8 +30,8 @@ uint64_t nominal_cost(const Settings& s, const Settings* before, const std::opti
   if (varied && anew([&](const Settings& one) { return curve_key_of(one, *varied, *options); })) ns += 60 * taps;
   if (s.map.placements > 1) {
     const auto side = static_cast<uint64_t>(s.map.placements);
-    // Of a map of moments each placement is looked up and compared by itself.
-    ns += reads_moments(s) ? (look + compare) * (side * side - 1) : 70 * taps * side * side;
+    // Of a filtered map each placement is looked up and compared by itself.
+    ns += pattern.blurred ? (look + compare) * (side * side - 1) : 70 * taps * side * side;
   }
   return ns / 1000 + 1;
 }

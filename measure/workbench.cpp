@@ -151,7 +151,7 @@ PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup
       b.renderer.render_maps(techniques, map ? &ms : nullptr, casters_of(*loaded.scene, techniques.front()));
   if (map) times.map_ms = ms;
   if (!lookup) return times;
-  if (reads_moments(settings)) times.prefilter_ms = b.renderer.time_moments(drawn, techniques.front());
+  times.prefilter_ms = b.renderer.time_prefilter(drawn, techniques.front());
   b.renderer.lookup_maps(drawn, techniques, &ms);
   times.lookup_ms = ms;
   return times;

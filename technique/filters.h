@@ -7,7 +7,7 @@
 //
 // Taps of equal weight are a table of offsets, made by <name>.cpp; the shader counts the lit ones. Taps that the
 // sampler of a hardware comparison blends have weights. <name>.glsl gives the weights along one axis, and both the
-// shader and the host compile that file. A lookup in a map of moments (technique/lookups.h) has no taps: its filter blurs
+// shader and the host compile that file. A lookup in a filtered map (technique/lookups.h) has no taps: its filter blurs
 // the map instead.
 #pragma once
 #include <span>
@@ -31,7 +31,7 @@ struct Filter {
   std::vector<KindRead<FilterSettings>> reads = {};
   bool blended = false;      // a comparison sampler blends the taps: one reference for all texels of a fetch
   bool own_weights = false;  // the file <name>.glsl gives the weights of the blend: <name>_weight
-  // The kernel with which it blurs a map of moments, along each axis; null: it cannot. An odd number of weights, of sum 1.
+  // The kernel with which it blurs a map, along each axis; null: it cannot. An odd number of weights, of sum 1.
   std::vector<double> (*blur)(const FilterSettings&) = nullptr;
   int weight_operations = 0;  // of <name>_weight of one texel, as LookupCost::operations (technique/cost.h)
 };

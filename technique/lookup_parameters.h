@@ -1,6 +1,6 @@
 // The numbers that the formulas of filtered shadow maps read, for every type of number (technique/lookup_formulas.h).
 //
-//   in_float::LookupParameters vsm{};  // bare: without floor and moment bias
+//   in_float::LookupParameters vsm{};  // bare: all 0
 //   vsm.v_min = 1e-6f;
 #pragma once
 #include "technique/formulas.h"

@@ -21,8 +21,8 @@
 namespace noonmark {
 
 // The formulas of one file, in each type of number that asks for them (technique/lookup_formulas.h).
-struct MomentFormulas {
-  glm::vec4 (*moments)(float depth, in_float::LookupParameters);
+struct LookupFormulas {
+  glm::vec4 (*stored)(float depth, in_float::LookupParameters);
   float (*lit)(glm::vec4 moments, float depth, in_float::LookupParameters);
   // From the depths themselves (technique/lookup_truth.h).
   LookupTruth truth;
@@ -44,8 +44,8 @@ struct LookupKind {
   std::string_view help;
   std::string_view law;  // what the laws say of it, for the table in docs/reference/techniques.md
   std::vector<KindRead<LookupSettings>> reads = {};
-  // Of a lookup in a map of moments; empty: it compares depths.
-  std::optional<MomentFormulas> moments = {};
+  // Of a lookup in a filtered map; empty: it compares depths.
+  std::optional<LookupFormulas> formulas = {};
   std::optional<SpreadFormulas> spread = {};
   int channels = 0;  // numbers that a texel stores: 1, 2 or 4
   // Above 0: a texel stores exponentials, which the device and the host may round differently. The largest is e^(warp_power c)
@@ -56,7 +56,7 @@ struct LookupKind {
   // True if it is never darker than the comparison of the same depths (law 13). False for forms of engines that can be.
   bool bound = true;
 
-  bool reads_moments() const { return moments.has_value(); }
+  bool compares() const { return !formulas; }
 };
 
 std::span<const LookupKind> lookups();
@@ -64,11 +64,21 @@ std::span<const LookupKind> lookups();
 // Throws std::logic_error if no row has that name.
 const LookupKind& find_lookup(std::string_view name);
 
-inline bool reads_moments(const Settings& settings) { return find_lookup(settings.lookup.kind).reads_moments(); }
+// Whether the lookup compares depths. Otherwise it reads a filtered map.
+inline bool compares(const Settings& settings) { return find_lookup(settings.lookup.kind).compares(); }
+
+// Bytes of what a texel of a filtered map stores, in map.moments; 0 if the lookup compares depths.
+int stored_bytes(const Settings& settings);
 
 // The texels that a lookup reads: the taps of the filter; of a map of moments the texels of the blur around the four that the
 // fetch blends.
 TapPattern tap_pattern(const Settings& settings);
+
+// The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope
+// (law 17). Of the weights of a blur; or of the blur of these settings, whose lookup compares no depths, in texels of the map also
+// where a level of it is blurred (lookup.level). In double.
+double blur_deviation_texels(std::span<const double> weights);
+double blur_deviation_texels(const Settings& settings);
 
 // Texels of the map along a side of a texel of the mip level that the lookup reads (lookup.level); 1 if it reads the map's own.
 int texel_block(const Settings& settings);
@@ -76,9 +86,9 @@ int texel_block(const Settings& settings);
 // The part of the bias whose curve is exact in one pass: none of a lookup in a map of moments, which has no verdicts of taps.
 const BiasPart* curve_part(const Settings& settings);
 // Whether lookup.reduction alone turns the bound of a map of moments into its result, so that the results at other reductions
-// follow from it. Not where a span is given, nor in a blend band of cascades, where a result is a mix of two lookups.
+// follow from it. Not where a span is given, nor where a result may be a mix of two maps' lookups.
 bool has_reduction_curve(const Settings& settings);
-// Whether a result may be a mix of two cascades' lookups.
-bool mixes_cascades(const Settings& settings);
+// Whether a result may be a mix of the lookups in two maps.
+bool mixes_maps(const Settings& settings);
 
 }  // namespace noonmark

@@ -40,7 +40,7 @@ inline glm::ivec2 wrapped(glm::ivec2 texel, glm::ivec2 size, Wrap wrap, int bloc
   return {-1, -1};
 }
 
-// The texels behind one texel of a blurred map of moments: `size` texels of the mip level along each side around `middle`,
+// The texels behind one texel of a blurred map: `size` texels of the mip level along each side around `middle`,
 // each of which holds block x block texels of the map. The blur reads outside the map by the wrap. Calls
 // visit(u, v, texel) for each, with the place in the kernel; for the border, which is one texel of the mip level, once
 // with {-1, -1}. map: the size of the map itself.

@@ -34,10 +34,10 @@ class SettingConflict : public Error {
 // is empty while the scene is not loaded. Then the rules that hold for some kinds of light only are not checked.
 void validate(const Settings& settings, std::optional<LightKind> light = std::nullopt);
 
-// Throws SettingConflict if the settings have several cascades. who: what is made for one map, "a phase diagram".
+// Throws SettingConflict if the settings have several maps. who: what is made for one map, "a phase diagram".
 void require_one_map(const Settings& settings, std::string_view who);
 
-// Throws SettingConflict if the settings' lookup reads moments. who: what is made for one that compares, "a phase diagram".
+// Throws SettingConflict if the settings' lookup compares no depths. who: what is made for one that compares, "a phase diagram".
 void require_compared(const Settings& settings, std::string_view who);
 
 struct IdleSetting {
@@ -73,7 +73,7 @@ std::string without_part_in_unit(const Settings&, LightKind);
 std::string without_offset(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
 std::string without_slice_fit(const Settings&, LightKind);
-std::string without_reach(const Settings&, LightKind);  // of the map: not fitted to a slice of the view, nor cascades
+std::string without_reach(const Settings&, LightKind);  // of the map: not fitted to a slice of the view, nor several
 std::string without_moments(const Settings&, LightKind);
 std::string without_motion(const Settings&, LightKind);
 std::string without_turning_light(const Settings&, LightKind);
@@ -93,7 +93,7 @@ std::string camera_moved_away(const Settings&, std::optional<LightKind>);
 std::string light_moved_away(const Settings&, std::optional<LightKind>);
 std::string zoomed_beyond_a_picture(const Settings&, std::optional<LightKind>);
 std::string no_direction_up(const Settings&, std::optional<LightKind>);
-std::string moments_without_a_blur(const Settings&, std::optional<LightKind>);
+std::string filtered_without_a_blur(const Settings&, std::optional<LightKind>);
 std::string moments_beyond_format(const Settings&, std::optional<LightKind>);
 std::string filter_of_another_map(const Settings&, std::optional<LightKind>);
 std::string plane_on_cube_or_blended(const Settings&, std::optional<LightKind>);

@@ -32,7 +32,7 @@ struct TapPattern {
   int blended_side = 0;
   int fetches_along() const { return blended_side / block - 1; }  // of a kernel
   bool bilinear() const { return blended_side > 0; }
-  // A fetch of a map of moments reads texels of its mip level, each the mean of block x block texels of the shadow map
+  // A fetch of a filtered map reads texels of its mip level, each the mean of block x block texels of the shadow map
   // (lookup.level). Each texel of the block is a tap; its exact place keeps its distance to P, so it is up to half a block
   // from the texel's centre. 1: the fetch reads the map's own texels.
   int block = 1;

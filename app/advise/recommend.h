@@ -101,7 +101,7 @@ struct Tried {
   bool as_is = false;  // a form of an engine that keeps the bounds on causes as it is
   bool held = false;   // of Advice::tried: it keeps the bounds as far as it was measured, and something else is better
 
-  bool filtered() const;  // a lookup that reads moments
+  bool filtered() const;  // a lookup that compares no depths
   // It keeps the bounds on causes, with some bias or reduction where one is free.
   bool usable() const { return bias || reduction || as_is; }
 };

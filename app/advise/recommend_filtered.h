@@ -3,7 +3,7 @@
 //
 //   for (BiasLevel& level : filtered_levels({"vsm", "msm"})) request.levels.push_back(level);
 //
-// What leaks and what a bias, a floor or a moment bias lifts is held to the bound on Peter Panning, because both are light in a
+// What leaks and what a bias, a floor or a bias of what is stored lifts is held to the bound on Peter Panning, because both are light in a
 // shadow. What the bound of the lookup and its reduction darken is held to the bound on acne.
 #pragma once
 #include <functional>
@@ -20,12 +20,12 @@ namespace noonmark {
 // (app/advise/engine_forms.h).
 std::vector<std::string> searched_lookups();
 
-// The levels of lookups that read moments, from searched_lookups(), in this order. A lookup that darkens lit slopes (law 17) comes
+// The levels of lookups that compare no depths, from searched_lookups(), in this order. A lookup that darkens lit slopes (law 17) comes
 // without a bias and with one of a standard deviation of the blur. searched: the bounds of the search.
 std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups,
                                        const CurveOptions& searched = searched_bounds({}));
 
-// blur_deviation_texels() (compare/judge/moment_cures.h) with two digits after the point, and no less than it is.
+// blur_deviation_texels() (technique/lookups.h) with two digits after the point, and no less than it is.
 double short_deviation(std::span<const double> weights);
 
 // Of these shares the largest over points and placements.

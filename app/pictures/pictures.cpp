@@ -43,11 +43,11 @@ Image<Color> shaded(const Measurement& m, const Image<float>& visibility) {
   });
 }
 
-// How strongly an error shows. A bound from moments is a little off nearly everywhere in a shadow: what is less than a step of
-// a picture is fainter. The arguments of std::min have this order so that NaN gets the full strength.
-float strength_of(float wrong, bool of_moments) {
+// How strongly an error shows. A lookup that compares no depths is a little off nearly everywhere in a shadow: what is less than a
+// step of a picture is fainter. The arguments of std::min have this order so that NaN gets the full strength.
+float strength_of(float wrong, bool of_comparisons) {
   constexpr float faint = 1.0f / 64;
-  return 0.25f * (of_moments ? std::min(1.0f, wrong / faint) : 1.0f) + 0.75f * std::min(1.0f, wrong);
+  return 0.25f * (of_comparisons ? 1.0f : std::min(1.0f, wrong / faint)) + 0.75f * std::min(1.0f, wrong);
 }
 
 // Each wrong pixel in the colour of its cause, over the grey of right pixels. The strength of the colour is the size of
@@ -64,8 +64,7 @@ Image<Color> classes(const Measurement& m) {
     if (m.ladder.cause[i] == static_cast<uint8_t>(Cause::none)) return Color(right + 0.5f);
     const float wrong = std::abs(m.ladder.shown()[i] - m.ladder.truth()[i]);
     return Color(
-        glm::mix(right, glm::vec3(of_cause[m.ladder.cause[i]]), strength_of(wrong, m.technique.moments.has_value())) +
-        0.5f);
+        glm::mix(right, glm::vec3(of_cause[m.ladder.cause[i]]), strength_of(wrong, m.ladder.of_comparisons())) + 0.5f);
   });
 }
 

@@ -149,7 +149,7 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
 PointPictures keep_pictures_and_sections(Workbench& bench, const Measurement& m, int64_t id, const std::string& out,
                                          PictureFormats formats) {
   PointPictures kept = keep_pictures(m, id, out, formats);
-  if (m.technique.moments) return kept;  // a section shows the verdicts of taps
+  if (!m.ladder.of_comparisons()) return kept;  // a section shows the verdicts of taps
   const std::vector<glm::ivec2> pixels =
       section_pixels(m.record, m.ladder, [&](size_t i) -> const LookupProbe& { return m.map_of(i).probe; });
   if (pixels.empty()) return kept;  // no taps are traced again for nothing

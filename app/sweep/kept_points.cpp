@@ -37,7 +37,7 @@ bool has_asked_over(const PointRecord& stored, const Experiment& part, const Set
 
 // Whether the stored point has the curve that its part of the experiment asks for, or can have it without a measurement.
 bool has_asked_curve(const PointRecord& stored, const Experiment& part, const Settings& settings) {
-  // Of a map of moments: the window was judged when it was measured, by these bounds.
+  // The window of a reduction was judged when it was measured, by these bounds.
   if (stored.lookup_bounds && (!part.curve_enabled || *stored.lookup_bounds != part.curve)) return false;
   if (!stored.lookup_bounds && part.curve_enabled && has_reduction_curve(settings) && !nothing_judged(stored))
     return false;

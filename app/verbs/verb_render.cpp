@@ -17,7 +17,6 @@
 #include "base/threads.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/interval.h"
-#include "compare/judge/moment_cures.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
@@ -125,7 +124,7 @@ void print_curve_of_cascades(const Measurement& m, const BiasCurve& c) {
              100 * c.best_error);
 }
 
-// Of a lookup in a map of moments: what another lookup.reduction would do.
+// What another lookup.reduction would do.
 void print_reductions(const Measurement& m) {
   const auto& metrics = m.record.metrics;
   if (!metrics.contains("best_reduction")) return;
@@ -186,7 +185,7 @@ void print_shares(const Measurement& m) {
   each_printed(m, Metric::share, [&](const Metric& metric, double share) {
     if (std::isnan(share)) return;
     fmt::print("  {:<32}{:>11.5f}%{}\n", metric.name, 100 * share,
-               metric.name == "wrong" && m.technique.moments
+               metric.name == "wrong" && !m.ladder.of_comparisons()
                    ? "  (not exactly as the truth, however little; judge by the error)"
                    : "");
   });

@@ -67,7 +67,7 @@ ChosenPixel pixel_of_largest_cause(const Measurement& m, const ProbeOf& probe_of
   size_t largest = 0;
   const auto size = [&](size_t cause) { return cause == 0 ? 0 : metric_of(m.record, m.ladder.causes[cause].name); };
   for (const CauseRow& row : cause_rows)
-    if (row.cause && !is_of_moments(*row.cause) && row.place != CausePlace::light)
+    if (row.cause && m.ladder.books(row) && row.place != CausePlace::light)
       if (const auto cause = static_cast<size_t>(*row.cause); size(cause) > size(largest)) largest = cause;
   const auto pixel = largest == 0 ? std::nullopt : typical_pixel(m.ladder, largest, true, probe_of);
   if (!pixel) refuse_right_picture(m.record, "error", "give a --pixel");

@@ -61,7 +61,7 @@ void SoundnessCheck::receiver(size_t i, const ReceiverTaps& taps, Part& part) co
   const float bias = e.bias.at(e.probe, i);
   ++part.facing;
   // Uploaded maps are 32-bit float, whatever format the settings name.
-  if (!e.moments)  // theirs is in compare/judge/moment_contract.h
+  if (!e.probe.pattern.blurred)  // what a filtered map shows is checked stage by stage
     part.broken += !(holds(e, taps, bias, e.exact_map, DepthFormat::d32f, i, e.r4[i]) &&
                      holds(e, taps, bias, in_.stored_map, e.map.format, i, e.r5[i]) &&
                      holds(e, taps, bias, in_.ties, DepthFormat::d32f, i, in_.tie_lookup[i]));
@@ -168,7 +168,7 @@ bool must_have(const PointRecord& point, const SoundLimit& limit) {
   if (!metric.is(Metric::moments)) return !metric.optional() && !given;
   const auto kind = std::find_if(lookups().begin(), lookups().end(),
                                  [&](const LookupKind& one) { return one.name == setting_of(point, "lookup.kind"); });
-  if (kind == lookups().end() || !kind->reads_moments()) return false;
+  if (kind == lookups().end() || kind->compares()) return false;
   return std::string_view(limit.metric) != "below_comparison" || kind->bound;
 }
 

@@ -42,8 +42,8 @@ struct SoundnessInput {
 // lookup:
 //   contract              share whose visibility at R4, at R5 or on the tie map is not, bit for bit, what the
 //                         technique's definition gives for the probe's numbers and that map's. If a sampler blends the
-//                         taps: is not within the sampler's rounding. Sound: 0. Of a lookup in a map of moments it is
-//                         always 0 here: compare/judge/moment_contract.h has its own.
+//                         taps: is not within the sampler's rounding. Sound: 0. Of a lookup that compares no depths it
+//                         is always 0 here: contract_store and the others are its own.
 //   rounding_excess       largest error of the probe's numbers against the frame in double, as a multiple of the
 //                         largest error of float arithmetic (compare/ladder/probe_errors.h). Sound: at most 1.
 //   address_error_texels  largest distance of the exact place where P (of a cube: each tap) is looked up from the texel

@@ -13,10 +13,6 @@
 namespace noonmark {
 namespace {
 
-constexpr const char* tuned_of_moments[] = {
-    "lookup.v_min", "lookup.reduction",   "lookup.reduction_span",    "lookup.exponent",
-    "lookup.floor", "lookup.moment_bias", "lookup.negative_exponent", "bias.constant"};
-
 // The part and the texts of the settings, without the named ones.
 std::string key_of(const Choice& choice, const std::vector<std::string>& settings,
                    const std::vector<std::string>& without) {
@@ -83,8 +79,12 @@ Techniques techniques_of(const ComparedGroup& group, const Results& results) {
 
 std::vector<std::string> tuned_settings(const Choice& choice) {
   const std::string& kind = setting_of(choice.first(), "lookup.kind");
-  const bool of_moments = !kind.empty() && kind != "compare";
-  if (of_moments) return {std::begin(tuned_of_moments), std::end(tuned_of_moments)};
+  if (!kind.empty() && kind != LookupTable::first) {
+    std::vector<std::string> tuned = {"bias.constant"};
+    for (const KindParameter* one : LookupTable::parameters())
+      if (one->type == ValueType::real && !one->of_blur) tuned.emplace_back(one->setting);
+    return tuned;
+  }
   if (has_curves(choice)) return {curve_parameter(choice.first())};
   return {};
 }

@@ -24,7 +24,7 @@ struct Techniques {
 Techniques techniques_of(const ComparedGroup& group, const Results& results);
 
 // The numbers of a choice that cost nothing and that a user tunes, so that they make no technique of their own: the bias that its
-// curves vary; of a lookup in a map of moments its exponents, its reduction and its least variance, and bias.constant, because such a
+// curves vary; of one that compares no depths its exponents, its reduction and its least variance, and bias.constant, because such a
 // lookup has no bias curve. What blurs (filter.*, lookup.radius, lookup.samples) is not among them.
 std::vector<std::string> tuned_settings(const Choice& choice);
 

@@ -48,7 +48,7 @@ class BiasCounts {
 
   class Adding;
 
-  // Adds what another one counts, with the same varied part and filter: the receivers of another cascade. A receiver that
+  // Adds what another one counts, with the same varied part and filter: the receivers of another map. A receiver that
   // both have a share in (ReceiverTruth::share) is wrong if it is wrong in one of them, and counts once.
   void add(BiasCounts&& other);
 
@@ -180,7 +180,7 @@ BiasScale bias_scale(std::span<const ScaledMap> maps, const ReceiverImage& recei
 
 struct CurveOptions : CauseBounds {
   std::vector<double> bias_depth = {};  // ascending, from 0; empty: default_bias_grid()
-  ParameterValues over = {};            // of a lookup in a map of moments; its setting may be empty
+  ParameterValues over = {};            // its setting may be empty
 };
 
 // The biases of a curve, in window depth.

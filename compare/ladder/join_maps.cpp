@@ -53,7 +53,7 @@ double median_of(MetricsOfMaps maps, const char* metric) {
 
 }  // namespace
 
-std::map<std::string, double> join_laws(MetricsOfMaps maps, bool read_moments) {
+std::map<std::string, double> join_laws(MetricsOfMaps maps) {
   const auto joined_of = [&](const LawMetric& metric) {
     switch (metric.join) {
       case LawMetric::median:
@@ -71,7 +71,8 @@ std::map<std::string, double> join_laws(MetricsOfMaps maps, bool read_moments) {
   };
   std::map<std::string, double> joined;
   for (const LawMetric& metric : law_metrics)
-    if (!read_moments || !metric.of_comparisons) joined[metric.name] = joined_of(metric);
+    if (std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.contains(metric.name); }))
+      joined[metric.name] = joined_of(metric);
   return joined;
 }
 

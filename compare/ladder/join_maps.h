@@ -1,7 +1,7 @@
 // Numbers of a point with several maps that come from those of each map. All other numbers come from the joined ladder (join(),
 // compare/ladder/ladder.h).
 //
-//   metrics.merge(join_laws(metrics_of_each, technique.moments.has_value()));
+//   metrics.merge(join_laws(metrics_of_each));
 #pragma once
 #include <map>
 #include <span>
@@ -14,9 +14,8 @@ namespace noonmark {
 // Metrics by name, for each map those of its own receivers.
 using MetricsOfMaps = std::span<const std::map<std::string, double>>;
 
-// The metrics of measure_laws(), as law_metrics says. read_moments: LawInput::reads_moments. Throws std::out_of_range if a map
-// lacks one of them.
-std::map<std::string, double> join_laws(MetricsOfMaps maps, bool read_moments);
+// The metrics of measure_laws(), as law_metrics says. Throws std::out_of_range if a map lacks one that another has.
+std::map<std::string, double> join_laws(MetricsOfMaps maps);
 
 // What was checked of each map (of_first: what of the first): contract is the share of all facing receivers, the others are the largest
 // of the maps that have some. NaN if none has.

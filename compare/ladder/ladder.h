@@ -101,8 +101,8 @@ struct Ladder {
   std::vector<CauseImage> causes;
   std::vector<RungCause> brought;  // describes the last of `causes`
   size_t built_in() const { return causes.size() - brought.size(); }
-  // Whether it is of a lookup in a map of moments (compare/ladder/moment_climb.h).
-  bool of_moments() const { return built_in() == static_cast<size_t>(cause_count); }
+  // Whether it is of a lookup that compares depths.
+  bool of_comparisons() const { return built_in() <= static_cast<size_t>(compared_cause_count); }
   // Whether it has an image of the row's cause; of a sum, of its parts.
   bool books(const CauseRow& row) const { return !row.cause || static_cast<size_t>(*row.cause) < built_in(); }
   Image<uint8_t> cause;  // an index into causes for each wrong pixel (shown() != truth()), 0 for a right one

@@ -173,19 +173,17 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
       {"texel_m", in.frame.uniform() ? in.frame.texel_m(glm::dvec3(0)) : median_texel_m(in)},
       {"map_range_m", range_m},
       {"depth_quantum_m", quantum_there},
-      {"acne_free_bias_law_depth", measured(receivers.law_depth)},
-      {"acne_free_bias_law_m", measured(receivers.law_m)},
-      {"acne_free_bias_scene_law_depth", faces.law_depth},
-      {"acne_free_bias_scene_law_m", faces.law_m},
       {"counted_area_m2", measured(receivers.whole_area)},
       {"filter_area_m2", area(Cause::filter)},
       {"displacement_area_m2", area(Cause::displacement)},
       {"aliasing_area_m2", area(Cause::aliasing_dark) + area(Cause::aliasing_light)},
       {"acne_area_m2", area(Cause::acne)},
       {"peter_panning_area_m2", area(Cause::peter_panning)}};
-  if (in.reads_moments)
-    for (const LawMetric& law_metric : law_metrics)
-      if (law_metric.of_comparisons) metrics.erase(law_metric.name);
+  if (in.ladder.of_comparisons())
+    metrics.merge(std::map<std::string, double>{{"acne_free_bias_law_depth", measured(receivers.law_depth)},
+                                                {"acne_free_bias_law_m", measured(receivers.law_m)},
+                                                {"acne_free_bias_scene_law_depth", faces.law_depth},
+                                                {"acne_free_bias_scene_law_m", faces.law_m}});
   return metrics;
 }
 

@@ -21,24 +21,22 @@ struct LawInput {
   const LightFrame& frame;
   DepthFormat format = DepthFormat::d24;
   const LookupProbe& probe;
-  bool reads_moments = false;  // law 1 is of a lookup that compares depths: the bias that it requires is then left out
 };
 
-// What measure_laws() gives, and what the number of several cascades is.
+// What measure_laws() gives, and what the number of several maps is.
 struct LawMetric {
   const char* name;
-  // counted: of the cascades with a counted receiver. The median is that of all counted receivers, where the number is the same at
-  // all receivers of a cascade.
+  // counted: of the maps with a counted receiver. The median is that of all counted receivers, where the number is the same at
+  // all receivers of a map.
   enum Join { median, largest, largest_of_counted, sum_of_counted } join;
-  bool of_comparisons = false;  // absent of a lookup in a map of moments
 };
 inline constexpr LawMetric law_metrics[] = {{"texel_m", LawMetric::median},
                                             {"map_range_m", LawMetric::largest},
                                             {"depth_quantum_m", LawMetric::largest},
-                                            {"acne_free_bias_law_depth", LawMetric::largest_of_counted, true},
-                                            {"acne_free_bias_law_m", LawMetric::largest_of_counted, true},
-                                            {"acne_free_bias_scene_law_depth", LawMetric::largest, true},
-                                            {"acne_free_bias_scene_law_m", LawMetric::largest, true},
+                                            {"acne_free_bias_law_depth", LawMetric::largest_of_counted},
+                                            {"acne_free_bias_law_m", LawMetric::largest_of_counted},
+                                            {"acne_free_bias_scene_law_depth", LawMetric::largest},
+                                            {"acne_free_bias_scene_law_m", LawMetric::largest},
                                             {"counted_area_m2", LawMetric::sum_of_counted},
                                             {"filter_area_m2", LawMetric::sum_of_counted},
                                             {"displacement_area_m2", LawMetric::sum_of_counted},
@@ -56,7 +54,8 @@ double depth_quantum(DepthFormat format);
 // centre. 0 for background.
 Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, const ReceiverImage& receivers);
 
-// Without a counted receiver, the areas and the law's bias are NaN. Values in the images that are not finite make them
+// Law 1 is of a lookup that compares depths: other ladders lack the bias that it requires. Without a counted receiver, the areas
+// and the law's bias are NaN. Values in the images that are not finite make them
 // NaN too.
 std::map<std::string, double> measure_laws(const LawInput& input);
 

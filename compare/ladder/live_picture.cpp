@@ -112,12 +112,11 @@ std::string why_no_live_picture(const Settings& settings) {
     for (const BiasPart& part : bias_parts())
       if (settings.bias[part.name] != 0) return fmt::format("bias.{} {}", part.name, part.no_curve);
   }
-  if (reads_moments(settings)) return fmt::format("lookup.kind = {} compares no depths", settings.lookup.kind);
   const TapPattern pattern = tap_pattern(settings);
+  if (pattern.blurred) return fmt::format("lookup.kind = {} compares no depths", settings.lookup.kind);
   if (pattern.bilinear()) return "a sampler blends the filter's taps, and how it rounds their weights is not specified";
   if (pattern.taps > most_live_taps) return fmt::format("the filter has more than {} taps", most_live_taps);
-  if (settings.cascades.count > 1 && settings.cascades.blend > 0)
-    return "cascades.blend mixes the answers of two maps in a pixel";
+  if (mixes_maps(settings)) return "cascades.blend mixes the answers of two maps in a pixel";
   return "";
 }
 

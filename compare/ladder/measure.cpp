@@ -19,9 +19,9 @@ namespace {
 // dark. With a filter, a receiver that is itself lit can have a tap with Peter Panning too. Such a receiver has no
 // occluder and so no distance to it.
 bool in_gap(const Ladder& ladder, size_t i) {
-  // A bound from moments lifts nearly all of a shadow a little; a gap is where it looks lit.
+  // A lookup that compares no depths lifts nearly all of a shadow a little; a gap is where it looks lit.
   const float lifted = ladder[Cause::peter_panning][i];
-  return is_counted(ladder, i) && (ladder.of_moments() ? lifted >= 0.5f : lifted != 0) && ladder.truth()[i] == 0;
+  return is_counted(ladder, i) && (ladder.of_comparisons() ? lifted != 0 : lifted >= 0.5f) && ladder.truth()[i] == 0;
 }
 
 // The gap along a receiver that lies in one: the light's way from P to the occluder, projected onto the surface. An
@@ -50,7 +50,7 @@ double bias_m(const MapTile& tile, double bias, double depth_m) {
 double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
   const auto& [frame, probe, bias, edge_distance] = in.map_of(i);
   // A variance floor has no such reach.
-  if (bias.polygon_offset() || in.casters_moved || in.ladder.of_moments())
+  if (bias.polygon_offset() || in.casters_moved || !in.ladder.of_comparisons())
     return std::numeric_limits<double>::infinity();
   const double cosine = std::clamp(static_cast<double>(probe.n_dot_l[i]), 0.0, 1.0);
   const MapTile tile = frame.tile_at(light);
@@ -187,10 +187,9 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   for (const CauseRow& row : cause_rows)
     if (ladder.books(row))
       metrics.emplace(row.name, sum_of(row, [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); }));
-  if (ladder.of_moments())
-    for (const auto& [name, cause] :
-         {std::pair("leak_largest", Cause::leak), std::pair("over_darkening_largest", Cause::over_darkening)})
-      metrics[name] = measured(largest[static_cast<size_t>(cause)]);
+  for (const Cause cause : {Cause::leak, Cause::over_darkening})
+    if (ladder.books(*find_cause(cause)))
+      metrics[std::string(cause_name(cause)) + "_largest"] = measured(largest[static_cast<size_t>(cause)]);
   for (size_t c = ladder.built_in(); c < size.size(); ++c) metrics[ladder.causes[c].name] = share(size[c]);
   return metrics;
 }

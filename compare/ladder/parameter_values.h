@@ -1,4 +1,4 @@
-// Which settings of a lookup in a map of moments have a curve besides lookup.reduction. Only the lookup reads them: the map and
+// Which settings of a lookup in a filtered map have a curve besides lookup.reduction. Only the lookup reads them: the map and
 // its blur are the same at every value.
 //
 //   const ParameterValues asked{"lookup.v_min", {0, 1e-6, 1e-4}};
@@ -19,11 +19,11 @@ struct ParameterValues {
   bool operator==(const ParameterValues&) const = default;
 };
 
-// "lookup.v_min", "lookup.floor", "lookup.moment_bias", "bias.constant".
+// By name, "lookup.v_min" first.
 std::span<const std::string_view> curve_settings();
 
-// Whether a point of these settings has a curve over this setting: its lookup reads a map of moments and the setting, and no
-// result is a mix of two cascades' lookups.
+// Whether a point of these settings has a curve over this setting: its lookup reads a filtered map and the setting, and no
+// result is a mix of the lookups in two maps.
 bool has_curve_over(const Settings& settings, std::string_view setting);
 
 // 0, then two values a decade over what is in use. Throws std::logic_error if it is none of curve_settings().

@@ -11,7 +11,7 @@
 //   weights to about 8 bits in a way that no specification defines, and a comparison in a fixed-point map may round the
 //   compared depth. So the sum of the weights of the lit taps is only near to what OpenGL shows.
 // - A filter of more than most_live_taps taps would need two answers for each of them in each pixel.
-// - A lookup in a map of moments compares nothing. What costs nothing to change there is its reduction.
+// - A lookup that compares no depths has no thresholds. What costs nothing to change there is its reduction.
 #pragma once
 #include <cstdint>
 #include <optional>

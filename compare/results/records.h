@@ -65,7 +65,7 @@ struct BiasCurve : CauseBounds {
   WindowSteps steps;                                 // the windows at other bounds
 };
 
-// What a point with a map of moments would have with another value of one setting of the lookup: means over the counted
+// What a point of a filtered map would have with another value of one setting of the lookup: means over the counted
 // receivers, fractions (compare/ladder/reduction_window.h). On the exact map, but for the errors that are shown.
 struct LookupCurvePoint {
   std::string parameter;  // the setting: "lookup.reduction"
@@ -148,7 +148,7 @@ struct PointRecord : PointPictures {
   std::map<std::string, double> metrics;  // by metric name; not finite: could not be measured, which breaks any bound
   std::map<std::string, double> times;    // of stages: "hard_truth_ms", "texel_rays" ...
   std::optional<BiasCurve> curve;
-  // Of a map of moments, over lookup.reduction, by ascending values; empty: none was asked for.
+  // Of a filtered map, over lookup.reduction, by ascending values; empty: none was asked for.
   std::vector<LookupCurvePoint> lookup_curve;
   std::optional<CauseBounds> lookup_bounds;  // of its usable window, the metrics reduction_min and reduction_max
   std::vector<LookupCurvePoint>

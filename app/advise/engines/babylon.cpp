@@ -92,16 +92,17 @@ EngineFilter blur(const AdvicePlace& place) {
   return made;
 }
 
-std::optional<EngineMoments> moments(const AdvicePlace& place) {
+std::optional<EngineFilter> filtered(const AdvicePlace& place) {
   const LookupSettings& asked = place.settings.lookup;
   if (asked.kind != "babylon_esm" && asked.kind != "babylon_close_esm") return std::nullopt;
-  EngineMoments made{blur(place), asked};
-  made.as["reduction"] = made.as["reduction_span"] = 0;
-  made.as["level"] = level_of(place);
-  made.filter.lines.insert(made.filter.lines.begin(),
-                           {fmt::format("shadowGenerator.use{}{}ExponentialShadowMap = true;",
-                                        blurs(place) ? "Blur" : "", asked.kind == "babylon_esm" ? "" : "Close"),
-                            fmt::format("shadowGenerator.depthScale = {};", number(asked["exponent"]))});
+  EngineFilter made = blur(place);
+  LookupSettings& lookup = made.lookup.emplace(asked);
+  lookup["reduction"] = lookup["reduction_span"] = 0;
+  lookup["level"] = level_of(place);
+  made.lines.insert(made.lines.begin(),
+                    {fmt::format("shadowGenerator.use{}{}ExponentialShadowMap = true;", blurs(place) ? "Blur" : "",
+                                 asked.kind == "babylon_esm" ? "" : "Close"),
+                     fmt::format("shadowGenerator.depthScale = {};", number(asked["exponent"]))});
   if (asked.kind == "babylon_esm")
     made.cannot.push_back(
         "What is drawn into the map is lit by no more than 1 - e^(-depthScale bias): leave meshes out of the map that "
@@ -284,7 +285,7 @@ Engine babylon_js() {
               .bias_of_depth = true},
           {},
           nullptr,
-          moments,
+          filtered,
           "Its exponential shadow maps are lookup.kind = babylon_esm and babylon_close_esm."};
 }
 

@@ -56,12 +56,9 @@ struct EngineFilter {
   bool same = false;                      // it has the same taps and weights
   double scale = 1;                       // the factor by which the engine multiplies its bias because of this filter
   std::optional<FilterSettings> as = {};  // the filter of Noonmark that has its taps and weights, if there is one
-};
-
-// A lookup in a map of moments, as an engine makes it.
-struct EngineMoments {
-  EngineFilter filter;  // the engine's blur. Its lines choose the lookup too; `same`: it is the blur that was asked for
-  LookupSettings as;    // what the engine computes
+  // Of a lookup in a filtered map, which the lines choose too: what the engine computes, from numbers of this format. The filter
+  // is the engine's blur then.
+  std::optional<LookupSettings> lookup = {};
   MomentFormat format = MomentFormat::f32;
   std::vector<std::string> cannot = {};  // sentences
 };
@@ -87,15 +84,14 @@ struct SeenFrustum {
 struct AdvicePlace {
   const Settings& settings;
   const LightFrame& frame;
-  double distance_m = 0;                      // spot and point: along the axis of the map's tile
-  double texel_m = 0;                         // of the map there
-  double depth_slope = 0;                     // window depth for each metre there
-  double cone_tan = 1;                        // spot: tangent of half the light's cone
-  double reach_texels = 0;                    // of the recommended filter
-  CulledFaces unseen = CulledFaces::none;     // the faces that the scene's materials do not show: back, or none
-  EngineFilter filter = {};                   // of the engine
-  std::optional<EngineMoments> moments = {};  // of the engine; of settings whose lookup reads moments
-  EngineMap map = {};                         // of the engine
+  double distance_m = 0;                   // spot and point: along the axis of the map's tile
+  double texel_m = 0;                      // of the map there
+  double depth_slope = 0;                  // window depth for each metre there
+  double cone_tan = 1;                     // spot: tangent of half the light's cone
+  double reach_texels = 0;                 // of the recommended filter
+  CulledFaces unseen = CulledFaces::none;  // the faces that the scene's materials do not show: back, or none
+  EngineFilter filter = {};                // of the engine
+  EngineMap map = {};                      // of the engine
   SeenFrustum seen = {};
 
   LightKind kind() const { return frame.kind; }
@@ -159,10 +155,10 @@ struct Engine {
   std::optional<EngineCascades> cascades = {};
   std::string no_cascades = {};              // without lines for cascades: why, a sentence
   std::string (*literal)(double) = nullptr;  // a number as the engine's language takes it; null: number()
-  // How the engine makes a lookup that reads moments, that of place.settings. The result is empty if the engine has no such
-  // lookup; then no_moments says what it has. The function is null if the engine has no map of moments that Noonmark knows.
-  std::optional<EngineMoments> (*moments)(const AdvicePlace&) = nullptr;
-  std::string no_moments = {};  // sentences
+  // How the engine makes the lookup of place.settings in a filtered map. The result is empty if the engine has no such lookup; then
+  // no_filtered says what it has. The function is null if the engine has no filtered map that Noonmark knows.
+  std::optional<EngineFilter> (*filtered)(const AdvicePlace&) = nullptr;
+  std::string no_filtered = {};  // sentences
 };
 
 // The map of an engine that fits a square of diameter_m(seen, reach_m, resolution) to the picture's frustum from the camera
@@ -186,8 +182,8 @@ std::string_view placed_of_light(const AdvicePlace& place);
 // What to know of a map that fitted_to_view() describes. field: which sets how far it reaches.
 std::string fitted_text(const AdvicePlace& place, const std::string& field);
 
-// Why an engine has no lines for a lookup that reads moments. of_engine: Engine::no_moments.
-std::string no_lines_for_moments(const std::string& lookup_kind, const std::string& of_engine);
+// Why an engine has no lines for a lookup in a filtered map. of_engine: Engine::no_filtered.
+std::string no_lines_for_lookup(const std::string& lookup_kind, const std::string& of_engine);
 
 // OpenGL has no fields: the application's shader computes each part. So it has no knobs.
 EngineAdvice opengl_cascades();

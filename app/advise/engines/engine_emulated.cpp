@@ -20,12 +20,12 @@ bool alike(std::span<const double> values) {
   return *most - *least <= same_amount * std::max(std::abs(*least), std::abs(*most));
 }
 
-// Of several parts with one law on one side, the first; null if there is none. A map of moments has no casters that move: a depth
+// Of several parts with one law on one side, the first; null if there is none. A filtered map has no casters that move: a depth
 // that is added to each stored one is the same as one that is taken from the receiver's, because lookups see their difference.
-const BiasPart* part_of(const EngineKnob& knob, bool moments) {
-  const bool added = moments && knob.target == BiasTarget::caster && knob.form == BiasForm::constant;
+const BiasPart* part_of(const EngineKnob& knob, bool filtered) {
+  const bool added = filtered && knob.target == BiasTarget::caster && knob.form == BiasForm::constant;
   const BiasTarget target = added ? BiasTarget::compared_depth : knob.target;
-  if (moments && target == BiasTarget::caster) return nullptr;
+  if (filtered && target == BiasTarget::caster) return nullptr;
   for (const BiasPart& part : bias_parts())
     if (part.acts_on == target && form_of(part) == knob.form) return &part;
   return nullptr;
@@ -86,7 +86,7 @@ class Amounts {
 // Sets the bias that acts. The result says why no settings have it; empty: they do.
 std::string set_bias(const Engine& engine, std::span<const AdvicePlace> places, const ActingMetres& metres,
                      const std::vector<EngineKnob>& knobs, Settings& settings) {
-  const bool moments = places.front().moments.has_value();
+  const bool filtered = places.front().filter.lookup.has_value();
   const bool of_depth = places.size() > 1 && engine.cascades->bias_of_depth;
   Amounts amounts(places, of_depth ? BiasUnit::depth : BiasUnit::m);
   for (size_t i = 0; i < knobs.size(); ++i) {
@@ -97,10 +97,10 @@ std::string set_bias(const Engine& engine, std::span<const AdvicePlace> places, 
       amounts.add(bias_part("slope"), metres[i]);
       continue;
     }
-    const BiasPart* part = part_of(knobs[i], moments);
+    const BiasPart* part = part_of(knobs[i], filtered);
     if (!part)
-      return moments ? "Noonmark does not measure what a map of moments shows with " + knobs[i].field
-                     : "Noonmark has no part of a bias with the form of " + knobs[i].field;
+      return filtered ? "Noonmark does not measure what a map of moments shows with " + knobs[i].field
+                      : "Noonmark has no part of a bias with the form of " + knobs[i].field;
     // A depth that is added to all that a map stores shows what one shows that is taken from each receiver's, which may differ
     // from cascade to cascade.
     if (knobs[i].form == BiasForm::constant && !amounts.one_number(*part, metres[i])) part = &bias_part("constant");
@@ -138,7 +138,7 @@ void emulate(const Engine& engine, const AdvicePlace& place, const std::vector<E
     return;
   }
   Settings settings = place.settings;
-  if (place.moments) settings.lookup = place.moments->as, settings.map.moments = place.moments->format;
+  if (place.filter.lookup) settings.lookup = *place.filter.lookup, settings.map.moments = place.filter.format;
   settings.map.resolution = place.map.resolution;
   if (place.map.reach_m) {
     settings.map.fit = MapFit::sphere;

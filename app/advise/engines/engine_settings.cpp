@@ -241,7 +241,7 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
       const bool each = is_of_each(engine, line, places.size());
       advice.lines.push_back(fmt::format(
           "{}  {} {}{}filter.kind = {}", each ? fmt::format(fmt::runtime(engine.cascades->each), line) : line,
-          engine.comment, place.moments ? fmt::format("lookup.kind = {}, ", place.settings.lookup.kind) : "",
+          engine.comment, place.filter.lookup ? fmt::format("lookup.kind = {}, ", place.settings.lookup.kind) : "",
           place.filter.same ? "" : "in place of ", place.settings.filter.kind));
     }
     ActingMetres acting;
@@ -286,7 +286,7 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
   if (knobs.empty())
     advice.cannot.push_back(fmt::format("filter.kind = {} is not written, either.", place.settings.filter.kind));
   else
-    say(place.moments ? unexpressed_moments(place) : unexpressed_filter(place));
+    say(unexpressed_filter(place));
   std::vector<std::string_view> maps = engine.maps;
   if (cascades) maps.insert(maps.end(), {"map.snap", "map.depth_clamp", "map.pancake"});  // part of the engine's fit
   if (!cascades && !place.map.reach_m) maps.push_back("map.fit_fov_deg");  // the lines have the extent as a number
@@ -306,13 +306,12 @@ EngineAdvice without_lines(const Engine& engine, std::string why) {
 }
 
 EngineAdvice advice_of_map(const Engine& engine, AdvicePlace place, const std::vector<AdvisedPart>& parts) {
-  if (reads_moments(place.settings)) {
-    if (engine.moments) place.moments = engine.moments(place);
-    if (!place.moments)
-      return without_lines(engine, no_lines_for_moments(place.settings.lookup.kind, engine.no_moments));
-    place.filter = place.moments->filter;
-  } else {
+  if (compares(place.settings)) {
     place.filter = engine.filter(place);
+  } else {
+    const std::optional<EngineFilter> made = engine.filtered ? engine.filtered(place) : std::nullopt;
+    if (!made) return without_lines(engine, no_lines_for_lookup(place.settings.lookup.kind, engine.no_filtered));
+    place.filter = *made;
   }
   place.map = engine.fit && place.kind() == LightKind::directional
                   ? engine.fit(place)
@@ -322,7 +321,7 @@ EngineAdvice advice_of_map(const Engine& engine, AdvicePlace place, const std::v
 
 std::string no_cascades(const Engine& engine, const Settings& settings) {
   const int count = settings.cascades.count;
-  if (reads_moments(settings))
+  if (!compares(settings))
     return fmt::format("There are no lines for cascades with lookup.kind = {}.", settings.lookup.kind);
   if (!engine.cascades) return "There are no lines for cascades. " + engine.no_cascades;
   const std::vector<int>& counts = engine.cascades->counts;
@@ -445,7 +444,7 @@ std::string_view placed_of_light(const AdvicePlace& place) {
   return place.kind() == LightKind::point ? "position" : "position and direction";
 }
 
-std::string no_lines_for_moments(const std::string& lookup_kind, const std::string& of_engine) {
+std::string no_lines_for_lookup(const std::string& lookup_kind, const std::string& of_engine) {
   return fmt::format("There are no lines for lookup.kind = {}. {}", lookup_kind,
                      of_engine.empty() ? "Noonmark knows of no field of this engine for it." : of_engine);
 }

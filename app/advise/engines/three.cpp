@@ -47,23 +47,23 @@ EngineFilter filter(const AdvicePlace& place) {
 // VSMShadowMap, lookup.kind = three_vsm. ShaderLib/vsm.glsl.js blurs with shadow.radius and shadow.blurSamples; getShadow() of
 // shadowmap_pars_fragment.glsl.js has a variance of at least 0.0000001 and clamp((p - 0.3) / 0.65, 0, 1). WebGLShadowMap.js stores
 // half floats (RGFormat, HalfFloatType), and has no such map for a PointLight.
-std::optional<EngineMoments> moments(const AdvicePlace& place) {
+std::optional<EngineFilter> filtered(const AdvicePlace& place) {
   const LookupSettings& asked = place.settings.lookup;
   if (asked.kind != "three_vsm") return std::nullopt;
   LookupSettings as = asked;
   as["v_min"] = 1e-7;
   as["reduction"] = 0.3;
   as["reduction_span"] = 0.65;
-  return EngineMoments{{{"renderer.shadowMap.type = THREE.VSMShadowMap;",
-                         fmt::format("light.shadow.radius = {};", number(asked["radius"])),
-                         fmt::format("light.shadow.blurSamples = {};", asked.whole("samples"))},
-                        "VSMShadowMap",
-                        place.reach_texels,
-                        true,
-                        1,
-                        FilterSettings()},
-                       as,
-                       MomentFormat::f16};
+  return EngineFilter{{"renderer.shadowMap.type = THREE.VSMShadowMap;",
+                       fmt::format("light.shadow.radius = {};", number(asked["radius"])),
+                       fmt::format("light.shadow.blurSamples = {};", asked.whole("samples"))},
+                      "VSMShadowMap",
+                      place.reach_texels,
+                      true,
+                      1,
+                      FilterSettings(),
+                      as,
+                      MomentFormat::f16};
 }
 
 std::string_view side_of(CulledFaces cull) {
@@ -243,7 +243,7 @@ Engine three_js() {
                      .depth_m = [](const AdvisedCascades& cascades) { return light_far_m(cascades) - light_near_m; }},
       {},
       nullptr,
-      moments,
+      filtered,
       "Its VSMShadowMap is lookup.kind = three_vsm: it blurs deviations, not squares, and always reduces the light."};
 }
 

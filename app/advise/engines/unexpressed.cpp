@@ -19,6 +19,22 @@ std::string of_the_field(const AdvisedPart& part, const EngineKnob& knob) {
       part.part->name, place_name(part.part->acts_on), knob.field, place_name(knob.target));
 }
 
+std::vector<std::string> unexpressed_lookup(const AdvicePlace& place) {
+  const LookupSettings &asked = place.settings.lookup, &as = *place.filter.lookup;
+  std::vector<std::string> said;
+  for (const auto& read : find_lookup(asked.kind).reads) {
+    const std::string name(read.parameter->name());
+    if (asked[name] != as[name])
+      said.push_back(fmt::format("{} = {}: the engine computes with {}.", read.parameter->setting, number(asked[name]),
+                                 number(as[name])));
+  }
+  if (!place.filter.same)
+    said.push_back(
+        fmt::format("filter.kind = {}: the nearest blur here is {}.", place.settings.filter.kind, place.filter.what));
+  said.insert(said.end(), place.filter.cannot.begin(), place.filter.cannot.end());
+  return said;
+}
+
 }  // namespace
 
 std::string unexpressed_bias(const std::vector<AdvisedPart>& parts, const AdvicePlace& place) {
@@ -73,6 +89,7 @@ std::vector<std::string> unexpressed_reference(const AdvicePlace& place, bool re
 }
 
 std::vector<std::string> unexpressed_filter(const AdvicePlace& place) {
+  if (place.filter.lookup) return unexpressed_lookup(place);
   if (place.filter.same) return {};
   std::string said = fmt::format(
       "filter.kind = {} reaches k = {} texels. The nearest filter here is {}, which reaches {} texels.",
@@ -81,22 +98,6 @@ std::vector<std::string> unexpressed_filter(const AdvicePlace& place) {
     said += fmt::format(" Law 1 needs a bias in proportion to k: the lines hold {} times the recommended one.",
                         number(place.filter.reach_texels / place.reach_texels));
   return {said};
-}
-
-std::vector<std::string> unexpressed_moments(const AdvicePlace& place) {
-  const LookupSettings &asked = place.settings.lookup, &as = place.moments->as;
-  std::vector<std::string> said;
-  for (const auto& read : find_lookup(asked.kind).reads) {
-    const std::string name(read.parameter->name());
-    if (asked[name] != as[name])
-      said.push_back(fmt::format("{} = {}: the engine computes with {}.", read.parameter->setting, number(asked[name]),
-                                 number(as[name])));
-  }
-  if (!place.filter.same)
-    said.push_back(
-        fmt::format("filter.kind = {}: the nearest blur here is {}.", place.settings.filter.kind, place.filter.what));
-  said.insert(said.end(), place.moments->cannot.begin(), place.moments->cannot.end());
-  return said;
 }
 
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed) {

@@ -14,8 +14,6 @@ std::string unexpressed_bias(const std::vector<AdvisedPart>& parts, const Advice
 std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineKnob* knob, bool replaced);
 std::vector<std::string> unexpressed_reference(const AdvicePlace& place, bool replaced);
 std::vector<std::string> unexpressed_filter(const AdvicePlace& place);
-// Of a lookup that reads moments, which place.moments holds.
-std::vector<std::string> unexpressed_moments(const AdvicePlace& place);
 // expressed: further settings of the map that the engine expresses, beside resolution, format and volume.
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed);
 std::vector<std::string> unexpressed_distance(const AdvicePlace& place);

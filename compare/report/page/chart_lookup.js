@@ -1,4 +1,4 @@
-// Error and causes of one point with a map of moments against a setting that only its lookup reads: lookup.reduction, whose usable
+// Error and causes of one point of a filtered map against a setting that only its lookup reads: lookup.reduction, whose usable
 // window is shaded, and the setting of curve.over, whose values stand side by side, each with its name, because 0 has no place on
 // a logarithmic axis.
 (function() {
