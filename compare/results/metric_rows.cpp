@@ -1,19 +1,12 @@
-// The rows of all metrics.
-#include <algorithm>
-
 #include "compare/results/causes.h"
 #include "compare/results/metrics.h"
 
-namespace noonmark {
-namespace metrics {
-namespace {
-
+namespace noonmark::metrics {
 using enum Metric::Is;
 
 // The metric of a cause is what its row says.
-consteval Metric of_cause(std::string_view name, unsigned also = number) {
-  const CauseRow& row =
-      *std::find_if(cause_rows.begin(), cause_rows.end(), [&](const CauseRow& one) { return one.name == name; });
+static consteval Metric of_cause(std::string_view name, unsigned also = number) {
+  const CauseRow& row = *std::ranges::find(cause_rows, name, &CauseRow::name);
   return {row.name, "fraction", row.help, plot | share | csv | also | (is_of_moments(row) ? moments : number)};
 }
 
@@ -452,9 +445,6 @@ constexpr Metric rows[] = {
      plot | frames | csv},
 };
 
-}  // namespace
-}  // namespace metrics
+}  // namespace noonmark::metrics
 
-std::span<const Metric> metric_rows() { return metrics::rows; }
-
-}  // namespace noonmark
+std::span<const noonmark::Metric> noonmark::metric_rows() { return metrics::rows; }
