@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -284,6 +285,20 @@ TapPattern tap_pattern(const Settings& settings) {
   }
   pattern.blurred = true;
   return pattern;
+}
+
+double blur_deviation_texels(std::span<const double> weights) {
+  const double middle = (static_cast<double>(weights.size()) - 1) / 2;
+  double variance = 0.25;  // of a linear fetch half way between two texels, the most
+  for (size_t i = 0; i < weights.size(); ++i)
+    variance += weights[i] * (static_cast<double>(i) - middle) * (static_cast<double>(i) - middle);
+  return std::sqrt(variance);
+}
+
+double blur_deviation_texels(const Settings& settings) {
+  const double block = texel_block(settings);  // a texel of the level is a box of so many
+  return std::hypot(block * blur_deviation_texels(find_filter(settings.filter.kind).blur(settings.filter)),
+                    std::sqrt((block * block - 1) / 12));
 }
 
 int texel_block(const Settings& settings) {

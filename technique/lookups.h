@@ -70,6 +70,12 @@ inline bool reads_moments(const Settings& settings) { return find_lookup(setting
 // fetch blends.
 TapPattern tap_pattern(const Settings& settings);
 
+// The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope
+// (law 17). Of the weights of a blur; or of the blur of these settings, whose lookup compares no depths, in texels of the map also
+// where a level of it is blurred (lookup.level). In double.
+double blur_deviation_texels(std::span<const double> weights);
+double blur_deviation_texels(const Settings& settings);
+
 // Texels of the map along a side of a texel of the mip level that the lookup reads (lookup.level); 1 if it reads the map's own.
 int texel_block(const Settings& settings);
 

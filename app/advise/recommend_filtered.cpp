@@ -9,7 +9,6 @@
 
 #include "app/advise/engine_forms.h"
 #include "app/advise/recommend_judge.h"
-#include "compare/judge/moment_cures.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/reduction_window.h"
 #include "compare/results/number_text.h"

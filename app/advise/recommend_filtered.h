@@ -25,7 +25,7 @@ std::vector<std::string> searched_lookups();
 std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups,
                                        const CurveOptions& searched = searched_bounds({}));
 
-// blur_deviation_texels() (compare/judge/moment_cures.h) with two digits after the point, and no less than it is.
+// blur_deviation_texels() (technique/lookups.h) with two digits after the point, and no less than it is.
 double short_deviation(std::span<const double> weights);
 
 // Of these shares the largest over points and placements.

@@ -17,7 +17,6 @@
 #include "base/threads.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/interval.h"
-#include "compare/judge/moment_cures.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"

@@ -1,7 +1,7 @@
 // Reads a point's own curve at any value of its free setting.
 //
 // The *free setting* of a point costs nothing to change, and the curve says what another value would give. Of a lookup that
-// compares depths it is a part of the bias (PointRecord::curve), of one in a map of moments the light-bleed reduction,
+// compares depths it is a part of the bias (PointRecord::curve), of one in a filtered map the light-bleed reduction,
 // lookup.reduction (PointRecord::lookup_curve). The usable window is all of its values that keep the bounds on causes. A
 // `bias_depth` is a place on the axis of the curve: of a bias in window depth, of a reduction the reduction itself. The word
 // bias stands for both in names.
@@ -80,17 +80,25 @@ inline bool lacks_window(const PointRecord& point) {
 // What is said of a point that hides_window() in place of its window.
 inline constexpr std::string_view window_not_known = "not known, because too much is ambiguous";
 
-// Of a lookup in a map of moments whose reduction has a fixed form, as three.js's with lookup.reduction_span: it has no curve
+// Of a lookup in a filtered map whose reduction has a fixed form, as three.js's with lookup.reduction_span: it has no curve
 // that says what another value would give.
 bool has_fixed_reduction(const PointRecord& point);
 
-// Whether the rounding of the stored moments alone errs by more than the bound on acne (points whose reduction is free). Then no
+// Whether the rounding of what the map stores alone errs by more than the bound on acne (points whose reduction is free). Then no
 // reduction is usable. The metrics reduction_min and reduction_max do not know that, because they are of the exact map.
 bool rounds_too_much(const PointRecord& point);
 
 // Of a point whose reduction is free and that lacks a window: what breaks it, as the end of a sentence: "over-darkening is
 // 0.15% without any reduction". Otherwise empty.
 std::string why_no_usable_reduction(const PointRecord& point);
+// What may help there, as the end of a sentence: "a larger lookup.exponent; or a smaller blur or a finer map". Otherwise empty.
+std::string cures_of_reduction(const PointRecord& point);
+// Both: "the leak is 2% even with the largest reduction, more than 1%. What may help: a smaller blur". Otherwise empty.
+std::string no_reduction_text(const PointRecord& point);
+
+// If more than half of the point's error is the rounding of what a filtered map stores: a clause that says so and names what may
+// help. Otherwise empty.
+std::string cures_of_precision(const PointRecord& point);
 
 // Whether the curve gives the metric at any bias. If not, metric_at gives it as rendered.
 bool has_curve_of(const PointRecord& point, const std::string& metric);

@@ -14,7 +14,6 @@
 #include "compare/judge/deliveries.h"
 #include "compare/judge/last_run.h"
 #include "compare/judge/machines.h"
-#include "compare/judge/moment_cures.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
@@ -109,19 +108,18 @@ Markup why_no_reductions(const Results& results) {
   Markup list;
   size_t told = 0, all = 0;
   for (const PointRecord& point : results.points) {
-    const std::string why = why_no_usable_reduction(point);
+    const std::string why = no_reduction_text(point);
     if (why.empty() || ++all > most_told) continue;
     const std::string phrase = settings_phrase(point, results.info.swept);
-    list += element("li", prose("{}: {}. What may help: {}.",
-                                point_link(point.id, phrase.empty() ? fmt::format("point {}", point.id) : phrase), why,
-                                cures_of_reduction(point)));
+    list += element(
+        "li", prose("{}: {}.", point_link(point.id, phrase.empty() ? fmt::format("point {}", point.id) : phrase), why));
     ++told;
   }
   if (all > told) list += element("li", prose("and {} more: see the table of windows", all - told));
   return list.empty() ? "" : element("ul", css("rules"), list);
 }
 
-// Of filtered maps: where the rounding of the moments makes most of the error. Points of which the same is said share a line.
+// Of filtered maps: where the rounding of what they store makes most of the error. Points of which the same is said share a line.
 Markup precision_items(const Results& results) {
   std::map<std::string, std::vector<Markup>> points;
   for (const PointRecord& point : results.points)

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "compare/judge/curve_reading.h"
-#include "compare/judge/moment_cures.h"
 #include "compare/report/blocks.h"
 #include "compare/report/data.h"
 #include "compare/report/sections.h"
@@ -103,9 +102,9 @@ nlohmann::json reductions_of(const PointRecord& point, size_t points) {
   if (point.lookup_bounds)
     json["acne_bound"] = point.lookup_bounds->acne_bound,
     json["peter_panning_bound"] = point.lookup_bounds->peter_panning_bound;
-  if (std::string why = why_no_usable_reduction(point); !why.empty()) {
+  if (std::string why = no_reduction_text(point); !why.empty()) {
     why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0])));
-    json["why"] = fmt::format("{}. What may help: {}", why, cures_of_reduction(point));
+    json["why"] = std::move(why);
   }
   return json;
 }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "compare/judge/curve_reading.h"
-#include "compare/judge/moment_cures.h"
 #include "compare/judge/recommendation.h"
 #include "compare/report/blocks.h"
 #include "compare/report/speed.h"
@@ -78,10 +77,10 @@ struct PartRows {
                          quantity(bounds.acne_bound, "fraction"), quantity(bounds.peter_panning_bound, "fraction"),
                          one.choice.points.size() > 1 ? " under every condition" : "");
     }
-    std::string why = why_no_usable_reduction(point);
+    std::string why = no_reduction_text(point);
     if (why.empty()) return "No reduction is usable under every condition.";
     why[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(why[0])));
-    return fmt::format("{}. What may help: {}.", why, cures_of_reduction(point));
+    return why + ".";
   }
 
   Markup bad_row(const Markup& head, const ComparedChoice& one, size_t choices) const {

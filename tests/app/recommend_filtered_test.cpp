@@ -8,7 +8,6 @@
 #include <map>
 #include <string>
 
-#include "compare/judge/moment_cures.h"
 #include "compare/ladder/reduction_window.h"
 #include "compare/results/quantities.h"
 #include "technique/lookups.h"

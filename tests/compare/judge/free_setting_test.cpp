@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "compare/judge/curve_reading.h"
-#include "compare/judge/moment_cures.h"
 #include "compare/judge/recommendation.h"
 #include "compare/judge/techniques.h"
 #include "compare/judge/tradeoff.h"

@@ -1,10 +1,7 @@
-#include "compare/judge/moment_cures.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -12,7 +9,6 @@
 #include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/bias.h"
-#include "technique/filters.h"
 #include "technique/lookups.h"
 
 namespace noonmark {
@@ -53,20 +49,6 @@ std::string precision_cures(const PointRecord& point, const Settings& settings) 
 
 }  // namespace
 
-double blur_deviation_texels(std::span<const double> weights) {
-  const double middle = (static_cast<double>(weights.size()) - 1) / 2;
-  double variance = 0.25;  // of a linear fetch half way between two texels, the most
-  for (size_t i = 0; i < weights.size(); ++i)
-    variance += weights[i] * (static_cast<double>(i) - middle) * (static_cast<double>(i) - middle);
-  return std::sqrt(variance);
-}
-
-double blur_deviation_texels(const Settings& settings) {
-  const double block = texel_block(settings);  // a texel of the level is a box of so many
-  return std::hypot(block * blur_deviation_texels(find_filter(settings.filter.kind).blur(settings.filter)),
-                    std::sqrt((block * block - 1) / 12));
-}
-
 std::string cures_of_reduction(const PointRecord& point) {
   if (why_no_usable_reduction(point).empty()) return "";
   const Settings settings = settings_of(point);
@@ -82,6 +64,11 @@ std::string cures_of_reduction(const PointRecord& point) {
   if (!darkens && kind != "evsm4" && !kind.starts_with("msm"))
     cures.emplace_back("lookup.kind = evsm4 or msm, which leak less");
   return fmt::format("{}", fmt::join(cures, "; or "));
+}
+
+std::string no_reduction_text(const PointRecord& point) {
+  const std::string why = why_no_usable_reduction(point);
+  return why.empty() ? "" : fmt::format("{}. What may help: {}", why, cures_of_reduction(point));
 }
 
 std::string cures_of_precision(const PointRecord& point) {
