@@ -57,6 +57,7 @@ struct LookupKind {
   bool bound = true;
 
   bool reads_moments() const { return moments.has_value(); }
+  bool compares() const { return !moments; }
 };
 
 std::span<const LookupKind> lookups();
@@ -64,6 +65,8 @@ std::span<const LookupKind> lookups();
 // Throws std::logic_error if no row has that name.
 const LookupKind& find_lookup(std::string_view name);
 
+// Whether the lookup compares depths. Otherwise it reads a filtered map.
+inline bool compares(const Settings& settings) { return find_lookup(settings.lookup.kind).compares(); }
 inline bool reads_moments(const Settings& settings) { return find_lookup(settings.lookup.kind).reads_moments(); }
 
 // The texels that a lookup reads: the taps of the filter; of a map of moments the texels of the blur around the four that the

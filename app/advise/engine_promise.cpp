@@ -25,9 +25,9 @@ void raise(double& most, double value) {
   if (!(value <= most)) most = value;
 }
 
-// Of lines for a map of moments: in which numbers it is measured, ", measured with map.moments = 32f". Otherwise empty.
+// Of lines for a filtered map: in which numbers it is measured, ", measured with map.moments = 32f". Otherwise empty.
 std::string format_text(const EngineAdvice& advice) {
-  if (!advice.emulated || !reads_moments(*advice.emulated)) return "";
+  if (!advice.emulated || compares(*advice.emulated)) return "";
   return fmt::format(", measured with map.moments = {}", find_setting("map.moments").get(*advice.emulated));
 }
 
@@ -40,7 +40,7 @@ EnginePromise measured_promise(Workbench& bench, std::span<const Settings> condi
     const PointRecord point = bench.measure(settings, std::nullopt, metric_set_for(accuracy), Checks::none).record;
     if (nothing_judged(point)) continue;
     // As the error of an answer: of a filtered map that of the worst placement, where it is measured at each.
-    const bool filtered = reads_moments(settings);
+    const bool filtered = !compares(settings);
     raise(promise.error, worst_placed(point, filtered ? placed_accuracy(bench, settings, accuracy) : accuracy));
     raise(promise.acne, worst_placed(point, "acne"));
     raise(promise.peter_panning, worst_placed(point, "peter_panning"));

@@ -36,7 +36,7 @@ std::string answer_name(AnswerKind kind) {
   return "best";
 }
 
-bool Tried::filtered() const { return reads_moments(settings); }
+bool Tried::filtered() const { return !compares(settings); }
 
 int placements_along(const Tried& tried) { return tried.filtered() ? filtered_placements : searched_placements; }
 

@@ -61,7 +61,7 @@ double short_deviation(std::span<const double> weights) {
 std::vector<BiasLevel> filtered_levels(const std::vector<std::string>& lookups, const CurveOptions& searched) {
   std::vector<BiasLevel> levels;
   for (const std::string& lookup : lookups) {
-    if (!find_lookup(lookup).reads_moments()) continue;
+    if (find_lookup(lookup).compares()) continue;
     if (!reduction_is_free(lookup)) {
       for (BiasLevel& level : engine_form_levels(lookup, searched)) levels.push_back(std::move(level));
       continue;

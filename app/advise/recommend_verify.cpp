@@ -82,7 +82,7 @@ Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, 
                                     const std::string& accuracy, std::optional<double> most, int rendered,
                                     const std::function<void(int, int)>& done) {
   Verified verified;
-  const Limits limits{bounds, accuracy, most, reads_moments(settings)};
+  const Limits limits{bounds, accuracy, most, !compares(settings)};
   constexpr int all = fresh_placements * fresh_placements;
   const bool flat = is_flat(bench, settings);
   const MetricSet metrics = metric_set_for(accuracy);

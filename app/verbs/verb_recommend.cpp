@@ -283,7 +283,7 @@ AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& o
   AdviceRequest request;
   request.conditions = conditions_of(experiment);
   for (const Settings& condition : request.conditions)
-    if (reads_moments(condition))
+    if (!compares(condition))
       throw SettingConflict(
           "lookup.kind",
           fmt::format("recommend chooses the lookup: leave lookup.kind = {} out, and name it with --lookups",

@@ -168,7 +168,7 @@ bool must_have(const PointRecord& point, const SoundLimit& limit) {
   if (!metric.of_moments) return !metric.optional() && !given;
   const auto kind = std::find_if(lookups().begin(), lookups().end(),
                                  [&](const LookupKind& one) { return one.name == setting_of(point, "lookup.kind"); });
-  if (kind == lookups().end() || !kind->reads_moments()) return false;
+  if (kind == lookups().end() || kind->compares()) return false;
   return std::string_view(limit.metric) != "below_comparison" || kind->bound;
 }
 

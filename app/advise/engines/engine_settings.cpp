@@ -306,12 +306,12 @@ EngineAdvice without_lines(const Engine& engine, std::string why) {
 }
 
 EngineAdvice advice_of_map(const Engine& engine, AdvicePlace place, const std::vector<AdvisedPart>& parts) {
-  if (reads_moments(place.settings)) {
+  if (compares(place.settings)) {
+    place.filter = engine.filter(place);
+  } else {
     const std::optional<EngineFilter> made = engine.filtered ? engine.filtered(place) : std::nullopt;
     if (!made) return without_lines(engine, no_lines_for_lookup(place.settings.lookup.kind, engine.no_filtered));
     place.filter = *made;
-  } else {
-    place.filter = engine.filter(place);
   }
   place.map = engine.fit && place.kind() == LightKind::directional
                   ? engine.fit(place)
@@ -321,7 +321,7 @@ EngineAdvice advice_of_map(const Engine& engine, AdvicePlace place, const std::v
 
 std::string no_cascades(const Engine& engine, const Settings& settings) {
   const int count = settings.cascades.count;
-  if (reads_moments(settings))
+  if (!compares(settings))
     return fmt::format("There are no lines for cascades with lookup.kind = {}.", settings.lookup.kind);
   if (!engine.cascades) return "There are no lines for cascades. " + engine.no_cascades;
   const std::vector<int>& counts = engine.cascades->counts;

@@ -176,7 +176,7 @@ EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPa
                       {},
                       "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)",
                       "//"};
-  if (reads_moments(place.settings)) {
+  if (!compares(place.settings)) {
     advice.lines.clear();
     advice.cannot.push_back(no_lines_for_lookup(
         place.settings.lookup.kind,
