@@ -194,7 +194,7 @@ double moment_bytes(const Settings& settings, double texels, double asked, doubl
   constexpr double per_asked_texel = 3 * 16;  // as they are read back, of two maps one after the other
   constexpr double per_pixel = 2 * 16;        // the moments that each receiver fetches, on both sides of OpenGL
   const LookupKind& kind = find_lookup(settings.lookup.kind);
-  const double each = (settings.map.moments == MomentFormat::f32 ? 4 : 2) * kind.channels;
+  const double each = stored_bytes(settings);
   const double stored = kind.spread ? 4 * kind.channels : each;  // what a blur of spreads reads has 32 bits
   const double block = texel_block(settings), level = texels / (block * block);
   const double halved = (texels - level) / 3;  // of all levels

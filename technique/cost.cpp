@@ -34,16 +34,11 @@ int weight_operations(const Filter& filter, int size) {
   return side * (two_weights + side * (two_weights + blend));
 }
 
-// Of a lookup in a map of moments: the formula, and light-bleed reduction where there is one: a difference, a product, and
+// Of a lookup in a filtered map: the formula, and light-bleed reduction where there is one: a difference, a product, and
 // held between 0 and 1.
-int moment_operations(const LookupKind& kind, const LookupSettings& settings) {
+int filtered_operations(const LookupKind& kind, const LookupSettings& settings) {
   const bool reduced = settings["reduction"] != 0 || settings["reduction_span"] != 0;
-  return kind.moments->operations(settings) + (reduced ? 4 : 0);
-}
-
-int bytes_of_moments(const Settings& settings) {
-  const int each = settings.map.moments == MomentFormat::f32 ? 4 : 2;
-  return each * find_lookup(settings.lookup.kind).channels;
+  return kind.formulas->operations(settings) + (reduced ? 4 : 0);
 }
 
 }  // namespace
@@ -56,9 +51,9 @@ LookupCost lookup_cost(const Settings& settings) {
   LookupCost cost{fetches, pattern.bilinear() ? 4 * fetches : fetches, 0};
   cost.operations = compared_operations(bias) + moving_operations(bias);
   const int subtractions = bias.compared().empty() ? 0 : 1;
-  if (const LookupKind& kind = find_lookup(settings.lookup.kind); kind.reads_moments()) {
+  if (const LookupKind& kind = find_lookup(settings.lookup.kind); !kind.compares()) {
     cost.fetches = 1, cost.texels = 4;
-    cost.operations += subtractions + moment_operations(kind, settings.lookup);
+    cost.operations += subtractions + filtered_operations(kind, settings.lookup);
     return cost;
   }
   if (pattern.bilinear()) {
@@ -85,19 +80,19 @@ FrameCost frame_cost(const Settings& settings, int tiles, int64_t map_texels, in
   cost.lookup = lookup_cost(settings);
   cost.texel_work = cost.map_texels + receivers * cost.lookup.fetches;
   cost.traffic_bytes = cost.map_bytes + receivers * cost.lookup.texels * texel;
-  if (!reads_moments(settings)) return cost;
-  // A pass that stores moments reads each texel once, and each of two passes of the blur reads as many as the kernel has.
+  if (compares(settings)) return cost;
+  // The pass that stores reads each texel once, and each of two passes of the blur reads as many as the kernel has.
   // All three write each texel. The passes come and go between two textures. A blur that stores spreads needs no pass before
   // it: it reads the depths themselves.
-  const int64_t moments = bytes_of_moments(settings);
+  const int64_t stored = stored_bytes(settings);
   if (find_lookup(settings.lookup.kind).spread) {
     const int64_t samples = settings.lookup.whole("samples");
     cost.pass_fetches = 2 * map_texels * samples;
     cost.texel_work += 2 * map_texels + cost.pass_fetches;
-    cost.map_bytes += 2 * map_texels * moments;
+    cost.map_bytes += 2 * map_texels * stored;
     // Along v one depth for each tap, along u the four texels of a linear fetch.
-    cost.traffic_bytes = map_texels * (texel + samples * texel + 2 * moments + 4 * samples * moments) +
-                         receivers * cost.lookup.texels * moments;
+    cost.traffic_bytes = map_texels * (texel + samples * texel + 2 * stored + 4 * samples * stored) +
+                         receivers * cost.lookup.texels * stored;
     return cost;
   }
   // Each halving reads four texels of the level before for each texel that it writes; the blur is that of the last level.
@@ -109,12 +104,11 @@ FrameCost frame_cost(const Settings& settings, int tiles, int64_t map_texels, in
     halved += level;
   }
   written += halved + 2 * level;
-  const int64_t moments_read = 4 * halved + 2 * width * level;
-  cost.pass_fetches = map_texels + moments_read;
+  const int64_t read = 4 * halved + 2 * width * level;
+  cost.pass_fetches = map_texels + read;
   cost.texel_work += written + cost.pass_fetches;
-  cost.map_bytes += (map_texels + halved + level) * moments;  // the blur's second pass writes where it came from
-  cost.traffic_bytes =
-      2 * map_texels * texel + (written + moments_read) * moments + receivers * cost.lookup.texels * moments;
+  cost.map_bytes += (map_texels + halved + level) * stored;  // the blur's second pass writes where it came from
+  cost.traffic_bytes = 2 * map_texels * texel + (written + read) * stored + receivers * cost.lookup.texels * stored;
   return cost;
 }
 

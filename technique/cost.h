@@ -26,11 +26,11 @@ LookupCost lookup_cost(const Settings& settings);
 
 struct FrameCost {
   int64_t map_texels = 0;     // of all tiles; each is written at least once, because the map is cleared
-  int64_t map_bytes = 0;      // their memory, and that of two textures of moments
+  int64_t map_bytes = 0;      // their memory, and that of two textures that a filtered map is made in
   int64_t map_triangles = 0;  // that the rasteriser gets: those of the scene, once for each tile
   LookupCost lookup;          // of each receiver
-  int64_t pass_fetches = 0;   // of the passes that store and blur a map of moments
-  // The texels of the map, each written once, and the texture instructions of all receivers; of a map of moments also the
+  int64_t pass_fetches = 0;   // of the passes that filter a map
+  // The texels of the map, each written once, and the texture instructions of all receivers; of a filtered map also the
   // texels that its passes write and fetch: what the two fixed-function units of a GPU do for a shadow. Neighbours share texels in a cache, so instructions are counted and not bytes.
   int64_t texel_work = 0;
   int64_t traffic_bytes = 0;  // map_bytes written once, and the texels that the lookups of all receivers read

@@ -150,8 +150,8 @@ int operations(const LookupSettings& settings) {
   return counts[settings.whole("moments")];
 }
 
-#define MOMENT_FORMULAS(name, ...)                                                                               \
-  MomentFormulas {                                                                                               \
+#define FORMULAS(name, ...)                                                                                      \
+  LookupFormulas {                                                                                               \
     in_float::name##_moments, in_float::name##_lit, name##_truth, in_bounds::name##_lit, operations<__VA_ARGS__> \
   }
 
@@ -165,7 +165,7 @@ std::vector<LookupKind> make_lookups() {
        .law = "never darker than the comparison (law 13); leak at most (a / (a + 2b))² (law 15); no bias on planes "
               "(law 17)",
        .reads = {{&v_min}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(vsm, 9),
+       .formulas = FORMULAS(vsm, 9),
        .channels = 2,
        .within_one = always},
       {.name = "esm",
@@ -174,7 +174,7 @@ std::vector<LookupKind> make_lookups() {
                "Markov's bound",
        .law = "never darker than the comparison (law 13); a lit gap of ln 2 / c at a contact (law 19)",
        .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(esm, 4),
+       .formulas = FORMULAS(esm, 4),
        .channels = 1,
        .warp_power = 1},
       {.name = "evsm2",
@@ -187,7 +187,7 @@ std::vector<LookupKind> make_lookups() {
                  {&level},
                  {&reduction},
                  {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(evsm2, 17),
+       .formulas = FORMULAS(evsm2, 17),
        .channels = 2,
        .warp_power = 2},
       {.name = "evsm4",
@@ -199,7 +199,7 @@ std::vector<LookupKind> make_lookups() {
                  {&level},
                  {&reduction},
                  {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(evsm4, 35),
+       .formulas = FORMULAS(evsm4, 35),
        .channels = 4,
        .warp_power = 2},
       {.name = "msm",
@@ -210,14 +210,14 @@ std::vector<LookupKind> make_lookups() {
               "need a "
               "bias of one standard deviation (law 17)",
        .reads = {{&moment_bias}, {&moments}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(msm, 92, 102, 121, 92),
+       .formulas = FORMULAS(msm, 92, 102, 121, 92),
        .channels = 4,
        .within_one = within_one},
       {.name = "msm_hausdorff",
        .help = "moment shadow map over the distributions within the map's range (Hausdorff's problem)",
        .law = "never darker than the comparison (law 13), nor lighter than msm",
        .reads = {{&moment_bias}, {&moments}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(msm_hausdorff, 151, 161, 160, 131),
+       .formulas = FORMULAS(msm_hausdorff, 151, 161, 160, 131),
        .channels = 4,
        .within_one = within_one},
       {.name = "babylon_esm",
@@ -225,7 +225,7 @@ std::vector<LookupKind> make_lookups() {
                "fraction 1 - e^(c d) E[e^(-c z)]. What is in the map itself is dark without a bias",
        .law = "no bound: a receiver in the map is lit by 1 - e^(-c b) with the bias b",
        .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(babylon_esm, 8),
+       .formulas = FORMULAS(babylon_esm, 8),
        .channels = 1,
        .warp_power = 1,
        .within_one = always,
@@ -236,7 +236,7 @@ std::vector<LookupKind> make_lookups() {
        .law = "no bound: shadows grow with the gap between caster and receiver; a caster that covers ln 2 / (c gap) of "
               "the blur makes half shade",
        .reads = {{&exponent}, {&level}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MOMENT_FORMULAS(babylon_close_esm, 7),
+       .formulas = FORMULAS(babylon_close_esm, 7),
        .channels = 1,
        .within_one = always,
        .bound = false},
@@ -247,8 +247,8 @@ std::vector<LookupKind> make_lookups() {
        .law = "as vsm where the taps stand on texels; between them a linear fetch blends deviations, which is less "
               "variance, and it is no bound",
        .reads = {{&v_min}, {&radius}, {&samples}, {&reduction}, {&reduction_span, darkens_all}},
-       .moments = MomentFormulas{in_float::three_vsm_moments, in_float::three_vsm_lit, LookupTruth{},
-                                 in_bounds::three_vsm_lit, operations<8>},
+       .formulas = LookupFormulas{in_float::three_vsm_moments, in_float::three_vsm_lit, LookupTruth{},
+                                  in_bounds::three_vsm_lit, operations<8>},
        .spread =
            SpreadFormulas{in_bounds::three_vsm_add_stored, in_bounds::three_vsm_spread, in_extended::three_vsm_lit},
        .channels = 2,
@@ -257,7 +257,7 @@ std::vector<LookupKind> make_lookups() {
   };
 }
 
-#undef MOMENT_FORMULAS
+#undef FORMULAS
 
 }  // namespace
 
@@ -268,13 +268,17 @@ std::span<const LookupKind> lookups() {
 
 const LookupKind& find_lookup(std::string_view name) { return find_row(lookups(), name, "lookup"); }
 
+int stored_bytes(const Settings& settings) {
+  return (settings.map.moments == MomentFormat::f32 ? 4 : 2) * find_lookup(settings.lookup.kind).channels;
+}
+
 std::span<const KindParameter* const> LookupTable::parameters() {
   static const std::vector<const KindParameter*> all = parameters_of(lookups());
   return all;
 }
 
 TapPattern tap_pattern(const Settings& settings) {
-  if (!reads_moments(settings)) return tap_pattern(settings.filter);
+  if (compares(settings)) return tap_pattern(settings.filter);
   TapPattern pattern;
   if (find_lookup(settings.lookup.kind).spread) {
     SpreadBlur blur = spread_blur(settings.lookup);
@@ -308,11 +312,11 @@ int texel_block(const Settings& settings) {
 }
 
 const BiasPart* curve_part(const Settings& settings) {
-  return reads_moments(settings) ? nullptr : curve_part(settings.bias);
+  return compares(settings) ? curve_part(settings.bias) : nullptr;
 }
 
 bool has_reduction_curve(const Settings& settings) {
-  return reads_moments(settings) && settings.lookup["reduction_span"] == 0 && !mixes_cascades(settings);
+  return !compares(settings) && settings.lookup["reduction_span"] == 0 && !mixes_cascades(settings);
 }
 
 bool mixes_cascades(const Settings& settings) { return settings.cascades.count > 1 && settings.cascades.blend > 0; }

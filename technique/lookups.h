@@ -21,8 +21,8 @@
 namespace noonmark {
 
 // The formulas of one file, in each type of number that asks for them (technique/lookup_formulas.h).
-struct MomentFormulas {
-  glm::vec4 (*moments)(float depth, in_float::LookupParameters);
+struct LookupFormulas {
+  glm::vec4 (*stored)(float depth, in_float::LookupParameters);
   float (*lit)(glm::vec4 moments, float depth, in_float::LookupParameters);
   // From the depths themselves (technique/lookup_truth.h).
   LookupTruth truth;
@@ -44,8 +44,8 @@ struct LookupKind {
   std::string_view help;
   std::string_view law;  // what the laws say of it, for the table in docs/reference/techniques.md
   std::vector<KindRead<LookupSettings>> reads = {};
-  // Of a lookup in a map of moments; empty: it compares depths.
-  std::optional<MomentFormulas> moments = {};
+  // Of a lookup in a filtered map; empty: it compares depths.
+  std::optional<LookupFormulas> formulas = {};
   std::optional<SpreadFormulas> spread = {};
   int channels = 0;  // numbers that a texel stores: 1, 2 or 4
   // Above 0: a texel stores exponentials, which the device and the host may round differently. The largest is e^(warp_power c)
@@ -56,8 +56,7 @@ struct LookupKind {
   // True if it is never darker than the comparison of the same depths (law 13). False for forms of engines that can be.
   bool bound = true;
 
-  bool reads_moments() const { return moments.has_value(); }
-  bool compares() const { return !moments; }
+  bool compares() const { return !formulas; }
 };
 
 std::span<const LookupKind> lookups();
@@ -67,7 +66,9 @@ const LookupKind& find_lookup(std::string_view name);
 
 // Whether the lookup compares depths. Otherwise it reads a filtered map.
 inline bool compares(const Settings& settings) { return find_lookup(settings.lookup.kind).compares(); }
-inline bool reads_moments(const Settings& settings) { return find_lookup(settings.lookup.kind).reads_moments(); }
+
+// Bytes of what a texel of a filtered map stores, in map.moments; 0 if the lookup compares depths.
+int stored_bytes(const Settings& settings);
 
 // The texels that a lookup reads: the taps of the filter; of a map of moments the texels of the blur around the four that the
 // fetch blends.

@@ -39,7 +39,7 @@ MomentLookup::MomentLookup(const Settings& settings)
       reduction_(settings.lookup["reduction"]),
       span_(settings.lookup["reduction_span"]),
       level_(std::countr_zero(static_cast<unsigned>(texel_block(settings)))) {
-  if (!kind_->reads_moments()) throw std::logic_error("MomentLookup: the lookup compares depths");
+  if (kind_->compares()) throw std::logic_error("MomentLookup: the lookup compares depths");
   bare_ = exact_;
   bare_.v_min = bare_.floor = bare_.moment_bias = 0;
   given_span_ = span_ != 0;
@@ -61,10 +61,10 @@ std::string MomentLookup::key() const {
   return key;
 }
 
-glm::vec4 MomentLookup::stored(float depth) const { return kind_->moments->moments(depth, parameters_); }
+glm::vec4 MomentLookup::stored(float depth) const { return kind_->formulas->stored(depth, parameters_); }
 
 float MomentLookup::lit(glm::vec4 moments, float depth) const {
-  return kind_->moments->lit(moments, depth, parameters_);
+  return kind_->formulas->lit(moments, depth, parameters_);
 }
 
 Bounded MomentLookup::bounded_lit(glm::vec4 m, float depth) const {
@@ -72,15 +72,15 @@ Bounded MomentLookup::bounded_lit(glm::vec4 m, float depth) const {
   const in_float::LookupParameters& p = parameters_;
   const in_bounds::LookupParameters bounded{
       exact(p.v_min), exact(p.floor), exact(p.exponent), exact(p.negative_exponent), exact(p.moment_bias), p.moments};
-  return kind_->moments->bounded_lit({exact(m.x), exact(m.y), exact(m.z), exact(m.w)}, exact(depth), bounded);
+  return kind_->formulas->bounded_lit({exact(m.x), exact(m.y), exact(m.z), exact(m.w)}, exact(depth), bounded);
 }
 
 double MomentLookup::exact(TruthInDouble& depths, double receiver) const {
-  return depths.lit(kind_->moments->truth, receiver, exact_);
+  return depths.lit(kind_->formulas->truth, receiver, exact_);
 }
 
 double MomentLookup::bare(TruthInDouble& depths, double receiver) const {
-  return depths.lit(kind_->moments->truth, receiver, bare_);
+  return depths.lit(kind_->formulas->truth, receiver, bare_);
 }
 
 double MomentLookup::exact(const Spread& fetched, double receiver) const {

@@ -168,7 +168,7 @@ std::string without_reach(const Settings& s, LightKind light) {
   return s.cascades.count > 1 ? "" : without_slice_fit(s, light);
 }
 std::string without_moments(const Settings& s, LightKind) {
-  return reads_moments(s) ? "" : "with lookup.kind = " + s.lookup.kind;
+  return compares(s) ? "with lookup.kind = " + s.lookup.kind : "";
 }
 std::string without_motion(const Settings& s, LightKind) { return s.view.motion.any() ? "" : "without a motion"; }
 std::string without_turning_light(const Settings& s, LightKind) {
@@ -253,7 +253,7 @@ std::string undivided_map(const Settings& s) {
 
 // What a map of moments cannot be combined with.
 std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> light) {
-  if (!reads_moments(s)) return "";
+  if (compares(s)) return "";
   const std::string& kind = s.lookup.kind;
   if (light && kind_of_light(*light).map_shape() == MapShape::cube)
     return fmt::format("lookup.kind = {} needs a flat map; a point light's cube map has lookup.kind = compare", kind);
@@ -284,7 +284,7 @@ std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> l
 
 std::string moments_beyond_format(const Settings& s, std::optional<LightKind>) {
   const LookupKind& kind = find_lookup(s.lookup.kind);
-  if (!kind.reads_moments()) return "";
+  if (kind.compares()) return "";
   if (s.map.moments == MomentFormat::u16 && !(kind.within_one && kind.within_one(s.lookup)))
     return fmt::format(
         "map.moments = 16 holds numbers from 0 to 1, and lookup.kind = {} stores others{} 16f or 32f", kind.name,
@@ -383,7 +383,7 @@ void validate(const Settings& settings, std::optional<LightKind> light) {
 }
 
 void require_compared(const Settings& settings, std::string_view who) {
-  if (reads_moments(settings))
+  if (!compares(settings))
     throw SettingConflict("lookup.kind",
                           fmt::format("{} is of a lookup that compares depths, and lookup.kind = {}; set "
                                       "lookup.kind = compare",

@@ -37,7 +37,7 @@ void validate(const Settings& settings, std::optional<LightKind> light = std::nu
 // Throws SettingConflict if the settings have several cascades. who: what is made for one map, "a phase diagram".
 void require_one_map(const Settings& settings, std::string_view who);
 
-// Throws SettingConflict if the settings' lookup reads moments. who: what is made for one that compares, "a phase diagram".
+// Throws SettingConflict if the settings' lookup compares no depths. who: what is made for one that compares, "a phase diagram".
 void require_compared(const Settings& settings, std::string_view who);
 
 struct IdleSetting {

@@ -6,7 +6,7 @@ namespace noonmark {
 namespace {
 
 std::optional<MomentLookup> moments_of(const Settings& settings) {
-  return reads_moments(settings) ? std::optional<MomentLookup>(settings) : std::nullopt;
+  return compares(settings) ? std::nullopt : std::optional<MomentLookup>(settings);
 }
 
 }  // namespace
