@@ -316,9 +316,9 @@ const BiasPart* curve_part(const Settings& settings) {
 }
 
 bool has_reduction_curve(const Settings& settings) {
-  return !compares(settings) && settings.lookup["reduction_span"] == 0 && !mixes_cascades(settings);
+  return !compares(settings) && settings.lookup["reduction_span"] == 0 && !mixes_maps(settings);
 }
 
-bool mixes_cascades(const Settings& settings) { return settings.cascades.count > 1 && settings.cascades.blend > 0; }
+bool mixes_maps(const Settings& settings) { return settings.maps() > 1 && settings.cascades.blend > 0; }
 
 }  // namespace noonmark

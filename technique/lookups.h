@@ -86,9 +86,9 @@ int texel_block(const Settings& settings);
 // The part of the bias whose curve is exact in one pass: none of a lookup in a map of moments, which has no verdicts of taps.
 const BiasPart* curve_part(const Settings& settings);
 // Whether lookup.reduction alone turns the bound of a map of moments into its result, so that the results at other reductions
-// follow from it. Not where a span is given, nor in a blend band of cascades, where a result is a mix of two lookups.
+// follow from it. Not where a span is given, nor where a result may be a mix of two maps' lookups.
 bool has_reduction_curve(const Settings& settings);
-// Whether a result may be a mix of two cascades' lookups.
-bool mixes_cascades(const Settings& settings);
+// Whether a result may be a mix of the lookups in two maps.
+bool mixes_maps(const Settings& settings);
 
 }  // namespace noonmark

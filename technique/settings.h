@@ -188,6 +188,7 @@ struct Settings {
   LightSettings light;
   MapSettings map;
   CascadeSettings cascades;
+  int maps() const { return cascades.count; }  // of a point: its receivers are looked up in one of them, or in two
   BiasSettings bias;
   FilterSettings filter;
   LookupSettings lookup;

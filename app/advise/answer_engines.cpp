@@ -73,7 +73,7 @@ Elsewhere in_engines(Workbench& bench, std::span<const WantedEngine> engines, co
 }
 
 std::string why_never_in_engines(Workbench& bench, std::span<const WantedEngine> engines, Settings settings) {
-  if (settings.cascades.count == 1) return "";
+  if (settings.maps() == 1) return "";
   settings.filter = {"none", {}};  // every engine has it, or one of its own that Noonmark knows
   settings.bias = {};
   settings.bias["constant"] = 1;

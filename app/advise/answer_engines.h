@@ -28,7 +28,7 @@ struct WantedEngine {
 Elsewhere in_engines(Workbench& bench, std::span<const WantedEngine> engines, const Tried& tried,
                      const AdviceRequest& request);
 
-// Why no settings like these can be an answer for one of the engines: it lays no cascades, or not so many, or Noonmark has no
+// Why no settings like these can be an answer for one of the engines: it lays one map, or not so many, or Noonmark has no
 // settings for what it lays. A sentence; empty: there is no such reason. Throws Error.
 std::string why_never_in_engines(Workbench& bench, std::span<const WantedEngine> engines, Settings settings);
 

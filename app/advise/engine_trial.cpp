@@ -149,8 +149,8 @@ class Trial {
     Settings there = condition;
     there.view.fit_depths = true;  // a file's near plane would cut off what the adapter's camera shows
     there.view.far_m = std::nullopt;
-    // The first cascade begins at the camera's near plane, and the lines set that plane.
-    if (condition.cascades.count == 1) there.view.near_m = std::nullopt;
+    // The first of several maps begins at the camera's near plane, and the lines set that plane.
+    if (condition.maps() == 1) there.view.near_m = std::nullopt;
     if (is_plain_file(condition.scene)) return there;
     const Scene& scene = bench_.scene(condition.scene);
     const LightFrame frame = make_light_frame(scene, there);

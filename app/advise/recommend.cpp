@@ -131,7 +131,7 @@ class Search {
     return Chosen{{place[found->least], place[found->balanced], place[found->best]}, found->budget};
   }
 
-  // Something that holds and is simpler: a kind of bias with less parts, a map that holds for every view, fewer cascades, or a bias
+  // Something that holds and is simpler: a kind of bias with less parts, a map that holds for every view, fewer maps, or a bias
   // that may vary more; and that costs and errs hardly more. Null if there is nothing.
   const Candidate* simpler(const Candidate& than) {
     const auto found = std::find_if(candidates().begin(), candidates().end(),
@@ -141,7 +141,7 @@ class Search {
 
   bool is_simpler(const Candidate& one, const Candidate& than) const {
     const auto moves = [&](const Candidate& of) { return request_.places[of.tried.place].moves_with; };
-    const auto maps = [](const Candidate& of) { return of.tried.settings.cascades.count; };
+    const auto maps = [](const Candidate& of) { return of.tried.settings.maps(); };
     const auto fragile = [](const Candidate& of) { return of.tried.bias && is_fragile(*of.tried.bias); };
     if (!one.holds() || one.level > than.level || moves(one) > moves(than) || maps(one) > maps(than) ||
         fragile(one) > fragile(than))
@@ -157,7 +157,7 @@ class Search {
     const Candidate& one = candidates()[least];
     const std::vector<int>& all = request_.resolutions;
     const int resolution = one.tried.settings.map.resolution;
-    // Cascades of an engine keep to powers of two, which most of them need.
+    // Several maps of an engine keep to powers of two, which most of them need.
     if (!request_.places[one.tried.place].laid_by.empty()) return false;
     if (!request_.between || resolution == all.front() || std::find(all.begin(), all.end(), resolution) == all.end())
       return false;
@@ -324,7 +324,7 @@ class Search {
     answer.conditions = one.conditions;
     answer.placements = placements_along(one.tried) * placements_along(one.tried);
     if (const LightFrame frame = make_light_frame(bench_.scene(one.tried.settings.scene), one.tried.settings);
-        frame.kind == LightKind::directional && one.tried.settings.cascades.count == 1)
+        frame.kind == LightKind::directional && one.tried.settings.maps() == 1)
       answer.extent_m = frame.extent_m;
     answer.verified = *one.verified;
     return answer;

@@ -116,8 +116,7 @@ std::string why_no_live_picture(const Settings& settings) {
   if (pattern.blurred) return fmt::format("lookup.kind = {} compares no depths", settings.lookup.kind);
   if (pattern.bilinear()) return "a sampler blends the filter's taps, and how it rounds their weights is not specified";
   if (pattern.taps > most_live_taps) return fmt::format("the filter has more than {} taps", most_live_taps);
-  if (settings.cascades.count > 1 && settings.cascades.blend > 0)
-    return "cascades.blend mixes the answers of two maps in a pixel";
+  if (mixes_maps(settings)) return "cascades.blend mixes the answers of two maps in a pixel";
   return "";
 }
 

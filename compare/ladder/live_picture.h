@@ -55,7 +55,7 @@ std::string why_no_live_picture(const Settings& settings);
 
 LivePicture empty_live_picture(int width, int height);
 
-// Adds the receivers of a strip; of cascades one after the other those of each. evidence: holds the strip's taps; its r4 and r5 are not read. stored_map: the GPU's map
+// Adds the receivers of a strip; of several maps one after the other those of each. evidence: holds the strip's taps; its r4 and r5 are not read. stored_map: the GPU's map
 // as its sampler returns it. varied: the part of evidence.bias that varies.
 void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map,
                     const BiasPart& varied, PixelRange strip);

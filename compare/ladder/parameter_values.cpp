@@ -44,7 +44,7 @@ Decades decades_of(std::string_view setting, BiasUnit unit) {
 std::span<const std::string_view> curve_settings() { return settings_of_curves; }
 
 bool has_curve_over(const Settings& settings, std::string_view setting) {
-  if (setting.empty() || compares(settings) || mixes_cascades(settings)) return false;
+  if (setting.empty() || compares(settings) || mixes_maps(settings)) return false;
   const LookupKind& kind = find_lookup(settings.lookup.kind);
   return is_bias(setting) || std::any_of(kind.reads.begin(), kind.reads.end(),
                                          [&](const auto& read) { return read.parameter->setting == setting; });

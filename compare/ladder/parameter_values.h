@@ -23,7 +23,7 @@ struct ParameterValues {
 std::span<const std::string_view> curve_settings();
 
 // Whether a point of these settings has a curve over this setting: its lookup reads a filtered map and the setting, and no
-// result is a mix of two cascades' lookups.
+// result is a mix of the lookups in two maps.
 bool has_curve_over(const Settings& settings, std::string_view setting);
 
 // 0, then two values a decade over what is in use. Throws std::logic_error if it is none of curve_settings().
