@@ -72,7 +72,7 @@ class GivenLookup {
   // Throws Error(defect) if the measurement contradicts itself (compare/judge/soundness.h).
   GivenClimb climb(const GivenPoint& point);
 
-  // Of each receiver, 0 dark to 1 lit, by the map that OpenGL draws for the technique, or by those of cascades (techniques_of()).
+  // Of each receiver, 0 dark to 1 lit, by the maps that OpenGL draws for the techniques (techniques_of()).
   // Without a meaning where there is no receiver.
   Image<float> visibility(const ReceiverImage& receivers, glm::dvec3 eye_m, std::span<const Technique> techniques);
 

@@ -32,7 +32,7 @@ inline size_t bytes_per_tap(LightKind light) {
 }
 
 // The most bytes of a map on the device that is kept for the next lookup. A larger one is drawn or uploaded again when it
-// is looked up again, so that never more than one of them takes memory; of cascades, the maps of all at once.
+// is looked up again, so that never more than one of them takes memory; of several maps, all at once.
 inline constexpr size_t most_kept_map_bytes = size_t{128} << 20;
 
 // The most pixels of a picture whose receivers stay on the device while the point's numbers are computed, 90 MB of them. Those

@@ -36,13 +36,13 @@ struct MeasuredMap {
 // One measured point with the images behind its numbers. The references are valid until the bench's next measurement.
 struct Measurement {
   PointRecord record;  // without id and pictures
-  // Of cascades: with the frame of one map for the whole view, of which only the light is meant.
+  // Of several maps: with the frame of one map for the whole view, of which only the light is meant.
   Technique technique;
   Ladder ladder;
   Camera camera;
   const Scene& scene;
   const ReceiverImage& receivers;
-  std::vector<MeasuredMap> maps;   // one, or one for each cascade
+  std::vector<MeasuredMap> maps;   // one or more
   MapChoice choice;                // in which of them each receiver is looked up
   std::optional<Flicker> flicker;  // from this frame to the next, if the settings have a motion
 

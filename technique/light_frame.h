@@ -33,14 +33,14 @@ struct LightFrame {
   LightKind kind = LightKind::directional;
   // Spot and point: the light's position. It is exactly a float, because every ray starts there. Directional: the point
   // where u, v and z are 0. It is the light's position moved, in its plane, to the middle of the map (map.fit = view) and
-  // by map.shift_*_texels and map.snap; of a cascade the light's position (centre_m).
+  // by map.shift_*_texels and map.snap; of one of several maps the light's position (centre_m).
   glm::dvec3 origin_m{0};
   // Directional with map.snap: the origin of OpenGL's matrix. It does not move with the camera, and its texel grid is
   // that of the map: origin_m is a whole number of texels from it. So the matrix is bit for bit the same in every frame,
   // and the map's place is an exact number that the shaders subtract (drawn_clip_from_world).
   std::optional<glm::dvec3> anchor_m;
   glm::dvec2 anchor_texels{0};  // whole texels from the anchor to the map's middle, along right and up
-  // Directional: the map's middle, along right and up from origin_m. It is 0 but in a cascade: the frames of all cascades
+  // Directional: the map's middle, along right and up from origin_m. It is 0 of a single map: the frames of several
   // have one origin, so that what the light sees of a scene (raytrace/traced_scene.h) is the same for all of them.
   glm::dvec2 centre_m{0};
   // Unit vectors. For a point light they are the axes of the world.

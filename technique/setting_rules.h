@@ -34,7 +34,7 @@ class SettingConflict : public Error {
 // is empty while the scene is not loaded. Then the rules that hold for some kinds of light only are not checked.
 void validate(const Settings& settings, std::optional<LightKind> light = std::nullopt);
 
-// Throws SettingConflict if the settings have several cascades. who: what is made for one map, "a phase diagram".
+// Throws SettingConflict if the settings have several maps. who: what is made for one map, "a phase diagram".
 void require_one_map(const Settings& settings, std::string_view who);
 
 // Throws SettingConflict if the settings' lookup compares no depths. who: what is made for one that compares, "a phase diagram".
@@ -73,7 +73,7 @@ std::string without_part_in_unit(const Settings&, LightKind);
 std::string without_offset(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
 std::string without_slice_fit(const Settings&, LightKind);
-std::string without_reach(const Settings&, LightKind);  // of the map: not fitted to a slice of the view, nor cascades
+std::string without_reach(const Settings&, LightKind);  // of the map: not fitted to a slice of the view, nor several
 std::string without_moments(const Settings&, LightKind);
 std::string without_motion(const Settings&, LightKind);
 std::string without_turning_light(const Settings&, LightKind);

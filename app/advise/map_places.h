@@ -15,10 +15,11 @@
 namespace noonmark {
 
 struct MapPlace {
-  std::string covers;   // what the map covers, for a sentence: "the whole scene". Empty: as the settings give it
-  double extent_m = 0;  // of the map with these settings; of cascades, and of another light than a directional one, 0
+  std::string covers;  // what the map covers, for a sentence: "the whole scene". Empty: as the settings give it
+  double extent_m =
+      0;  // of the map with these settings; of several maps, and of another light than a directional one, 0
   bool moves_with = false;  // it covers what some views show, so another camera needs another place
-  std::string laid_by;      // the engine that lays its cascades so (EngineAdvice::engine); empty: none
+  std::string laid_by;      // the engine that lays its maps so (EngineAdvice::engine); empty: none
   bool of_casters = false;  // it leaves out a ground on which there is light alone (map.fit = casters)
   std::function<void(Settings&)> apply;
 };

@@ -9,7 +9,7 @@ namespace noonmark {
 struct SeenShare {
   double facing = 0;  // share of the pixels that look up
   double map_squares =
-      1;  // texels of a map, in squares of map.resolution: 6 for a cube; of cascades that of one of them
+      1;  // texels of a map, in squares of map.resolution: 6 for a cube; of several maps that of one of them
 };
 SeenShare seen_share(const PointRecord& measured);
 

@@ -1,4 +1,4 @@
-// How near and how far an engine's camera sees: cascades are laid over that range.
+// How near and how far an engine's camera sees: its maps are laid over that range.
 //
 //   const SeenDepths seen = depths_in_views(bench, request.conditions);
 #pragma once

@@ -30,7 +30,7 @@ struct StoredMap {
 // Row 0 is the top. The area outside the cross is `outside`.
 Image<float> cube_cross(const MapRows& map, int resolution, int cell, float outside);
 
-// Of several maps, those of cascades, the pictures below stand in a row, the nearest cascade on the left, with one scale of
+// Of several maps the pictures below stand in a row, the nearest on the left, with one scale of
 // grey for all.
 
 // The map as it is stored: the grey of a texel is its window depth, from 0 (black) to 1 (white), as a page shows a value

@@ -48,7 +48,7 @@ class BiasCounts {
 
   class Adding;
 
-  // Adds what another one counts, with the same varied part and filter: the receivers of another cascade. A receiver that
+  // Adds what another one counts, with the same varied part and filter: the receivers of another map. A receiver that
   // both have a share in (ReceiverTruth::share) is wrong if it is wrong in one of them, and counts once.
   void add(BiasCounts&& other);
 

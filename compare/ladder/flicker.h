@@ -8,7 +8,7 @@
 // The change is split by lookups that differ in one respect from one to the next, as the ladder's rungs do:
 //
 //  now     frame 0: its map and its kernel
-//  choice  the same, but each point in the cascade that frame 1 chooses                  cascade changed
+//  choice  the same, but each point in the map that frame 1 chooses                      map changed
 //  grid    the map of frame 1 with the depth range of frame 0; the kernel of frame 0      grid moved
 //  depth   the map of frame 1; the kernel of frame 0                                      depth re-rounded
 //  next    frame 1: its map and its kernel                                                kernel turned

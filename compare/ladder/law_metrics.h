@@ -23,11 +23,11 @@ struct LawInput {
   const LookupProbe& probe;
 };
 
-// What measure_laws() gives, and what the number of several cascades is.
+// What measure_laws() gives, and what the number of several maps is.
 struct LawMetric {
   const char* name;
-  // counted: of the cascades with a counted receiver. The median is that of all counted receivers, where the number is the same at
-  // all receivers of a cascade.
+  // counted: of the maps with a counted receiver. The median is that of all counted receivers, where the number is the same at
+  // all receivers of a map.
   enum Join { median, largest, largest_of_counted, sum_of_counted } join;
 };
 inline constexpr LawMetric law_metrics[] = {{"texel_m", LawMetric::median},

@@ -194,7 +194,7 @@ void MomentClimb::book(size_t i, const MomentSteps& s, Part& worst) const {
                                           number(s.chain.texels), number(s.shown),        e.r5[i]};
   for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
 
-  // What a cascade shows at a seam for comparison alone is no result.
+  // What a map shows at a seam for comparison alone is no result.
   if (is_counted(ladder, i) && e.truth.share_of(i) > 0) {
     const double shown = bound_of_shown(static_cast<double>(e.r5[i]), s.chain.bound, e.moments->reduction());
     worst.reductions.add({i, static_cast<double>(e.truth.lit[i]), s.chain},

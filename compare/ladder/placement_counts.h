@@ -153,8 +153,8 @@ class PlacementCounts {
 uint64_t disagreements(const LookupEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
                        double ray_error, double clipped_ray_error, const std::function<bool(glm::ivec2)>& on_edge);
 
-// Adds bands and the window at every placement to a curve over the same part. maps: of one map, or of each cascade, whose
-// grids lie independently of each other: the worst of the point is where each cascade is at its own worst.
+// Adds bands and the window at every placement to a curve over the same part. maps: of each map of the point, whose
+// grids lie independently of each other: the worst of the point is where each map is at its own worst.
 void add_bands(BiasCurve& curve, std::span<const PlacementCounts* const> maps, double depth_per_unit);
 
 }  // namespace noonmark

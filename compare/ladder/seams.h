@@ -1,9 +1,9 @@
-// The seam between two cascades: what would change if a receiver near the end of its cascade were looked up in the next one.
+// The seam between two maps: what would change if a receiver near the end of its map were looked up in the next one.
 // It is the step that the picture has at a split without a blend band. A seam moves no single pixel away from its truth, so
 // it is no cause; it is split by the causes of the two lookups.
 //
 //   Seam all;
-//   all.add(seam_of(ladder_of_cascade_1, ladder_of_cascade_2, mask));
+//   all.add(seam_of(ladder_of_map_1, ladder_of_map_2, mask));
 //   record.metrics.merge(seam_metrics(all));
 #pragma once
 #include <array>
@@ -28,7 +28,7 @@ struct Seam {
   void add(const Seam& other);
 };
 
-// here, next: of one cascade and of the one after it, both with the receivers of the seam. mask: 1 at these.
+// here, next: of one map and of the one after it, both with the receivers of the seam. mask: 1 at these.
 Seam seam_of(const Ladder& here, const Ladder& next, const Image<uint8_t>& mask);
 
 // seam_points, seam_jump, and seam_filter to seam_precision: means over the points. NaN without a point.

@@ -76,7 +76,7 @@ class Directional final : public KindOfLight {
     if (frame.centre_m == glm::dvec2(0))
       frame.origin_m += shift;
     else
-      frame.centre_m += texels * w;  // of a cascade, whose origin stays the light's
+      frame.centre_m += texels * w;  // of one of several maps, whose origin stays the light's
     if (frame.anchor_m) *frame.anchor_m += shift;
   }
   void refine_grid(LightFrame& frame, int times) const override { frame.anchor_texels *= times; }
