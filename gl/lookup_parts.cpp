@@ -15,7 +15,7 @@ std::string uniform(const KindRead<FilterSettings>& read) { return fmt::format("
 }  // namespace
 
 ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique) {
-  if (!technique.cascade) return {{"cascade", "shaders/cascade/single.glsl"}};
+  if (!technique.cascade) return {{"choice", "shaders/cascade/single.glsl"}};
   const std::string_view shape = technique.cascade->shape->name;
   const std::string blend = fmt::format("blend {}", shape);
   programs.define(blend, fmt::format("#include \"technique/blends/{0}.glsl\"\n"
@@ -24,7 +24,7 @@ ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique) {
                                      "  return {0}_blend(way);\n"
                                      "}}\n",
                                      shape));
-  return {{"cascade", std::string(technique.cascade->selection->shader)}, {"blend", blend}};
+  return {{"choice", std::string(technique.cascade->selection->shader)}, {"blend", blend}};
 }
 
 ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias) {

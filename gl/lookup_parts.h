@@ -16,11 +16,11 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
 //   float all_lit()                           its greatest value
 // If a formula gives the weights of the filter's taps, the text has before that file
 //   float filter_weight(int texel, float s)   the weight of texel 0 ... filter_size along one axis
-// <cascade> defines
+// <choice> defines
 //   Lookups lookups_of(vec3 position)         in which maps a receiver is looked up (shaders/cascade/lookups.glsl)
 ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
 
-// <cascade>, and of cascades <blend>, a text that it defines in `programs`:
+// <choice>, and of cascades <blend>, a text that it defines in `programs`:
 //   float weight_of_next(float place, float blend)   technique/blends/<name>.glsl at a place of technique/cascade_place.glsl
 ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique);
 

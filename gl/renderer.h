@@ -67,7 +67,7 @@ struct DeviceInfo {
 // The taps whose texels a probe holds. The texel of the middle tap is always known.
 enum class ProbeTaps { all, none };
 
-// A shadow map on the device, or the shadow maps of cascades, counted from 0. Flat maps of one size are the layers of an
+// The shadow maps of a point on the device, counted from 0. Flat maps of one size are the layers of an
 // array. Move-only.
 class ShadowMap {
  public:
@@ -119,8 +119,8 @@ class Renderer {
   // (technique/casters.h); empty: the vertices of load_scene().
   using CastersOf = std::function<std::vector<glm::vec3>(const Technique&)>;
   ShadowMap render_map(const Technique& technique, double* time_ms = nullptr, const CastersOf& casters_of = {});
-  // The maps of cascades, each drawn by a pass of its own, bit for bit as render_map() draws it. time_ms: of all passes.
-  // techniques: any of the cascades of a point, or one technique without.
+  // The maps of a point, or some of them, each drawn by a pass of its own, bit for bit as render_map() draws it. time_ms: of all
+  // passes.
   ShadowMap render_maps(std::span<const Technique> techniques, double* time_ms = nullptr,
                         const CastersOf& casters_of = {});
 
@@ -134,7 +134,7 @@ class Renderer {
   ShadowMap upload_maps(std::span<const MapDepths* const> depths, std::span<const Technique> techniques);
 
   // The depths that the lookup's sampler returns, bit for bit, in the layout of LightFrame::map_size(): of all texels,
-  // of those of a set, or of some rows. which: the map of a cascade.
+  // of those of a set, or of some rows. which: of the maps.
   Image<float> read_map(const ShadowMap& map, int which = 0);
   MapDepths read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels, int which = 0);
   Image<float> read_rows(const ShadowMap& map, int first_row, int count, int which = 0);
@@ -156,23 +156,23 @@ class Renderer {
   // the light have 0. Of a lookup in a map of moments it makes that map first, if the last lookup was another one, and the
   // result is reduced already (lookup.reduction). time_ms: as in render_map, without the passes over the map. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
-  // Of a cascade: 0 for receivers that are not looked up in it.
+  // Of one of several maps: 0 for receivers that are not looked up in it.
   Image<float> lookup(const ShadowMap& map, const Technique& technique, double* time_ms = nullptr);
-  // The same in the maps of cascades, in one pass: the shader chooses each receiver's map, and looks up the next one too
-  // if it is blended in (or compared: CascadePlace::seam). Of maps of different sizes, in one pass for each size.
+  // The same in all maps of a point, in one pass: the shader chooses each receiver's map, and looks up the next one too
+  // if it is blended in (or compared: MapChoice::seam). Of maps of different sizes, in one pass for each size.
   // techniques: those of the map, in its order. Throws Error(defect) if their frames are not of these sizes.
   MapResults lookup_maps(const ShadowMap& map, std::span<const Technique> techniques, double* time_ms = nullptr);
 
   // Of a lookup in a map of moments: what OpenGL made of this map, stage by stage. The texels are in the order of the set; the
   // channels that the lookup does not store are not defined.
-  // techniques: as of lookup_maps(); which: the map of a cascade.
+  // techniques: as of lookup_maps(); which: of the maps.
   MomentEvidence read_moments(const ShadowMap& map, std::span<const Technique> techniques, const TexelSet& texels,
                               size_t which = 0);
-  // The time of the passes that filter a map, as time_ms in render_map; empty if the lookup compares its depths. Of cascades those
-  // of all maps; technique: any of them.
+  // The time of the passes that filter a map, as time_ms in render_map; empty if the lookup compares its depths. Of several
+  // maps those of all; technique: any of them.
   std::optional<double> time_prefilter(const ShadowMap& map, const Technique& technique);
 
-  // What the lookup chooses for each receiver (shaders/cascade/choice.glsl). technique: of any of the cascades.
+  // What the lookup chooses for each receiver. technique: of any of the maps.
   MapChoice choose_maps(const Technique& technique);
 
   // The numbers that lookup computes before it compares. They do not depend on the contents of the map. Of the bias,

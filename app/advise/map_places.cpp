@@ -123,16 +123,10 @@ void lay_as(const LightFrame& frame, Settings& settings) {
   settings.map.far_m = frame.far_m;
 }
 
-MapPlace place_as_given() {
+MapPlace place_as_given(bool in_texels) {
   MapPlace place;
-  place.apply = [](Settings&) {};
-  return place;
-}
-
-MapPlace cascades_as_given(bool chooses_bias) {
-  MapPlace place;
-  place.apply = [chooses_bias](Settings& there) {
-    if (chooses_bias) there.bias.unit = BiasUnit::texel;
+  place.apply = [in_texels](Settings& there) {
+    if (in_texels) there.bias.unit = BiasUnit::texel;
   };
   return place;
 }

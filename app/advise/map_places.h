@@ -15,9 +15,8 @@
 namespace noonmark {
 
 struct MapPlace {
-  std::string covers;  // what the map covers, for a sentence: "the whole scene". Empty: as the settings give it
-  double extent_m =
-      0;  // of the map with these settings; of several maps, and of another light than a directional one, 0
+  std::string covers;       // what the map covers, for a sentence: "the whole scene". Empty: as the settings give it
+  double extent_m = 0;      // of a directional light's one map with these settings; else 0
   bool moves_with = false;  // it covers what some views show, so another camera needs another place
   std::string laid_by;      // the engine that lays its maps so (EngineAdvice::engine); empty: none
   bool of_casters = false;  // it leaves out a ground on which there is light alone (map.fit = casters)
@@ -27,10 +26,9 @@ struct MapPlace {
 // Settings that lay a directional light's map where this frame lies, whatever the camera shows.
 void lay_as(const LightFrame& frame, Settings& settings);
 
-// The place that the settings give.
-MapPlace place_as_given();
-// The same of cascades. chooses_bias: the bias is in texels, which is right in all of them (law 31), in place of metres.
-MapPlace cascades_as_given(bool chooses_bias);
+// The place that the settings give. in_texels: the bias is in texels, which is right in all of several maps (law 31), in place of
+// metres.
+MapPlace place_as_given(bool in_texels = false);
 
 // The first is the settings' own, or, if that is narrower, the map around the whole scene whose middle is the middle of the scene;
 // or the one around all that casts shadows (map.fit = casters), if it is narrower by places_differ and map.wrap lights what lies

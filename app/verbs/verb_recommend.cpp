@@ -181,7 +181,7 @@ std::string given_place(const Experiment& experiment) {
 // Where the map may lie: if the user says nothing of it, also elsewhere than the settings lay it.
 std::vector<MapPlace> places_of(const Experiment& experiment, const AdviceRequest& request, const Scene& scene,
                                 std::span<const Settings> views) {
-  if (request.conditions.front().cascades.count > 1) return {cascades_as_given(!gives(experiment, "bias."))};
+  if (request.conditions.front().cascades.count > 1) return {place_as_given(!gives(experiment, "bias."))};
   return given_place(experiment).empty() ? map_places(scene, request.conditions, views) : std::vector{place_as_given()};
 }
 

@@ -6,7 +6,7 @@
 layout(binding = 0) uniform sampler2D position_image;  // as in shaders/receiver.glsl
 uniform vec3 eye_m;
 
-#include <cascade>
+#include <choice>
 
 layout(location = 0) out vec4 cascade_out;
 

@@ -1,9 +1,9 @@
 #version 450 core
-// The technique's result for a receiver, in the map that it is looked up in, and of cascades in the next one where that one
+// The technique's result for a receiver, in the map that it is looked up in, and of several in the next one where that one
 // is looked up too; else 0. For taps of equal weight it is the number of lit taps. The host divides it, because a division
 // in OpenGL need not be correctly rounded.
 #include "shaders/receiver.glsl"
-#include <cascade>
+#include <choice>
 #include "shaders/compare.glsl"
 #include <filter>
 
