@@ -42,7 +42,7 @@ ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique) {
       "#include \"technique/lookups/shared/words.glsl\"\n"
       "#include \"technique/lookups/{0}.glsl\"\n"
       "uniform LookupParameters lookup;\n"
-      "vec4 stored_moments(float depth) {{ return {0}_moments(depth, lookup); }}\n"
+      "vec4 stored_moments(float depth) {{ return {0}_stored(depth, lookup); }}\n"
       "float lit_fraction(vec4 moments, float depth) {{\n"
       "  return {0}_lit(moments, depth, lookup);\n"
       "}}\n",

@@ -1,11 +1,11 @@
-// The formulas of filtered shadow maps: a map that is blurred before it is looked up, so it stores moments of the depth.
+// The formulas of filtered shadow maps: a map that is blurred before it is looked up, so it stores what can be blurred.
 // Each is one file technique/lookups/<name>.glsl with two functions, which GLSL and C++ compile:
 //
-//  vec4 <name>_moments(real depth, LookupParameters p)
+//  vec4 <name>_stored(real depth, LookupParameters p)
 //    What a texel of this window depth stores before the blur. depth: 0 at the light, 1 at the map's far end. Channels
 //    that the formula does not use are 0.
-//  real <name>_lit(vec4 moments, real depth, LookupParameters p)
-//    The lit fraction, 0 ... 1 (up to rounding), of a receiver, before light-bleed reduction. moments: as fetched from the
+//  real <name>_lit(vec4 stored, real depth, LookupParameters p)
+//    The lit fraction, 0 ... 1 (up to rounding), of a receiver, before light-bleed reduction. stored: as fetched from the
 //    blurred map. depth: the receiver's window depth, with the bias subtracted.
 //
 // The depth may lie outside [0, 1]. For finite input within the ranges of technique/lookups/parameters.glsl the results are
@@ -15,7 +15,7 @@
 //
 //   in_float::LookupParameters p{};
 //   p.v_min = 1e-6f;
-//   float lit = in_float::vsm_lit(in_float::vsm_moments(0.25f, p), 0.5f, p);
+//   float lit = in_float::vsm_lit(in_float::vsm_stored(0.25f, p), 0.5f, p);
 #pragma once
 #include "technique/lookup_parameters.h"
 

@@ -321,8 +321,8 @@ struct Formula {
     return of(stored, given.receiver, p);
   }
 };
-using BabylonEsm = Formula<in_extended::babylon_esm_moments, in_extended::babylon_esm_lit>;
-using BabylonCloseEsm = Formula<in_extended::babylon_close_esm_moments, in_extended::babylon_close_esm_lit>;
+using BabylonEsm = Formula<in_extended::babylon_esm_stored, in_extended::babylon_esm_lit>;
+using BabylonCloseEsm = Formula<in_extended::babylon_close_esm_stored, in_extended::babylon_close_esm_lit>;
 
 template <class Of>
 constexpr LookupTruth truth_of() {

@@ -150,9 +150,9 @@ int operations(const LookupSettings& settings) {
   return counts[settings.whole("moments")];
 }
 
-#define FORMULAS(name, ...)                                                                                      \
-  LookupFormulas {                                                                                               \
-    in_float::name##_moments, in_float::name##_lit, name##_truth, in_bounds::name##_lit, operations<__VA_ARGS__> \
+#define FORMULAS(name, ...)                                                                                     \
+  LookupFormulas {                                                                                              \
+    in_float::name##_stored, in_float::name##_lit, name##_truth, in_bounds::name##_lit, operations<__VA_ARGS__> \
   }
 
 std::vector<LookupKind> make_lookups() {
@@ -247,7 +247,7 @@ std::vector<LookupKind> make_lookups() {
        .law = "as vsm where the taps stand on texels; between them a linear fetch blends deviations, which is less "
               "variance, and it is no bound",
        .reads = {{&v_min}, {&radius}, {&samples}, {&reduction}, {&reduction_span, darkens_all}},
-       .formulas = LookupFormulas{in_float::three_vsm_moments, in_float::three_vsm_lit, LookupTruth{},
+       .formulas = LookupFormulas{in_float::three_vsm_stored, in_float::three_vsm_lit, LookupTruth{},
                                   in_bounds::three_vsm_lit, operations<8>},
        .spread =
            SpreadFormulas{in_bounds::three_vsm_add_stored, in_bounds::three_vsm_spread, in_extended::three_vsm_lit},

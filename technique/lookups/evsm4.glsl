@@ -1,6 +1,6 @@
 // Exponential variance shadow map with four moments (Lauritzen and McCool, "Layered Variance Shadow Maps", 2008): the
 // positive warp W of the depth and its square, the negative warp N and its square. The lesser of both bounds holds.
-vec4 evsm4_moments(real depth, LookupParameters p) {
+vec4 evsm4_stored(real depth, LookupParameters p) {
   precise real positive = positive_warp(depth, p.exponent);
   precise real negative = negative_warp(depth, p.negative_exponent);
   precise real positive_square = positive * positive;

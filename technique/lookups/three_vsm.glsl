@@ -5,7 +5,7 @@
 //   second pass (along x): add_stored(sums, result of the first pass, linear)
 // The squares add up as in any variance shadow map, but a linear fetch between two texels mixes their deviations, which are
 // no sums. So the passes are not one kernel over the depths.
-vec4 three_vsm_moments(real depth, LookupParameters p) { return vec4(depth, real(0), real(0), real(0)); }
+vec4 three_vsm_stored(real depth, LookupParameters p) { return vec4(depth, real(0), real(0), real(0)); }
 
 vec4 three_vsm_add_depth(vec4 sums, real depth) {
   precise real mean = sums.x + depth;
@@ -28,7 +28,7 @@ vec4 three_vsm_spread(vec4 sums, real taps) {
 }
 
 // v_min: 1e-7 there.
-real three_vsm_lit(vec4 moments, real depth, LookupParameters p) {
-  precise real variance = moments.y * moments.y;
-  return chebyshev_share_behind(moments.x, max(variance, p.v_min), depth);
+real three_vsm_lit(vec4 stored, real depth, LookupParameters p) {
+  precise real variance = stored.y * stored.y;
+  return chebyshev_share_behind(stored.x, max(variance, p.v_min), depth);
 }

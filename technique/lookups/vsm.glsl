@@ -1,5 +1,5 @@
 // Variance shadow map (Donnelly and Lauritzen, "Variance Shadow Maps", 2006): depth and its square.
-vec4 vsm_moments(real depth, LookupParameters p) {
+vec4 vsm_stored(real depth, LookupParameters p) {
   precise real square = depth * depth;
   return vec4(depth, square, real(0), real(0));
 }

@@ -26,9 +26,9 @@ struct Formula {
   Bounded (*bounded_lit)(in_bounds::vec4, Bounded, in_bounds::LookupParameters);
 };
 void PrintTo(const Formula& formula, std::ostream* out) { *out << formula.name; }
-#define FORMULA(name, warps)                                                                                       \
-  Formula {                                                                                                        \
-#name, warps, in_float::name##_moments, in_float::name##_lit, in_bounds::name##_moments, in_bounds::name##_lit \
+#define FORMULA(name, warps)                                                                                     \
+  Formula {                                                                                                      \
+#name, warps, in_float::name##_stored, in_float::name##_lit, in_bounds::name##_stored, in_bounds::name##_lit \
   }
 
 Bounded exact(float x) { return Bounded(static_cast<double>(x)); }
@@ -173,7 +173,7 @@ TEST_P(LookupFormulas, MomentsAreTheHosts) {
   for (const in_float::LookupParameters& p : several_parameters()) {
     const Inputs given = some_inputs(GetParam(), p, 1);
     const std::vector<glm::vec4> device =
-        on_the_device(fmt::format("{}_moments(depth, p)", GetParam().name).c_str(), p, given);
+        on_the_device(fmt::format("{}_stored(depth, p)", GetParam().name).c_str(), p, given);
     Comparison compared;
     for (size_t i = 0; i < inputs; ++i) {
       const glm::vec4 host = GetParam().moments(given.depths[i], p);

@@ -22,7 +22,7 @@ struct Formula {
   LookupTruth truth;
 };
 #define FORMULA(name) \
-  { #name, in_extended::name##_moments, in_extended::name##_lit, name##_truth }
+  { #name, in_extended::name##_stored, in_extended::name##_lit, name##_truth }
 const Formula formulas[] = {FORMULA(vsm), FORMULA(esm),           FORMULA(evsm2),       FORMULA(evsm4),
                             FORMULA(msm), FORMULA(msm_hausdorff), FORMULA(babylon_esm), FORMULA(babylon_close_esm)};
 
@@ -77,10 +77,10 @@ TEST(LookupFormulas, OneDepthIsAStep) {
     for (const float depth : {0.0f, 0.125f, 0.5f, 0.75f, 1.0f})
       for (const float receiver : {0.0f, 0.125f, 0.25f, 0.5f, 0.625f, 0.75f, 1.0f}) {
         const float lit = receiver > depth ? 0.0f : 1.0f;
-        EXPECT_EQ(in_float::vsm_lit(in_float::vsm_moments(depth, p), receiver, p), lit);
-        EXPECT_EQ(in_float::evsm2_lit(in_float::evsm2_moments(depth, p), receiver, p) > 0.5f, lit > 0.5f);
-        EXPECT_EQ(in_float::msm_lit(in_float::msm_moments(depth, p), receiver, p), lit) << depth << " " << receiver;
-        EXPECT_EQ(in_float::msm_hausdorff_lit(in_float::msm_hausdorff_moments(depth, p), receiver, p), lit)
+        EXPECT_EQ(in_float::vsm_lit(in_float::vsm_stored(depth, p), receiver, p), lit);
+        EXPECT_EQ(in_float::evsm2_lit(in_float::evsm2_stored(depth, p), receiver, p) > 0.5f, lit > 0.5f);
+        EXPECT_EQ(in_float::msm_lit(in_float::msm_stored(depth, p), receiver, p), lit) << depth << " " << receiver;
+        EXPECT_EQ(in_float::msm_hausdorff_lit(in_float::msm_hausdorff_stored(depth, p), receiver, p), lit)
             << depth << " " << receiver;
       }
   }
@@ -163,9 +163,9 @@ TEST(LookupFormulas, AreFinite) {
                            in_float::babylon_close_esm_lit, in_float::three_vsm_lit})
       ASSERT_TRUE(std::isfinite(lit(moments, depth, p))) << set;
     for (const auto stored :
-         {in_float::vsm_moments, in_float::esm_moments, in_float::evsm2_moments, in_float::evsm4_moments,
-          in_float::msm_moments, in_float::msm_hausdorff_moments, in_float::babylon_esm_moments,
-          in_float::babylon_close_esm_moments, in_float::three_vsm_moments}) {
+         {in_float::vsm_stored, in_float::esm_stored, in_float::evsm2_stored, in_float::evsm4_stored,
+          in_float::msm_stored, in_float::msm_hausdorff_stored, in_float::babylon_esm_stored,
+          in_float::babylon_close_esm_stored, in_float::three_vsm_stored}) {
       const in_float::vec4 made = stored(std::abs(depth), p);
       for (int k = 0; k < 4; ++k) ASSERT_TRUE(std::isfinite(made[k])) << set;
     }

@@ -94,7 +94,7 @@ TEST(LookupStorage, Law20LeakOfRoundedVariance) {
     Range variance, mean;
     for (int set = 0; set < 400'000; ++set) {
       const Number z = within(random, 0.05, 0.95), gap = std::pow(Number(10), within(random, -5, -0.5));
-      const vec4 map = stored(in_extended::vsm_moments(z, {}), format.rounding);
+      const vec4 map = stored(in_extended::vsm_stored(z, {}), format.rounding);
       variance.add((map.y - map.x * map.x) / format.variance(z));
       mean.add((map.x - z) / format.mean(z));
       // A receiver in full shadow, a gap behind the one occluder.
@@ -117,7 +117,7 @@ TEST(LookupStorage, Law20LitGroundOfThreeJs) {
 }
 
 // The largest square of the warped depth, as the format and its float arithmetic have it.
-float greatest_square(float exponent) { return in_float::evsm2_moments(1, with_float_exponent(exponent)).y; }
+float greatest_square(float exponent) { return in_float::evsm2_stored(1, with_float_exponent(exponent)).y; }
 
 TEST(LookupStorage, Law20WindowsOfTheExponent) {
   constexpr float half_float_max = 65504;
@@ -129,8 +129,8 @@ TEST(LookupStorage, Law20WindowsOfTheExponent) {
   EXPECT_TRUE(std::isfinite(9 * greatest_square(43.26f)));
   EXPECT_FALSE(std::isfinite(9 * greatest_square(43.27f)));
   // ESM's depth is on [0, 1]. A device may take floats below the normal ones as 0.
-  EXPECT_TRUE(std::isfinite(in_float::esm_moments(1, with_float_exponent(88)).x));
-  EXPECT_FALSE(std::isfinite(in_float::esm_moments(1, with_float_exponent(89)).x));
+  EXPECT_TRUE(std::isfinite(in_float::esm_stored(1, with_float_exponent(88)).x));
+  EXPECT_FALSE(std::isfinite(in_float::esm_stored(1, with_float_exponent(89)).x));
   EXPECT_TRUE(std::isnormal(std::exp(-87.0f)));
   EXPECT_FALSE(std::isnormal(std::exp(-88.0f)));
   Settings settings;
@@ -141,7 +141,7 @@ TEST(LookupStorage, Law20WindowsOfTheExponent) {
 TEST(LookupStorage, Law20BabylonsHalfFloatsLoseFarCasters) {
   const in_float::LookupParameters p = with_float_exponent(50);
   const auto half = [&](float depth) {
-    return glm::unpackHalf1x16(glm::packHalf1x16(in_float::babylon_esm_moments(depth, p).x));
+    return glm::unpackHalf1x16(glm::packHalf1x16(in_float::babylon_esm_stored(depth, p).x));
   };
   const float least = 25 * std::log(2.0f) / 50, least_normal = 14 * std::log(2.0f) / 50;
   EXPECT_EQ(half(least + 1e-4f), 0) << "a caster beyond a third of the range casts no shadow";
@@ -163,7 +163,7 @@ int singular(const LookupParameters& p, Rounding rounding, double low, double hi
   for (int set = 0; set < 1'000'000; ++set) {
     const Number first = within(random, low, high), second = set % 3 ? within(random, low, high) : first;
     const Number share = set % 5 ? within(random, 0, 1) : 1;
-    const vec4 moments = share * in_extended::msm_moments(first, p) + (1 - share) * in_extended::msm_moments(second, p);
+    const vec4 moments = share * in_extended::msm_stored(first, p) + (1 - share) * in_extended::msm_stored(second, p);
     count += !regular(in_extended::biased_moments(stored(moments, rounding), p));
   }
   return count;
@@ -191,7 +191,7 @@ TEST(LookupStorage, UnpackedMomentsAreThoseStored) {
     for (Number depth = 0; depth <= 1; depth += 0x1p-6L) {
       const LookupParameters p = with_moments(0, moments);
       const Number z = moments < 2 ? 2 * depth - 1 : depth;
-      const vec4 b = in_extended::unpacked_moments(in_extended::msm_moments(depth, p), p);
+      const vec4 b = in_extended::unpacked_moments(in_extended::msm_stored(depth, p), p);
       const Number powers[] = {z, z * z, z * z * z, z * z * z * z};
       for (int k = 0; k < 4; ++k)
         EXPECT_LE(std::abs(b[k] - powers[k]), errors[moments]) << moments << " " << static_cast<double>(depth);
@@ -202,7 +202,7 @@ TEST(LookupStorage, TransformedMomentsFillUnorm) {
   for (const int moments : {1, 2}) {
     vec4 low(1), high(0);
     for (Number depth = 0; depth <= 1; depth += 0x1p-12L) {
-      const vec4 b = in_extended::msm_moments(depth, with_moments(0, moments));
+      const vec4 b = in_extended::msm_stored(depth, with_moments(0, moments));
       low = glm::min(low, b);
       high = glm::max(high, b);
     }
@@ -232,8 +232,8 @@ TEST(LookAlikes, BabylonsEmptyTexelsAreLit) {
   const double depths[] = {1}, weights[] = {1};
   for (const double receiver : {0.5, 0.999, 1.0})
     EXPECT_EQ(static_cast<double>(babylon_esm_truth(depths, weights, receiver, with_exponent(20))), 1);
-  EXPECT_EQ(in_float::babylon_esm_moments(1, with_float_exponent(20)).x, 0);
-  EXPECT_GT(in_float::babylon_esm_moments(0.999f, with_float_exponent(20)).x, 0);
+  EXPECT_EQ(in_float::babylon_esm_stored(1, with_float_exponent(20)).x, 0);
+  EXPECT_GT(in_float::babylon_esm_stored(0.999f, with_float_exponent(20)).x, 0);
 }
 
 TEST(LookAlikes, BabylonsCloseEsmFattensShadows) {
