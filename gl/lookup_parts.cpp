@@ -42,9 +42,9 @@ ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique) {
       "#include \"technique/lookups/shared/words.glsl\"\n"
       "#include \"technique/lookups/{0}.glsl\"\n"
       "uniform LookupParameters lookup;\n"
-      "vec4 stored_moments(float depth) {{ return {0}_stored(depth, lookup); }}\n"
-      "float lit_fraction(vec4 moments, float depth) {{\n"
-      "  return {0}_lit(moments, depth, lookup);\n"
+      "vec4 stored_texel(float depth) {{ return {0}_stored(depth, lookup); }}\n"
+      "float lit_fraction(vec4 stored, float depth) {{\n"
+      "  return {0}_lit(stored, depth, lookup);\n"
       "}}\n",
       name);
   if (technique.moments->spread())

@@ -25,8 +25,8 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
 ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique);
 
 // The slot of the passes that make a map of moments, <lookup>: the formulas of technique.moments, as
-//   vec4 stored_moments(float depth)                 what a texel of this window depth stores
-//   float lit_fraction(vec4 moments, float depth)    of a receiver of this biased depth, before light-bleed reduction
+//   vec4 stored_texel(float depth)                   what a texel of this window depth stores
+//   float lit_fraction(vec4 stored, float depth)     of a receiver of this biased depth, before light-bleed reduction
 // whose parameters set_lookup_uniforms() sets. It is part of lookup_slots() too.
 ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique);
 void set_lookup_uniforms(Program& program, const Technique& technique);

@@ -13,7 +13,7 @@ void main() {
   ivec2 middle = ivec2(gl_FragCoord.xy), size = textureSize(source, 0).xy;
   precise vec4 sum = vec4(0.0);
   for (int k = 0; k < blur_size; ++k) {
-    precise vec4 part = kernel[k] * moments_at(middle + (k - blur_size / 2) * along, size);
+    precise vec4 part = kernel[k] * texel_at(middle + (k - blur_size / 2) * along, size);
     precise vec4 next = sum + part;
     sum = next;
   }

@@ -1,5 +1,5 @@
 #version 450 core
-// A texel of the next mip level of a map of moments: the mean of 2 x 2 texels. It reads texels and no blend of them, in a
+// A texel of the next mip level of a filtered map: the mean of 2 x 2 texels. It reads texels and no blend of them, in a
 // fixed order, so that the host can repeat the sum.
 #include "shaders/prefilter/format.glsl"
 layout(binding = 2) uniform sampler2DArray source;

@@ -17,7 +17,7 @@ void main() {
   vec4 sums = vec4(0.0);
   for (int k = 0; k < taps; ++k) {
     ivec2 texel = middle + tap_texel[k] * along;
-    vec4 one = moments_at(texel, size), other = moments_at(texel + along, size);
+    vec4 one = texel_at(texel, size), other = texel_at(texel + along, size);
     precise vec4 blended = (1.0 - tap_next[k]) * one + tap_next[k] * other;
     sums = added(sums, blended);
   }

@@ -1,10 +1,10 @@
-// A texel of a map of moments as a blur reads it: one outside the map by the map's wrap, as a sampler does.
+// A texel of a filtered map as a blur reads it: one outside the map by the map's wrap, as a sampler does.
 layout(binding = 2) uniform sampler2DArray source;
 uniform int layer;
 uniform int wrap;     // Wrap (technique/settings.h): 0 repeat, 1 clamp_to_edge, 2 clamp_to_border
 uniform vec4 border;  // what a texel outside the map holds
 
-vec4 moments_at(ivec2 texel, ivec2 size) {
+vec4 texel_at(ivec2 texel, ivec2 size) {
   if (wrap == 0)
     texel = (texel % size + size) % size;
   else if (wrap == 1)
