@@ -177,7 +177,7 @@ void Climb::receiver(size_t i, const ReceiverTaps& taps, const Shown& shown, Par
   ladder.doubt[i] = share(unsure);
   set(Cause::precision, r[5] - r[4]);
   for (const CauseRow& row : cause_rows) {
-    if (row.effect == CauseEffect::either || is_of_moments(row)) continue;
+    if (row.effect == CauseEffect::either || static_cast<size_t>(*row.cause) >= booked.size()) continue;
     const float size = share(booked[static_cast<size_t>(*row.cause)]);
     set(*row.cause, row.effect == CauseEffect::darkens ? -size : size);
   }

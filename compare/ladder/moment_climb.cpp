@@ -121,7 +121,7 @@ ExactBound exact_bound(const LookupEvidence& e, size_t i, const MomentLookup& lo
 
 MomentSteps moment_steps(const LookupEvidence& e, size_t i, const ReceiverTaps& taps, MomentScratch& scratch) {
   MomentSteps s;
-  MomentChain& c = s.chain;
+  LookupChain& c = s.chain;
   // As shares of the sum of the weights in the same order, so that lit taps alone are exactly 1.
   double whole = 0;
   const size_t count = taps.one_truth() ? 1 : taps.size();
@@ -149,7 +149,7 @@ MomentSteps moment_steps(const LookupEvidence& e, size_t i, const ReceiverTaps& 
 
 void MomentSteps::reduce(const MomentLookup& lookup) {
   shown = decided ? chain.bound : lookup.reduced(chain.bound);
-  parts = moment_parts(chain, shown);
+  parts = parts_of(chain, shown);
 }
 
 MomentClimb::MomentClimb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder,
@@ -207,7 +207,7 @@ void MomentClimb::book(size_t i, const MomentSteps& s, Part& worst) const {
   set(Cause::filter, static_cast<double>(r[2]) - r[1] - s.before_exact);
   set(Cause::displacement, s.displacement);
   set(Cause::undecided, s.all_undecided());
-  const MomentParts& parts = s.parts;
+  const LookupParts& parts = s.parts;
   set(parts.coverage < 0 ? Cause::coverage_dark : Cause::coverage_light, parts.coverage);
   set(parts.aliasing < 0 ? Cause::aliasing_dark : Cause::aliasing_light, parts.aliasing);
   set(Cause::leak, parts.leak());

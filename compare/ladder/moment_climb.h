@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "compare/ladder/ladder.h"
-#include "compare/ladder/moment_parts.h"
 #include "compare/ladder/reduction_window.h"
 #include "technique/moment_lookup.h"
 
@@ -31,12 +30,12 @@ class ReceiverTaps;
 // One receiver from R2 to R4, in double. Shares of 1; a step is negative if it darkens.
 struct MomentSteps {
   double exact_lit = 0;  // R2
-  MomentChain chain;     // from D on
+  LookupChain chain;     // from D on
   double shown = 0;      // R4
   // The undecided parts of the steps from R1 to R2 and from there to D.
   double before_exact = 0, before_moved = 0;
   double displacement = 0;
-  MomentParts parts;  // of R4 - D
+  LookupParts parts;  // of R4 - D
   // How much the bare bound is darker than the comparison of the same depths (law 13); negative if it is lighter.
   double below_comparison = 0;
   bool decided = false;  // ExactBound::decided: then nothing is reduced

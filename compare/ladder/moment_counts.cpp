@@ -21,7 +21,7 @@ void MomentCounts::add(const LookupEvidence& e, size_t pixel) {
   receivers_ += share;
   taps_.read(e, pixel);
   const MomentSteps s = moment_steps(e, pixel, taps_, scratch_);
-  const MomentParts& parts = s.parts;
+  const LookupParts& parts = s.parts;
   const double truth = e.truth.lit[pixel];
   const auto count = [&](Sum sum, double size) { of_[0][sum] += share * size; };
   count(error, std::abs(s.shown - truth));

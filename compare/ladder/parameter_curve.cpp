@@ -49,11 +49,11 @@ void ParameterCurve::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& 
   for (size_t k = 0; k < curve_.at_.size(); ++k) {
     const AtValue& at = curve_.at_[k];
     const ExactBound bound = exact_bound(e_, i, at.lookup, at.bias, part.scratch);
-    MomentChain chain = steps.chain;
+    LookupChain chain = steps.chain;
     chain.bound = bound.lit;
     const double shown = bound.decided ? bound.lit : at.lookup.reduced(bound.lit);
     const float drawn = bound.decided ? e_.r5[i] : at.lookup.reduced(at.lookup.lit(fetched_[i], bound.reference));
-    const MomentParts parts = moment_parts(chain, shown);
+    const LookupParts parts = parts_of(chain, shown);
     part.sums[k].add({{},
                       at.value,
                       std::abs(shown - truth),

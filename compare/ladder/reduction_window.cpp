@@ -4,9 +4,11 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
+#include "compare/ladder/lasting_steps.h"
 #include "compare/ladder/numbers.h"
 
 namespace noonmark {
@@ -32,6 +34,28 @@ double first_that(double low, double high, const Holds& holds) {
 
 }  // namespace
 
+LookupParts parts_of(const LookupChain& chain, double shown) {
+  std::array<double, 4> parts{};
+  lasting_steps(std::array{chain.from, chain.texels, chain.bare, chain.bound, shown}, parts);
+  const double change = shown - chain.from;
+  double uncovered = std::min(chain.uncovered, std::abs(change));
+  double unsure = std::min(chain.unsure, std::abs(change) - uncovered);
+  LookupParts all;
+  all.coverage = 0 + std::copysign(uncovered, change);  // 0 + x: no negative zero
+  all.undecided = 0 + std::copysign(unsure, change);
+  for (double& part : parts) {
+    const auto take = [&](double& left) {
+      const double taken = std::min(left, std::abs(part));
+      left -= taken;
+      part -= std::copysign(taken, change);
+    };
+    take(uncovered);
+    take(unsure);
+  }
+  all.aliasing = 0 + parts[0], all.to_bare = 0 + parts[1], all.to_floors = 0 + parts[2], all.reduction = 0 + parts[3];
+  return all;
+}
+
 void ReductionWindow::At::add(const At& other) {
   error += other.error, leak += other.leak, reduction += other.reduction;
   over_darkening += other.over_darkening, peter_panning += other.peter_panning;
@@ -40,7 +64,7 @@ void ReductionWindow::At::add(const At& other) {
 
 ReductionWindow::At ReductionWindow::of(const Receiver& r, double reduction) {
   const double shown = reduced(r.chain.bound, reduction);
-  const MomentParts parts = moment_parts(r.chain, shown);
+  const LookupParts parts = parts_of(r.chain, shown);
   return {std::abs(shown - r.truth),       parts.leak(),
           -parts.over_darkening(),         parts.peter_panning(),
           std::max(0.0, -parts.reduction), std::max(0.0, -parts.aliasing),

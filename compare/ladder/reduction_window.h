@@ -8,6 +8,7 @@
 //   std::optional<ReductionWindow::Window> usable = window.usable(0.001, 0.01);
 //   double r = window.best().reduction;
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -15,10 +16,30 @@
 #include <string>
 #include <vector>
 
-#include "compare/ladder/moment_parts.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
+
+// How the change from the taps of one receiver to its filtered result is parted into causes (compare/ladder/moment_climb.h). All in
+// [0, 1].
+struct LookupChain {
+  double from = 0, texels = 0;  // the taps at the places looked up, and at the centres of their texels: D and R3
+  double bare = 0, bound = 0;   // the bound without and with bias and floors
+  // The weight of the taps that no texel covers, and of those whose truth float error can change.
+  double uncovered = 0, unsure = 0;
+};
+
+// Their sum is the change. A part is negative if it darkens. No two parts have opposite signs.
+struct LookupParts {
+  double coverage = 0, undecided = 0, aliasing = 0, to_bare = 0, to_floors = 0, reduction = 0;
+
+  double leak() const { return std::max(0.0, to_bare); }
+  double peter_panning() const { return std::max(0.0, to_floors); }
+  double over_darkening() const { return std::min(0.0, to_bare) + std::min(0.0, to_floors); }
+};
+
+// shown: the bound after light-bleed reduction.
+LookupParts parts_of(const LookupChain& chain, double shown);
 
 class ReductionWindow {
  public:
@@ -30,7 +51,7 @@ class ReductionWindow {
   struct Receiver {
     size_t pixel = 0;
     double truth = 0;
-    MomentChain chain;
+    LookupChain chain;
   };
   void add(const Receiver& receiver) { receivers_.push_back(receiver); }
   // What OpenGL shows of a receiver: R1, R0, and its own bound before light-bleed reduction (bound_of_shown).
