@@ -19,7 +19,7 @@ std::vector<Setting> lookup_rows() {
     rows.push_back(kind_row(filters(), *parameter, MEMBER(filter)));
   rows.push_back(
       named("lookup.kind", "How the lookup answers from what it reads in the map.", lookups(), MEMBER(lookup.kind))
-          .refused(moments_without_a_blur));
+          .refused(filtered_without_a_blur));
   for (const KindParameter* parameter : LookupTable::parameters()) {
     const Setting row = kind_row(lookups(), *parameter, MEMBER(lookup));
     if (parameter->name() == "level")

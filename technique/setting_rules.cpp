@@ -251,8 +251,8 @@ std::string undivided_map(const Settings& s) {
   return "";
 }
 
-// What a map of moments cannot be combined with.
-std::string moments_without_a_blur(const Settings& s, std::optional<LightKind> light) {
+// What a filtered map cannot be combined with.
+std::string filtered_without_a_blur(const Settings& s, std::optional<LightKind> light) {
   if (compares(s)) return "";
   const std::string& kind = s.lookup.kind;
   if (light && kind_of_light(*light).map_shape() == MapShape::cube)

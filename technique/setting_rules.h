@@ -93,7 +93,7 @@ std::string camera_moved_away(const Settings&, std::optional<LightKind>);
 std::string light_moved_away(const Settings&, std::optional<LightKind>);
 std::string zoomed_beyond_a_picture(const Settings&, std::optional<LightKind>);
 std::string no_direction_up(const Settings&, std::optional<LightKind>);
-std::string moments_without_a_blur(const Settings&, std::optional<LightKind>);
+std::string filtered_without_a_blur(const Settings&, std::optional<LightKind>);
 std::string moments_beyond_format(const Settings&, std::optional<LightKind>);
 std::string filter_of_another_map(const Settings&, std::optional<LightKind>);
 std::string plane_on_cube_or_blended(const Settings&, std::optional<LightKind>);

@@ -419,9 +419,10 @@ class Reader : private SettingsReader {
                        over));
     const std::vector<Settings> all = points(experiment_);
     if (std::none_of(all.begin(), all.end(), [&](const Settings& one) { return has_curve_over(one, over); }))
-      fail(*curve_over_, fmt::format("curve.over = '{}', but no point has a lookup.kind that reads it from a map of "
-                                     "moments, without cascades that blend",
-                                     over));
+      fail(*curve_over_,
+           fmt::format("curve.over = '{}', but no point has a lookup.kind that reads it from a filtered map, "
+                       "without cascades that blend",
+                       over));
   }
   // The values of curve.over, each in the range of its setting.
   void read_over_values(const toml::node& node) {
