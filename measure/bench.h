@@ -56,8 +56,7 @@ struct KeptMaps {
 // The truth of the receivers that one of several maps has a part in, and of the seam before it; the others do not face the light.
 TruthStage truth_of_map(const TruthStage& all, const MapChoice& choice, int map);
 
-// In which map each receiver is looked up, as the lookup chooses it, and how far that is off (compare/results/metrics.cpp:
-// cascade_choice_excess); 0 of one map.
+// In which map each receiver is looked up, as the lookup chooses it, and how far that is off; 0 of one map.
 struct ChoiceStage {
   MapChoice chosen;
   double excess = 0;

@@ -175,7 +175,7 @@ Extras extras_of(const ExtraInput& in, const std::optional<CurveOptions>& curve,
   if (settings.map.placements > 1) {
     PlacementRequest request{extras.counted, {}, {}, in.checks};
     if (extras.counted) request.edges = biases->edges();
-    if (reduces && in.maps.count() == 1) request.reductions = {curve->peter_panning_bound, curve->acne_bound};
+    if (reduces && in.maps.count() == 1) request.reductions = *curve;
     const PlacementsExtra* const placements = ask(std::make_unique<PlacementsExtra>(in, std::move(request)));
     if (biases) biases->placements = placements;
   }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "compare/ladder/moment_counts.h"
+
 namespace noonmark {
 namespace {
 

@@ -9,15 +9,15 @@
 // Two placements are measured by themselves too, with OpenGL: the one of the settings, and the one with the largest
 // error. The counts must agree with both (with Checks::none they are not compared).
 //
-// Shifts of a grid that is compared share one lattice of rays. The turns of a cube share no texel, and a map of moments needs
+// Shifts of a grid that is compared share one lattice of rays. The turns of a cube share no texel, and a filtered map needs
 // the depths and weights of whole blurs: there each placement is measured by itself, and S x S placements take as long as
 // S x S points without OpenGL.
 #pragma once
 #include <memory>
 #include <optional>
 
-#include "compare/ladder/moment_counts.h"
 #include "compare/ladder/placement_counts.h"
+#include "compare/ladder/reduction_window.h"
 #include "measure/stages.h"
 #include "raytrace/placement_tracer.h"
 
@@ -40,9 +40,9 @@ class PlacementStage {
   virtual PlacementShares shares() const = 0;
   // The counted receivers; of a map that others share receivers with, the sum of its shares.
   virtual double receivers() const = 0;
-  // For the bands of a curve over the bias. Null of a map of moments, which has none.
+  // For the bands of a curve over the bias. Null of a lookup that compares no depths, which has none.
   virtual const PlacementCounts* counts() const { return nullptr; }
-  // Of a map of moments, if asked for (PlacementRequest): the reductions usable at every placement.
+  // Of a filtered map, if asked for (PlacementRequest): the reductions usable at every placement.
   virtual std::optional<ReductionWindow::Window> reductions() const { return std::nullopt; }
 
   LightFrame frame(int placement) const { return placements().frame(frame_, placement); }
@@ -72,8 +72,8 @@ struct PlacementInput {
 struct PlacementRequest {
   const BiasPart* part = nullptr;  // of lookups that compare depths; it and edges as for PlacementCounts
   std::vector<float> edges;
-  std::optional<MomentCounts::ReductionBounds> reductions;  // of a map of moments
-  Checks checks = Checks::all;                              // whether add() compares the counts with its evidence
+  std::optional<CauseBounds> reductions;  // for PlacementStage::reductions()
+  Checks checks = Checks::all;            // whether add() compares the counts with its evidence
 };
 
 // The stage for the kind of light and of lookup.

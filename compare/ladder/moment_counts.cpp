@@ -8,7 +8,7 @@
 
 namespace noonmark {
 
-MomentCounts::MomentCounts(const Placements& placements, std::optional<ReductionBounds> reductions)
+MomentCounts::MomentCounts(const Placements& placements, std::optional<CauseBounds> reductions)
     : placements_(placements),
       bounds_(reductions),
       of_(static_cast<size_t>(placements.count())),
@@ -49,7 +49,8 @@ void MomentCounts::put(int placement, MomentCounts one) {
   of_[static_cast<size_t>(placement)] = one.of_[0];
   if (!bounds_ || one.receivers_ == 0) return;
   one.reductions_.sort();
-  const auto there = one.reductions_.usable(bounds_->leak, bounds_->darkening).value_or(ReductionWindow::Window{1, 0});
+  const auto there =
+      one.reductions_.usable(bounds_->peter_panning_bound, bounds_->acne_bound).value_or(ReductionWindow::Window{1, 0});
   usable_ = {std::max(usable_.low, there.low), std::min(usable_.high, there.high)};
 }
 

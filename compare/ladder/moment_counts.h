@@ -19,12 +19,8 @@ namespace noonmark {
 
 class MomentCounts {
  public:
-  // The bounds of the reductions that are usable at every placement (ReductionWindow::usable).
-  struct ReductionBounds {
-    double leak = 0, darkening = 0;
-  };
-  // reductions: empty if no window is asked for.
-  MomentCounts(const Placements& placements, std::optional<ReductionBounds> reductions);
+  // reductions: the bounds of those that are usable at every placement; empty if no window is asked for.
+  MomentCounts(const Placements& placements, std::optional<CauseBounds> reductions);
 
   // The same without anything counted; and the same for a single placement.
   MomentCounts empty_copy() const { return {placements_, bounds_}; }
@@ -64,7 +60,7 @@ class MomentCounts {
     sums
   };
   Placements placements_;
-  std::optional<ReductionBounds> bounds_;
+  std::optional<CauseBounds> bounds_;
   double receivers_ = 0;
   std::vector<std::array<double, sums>> of_;  // [placement]
   ReductionWindow reductions_;                // receivers, in the counts of a single placement
