@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
@@ -35,7 +37,6 @@ std::string_view file(std::string_view name) {
 }
 
 json point_json(glm::dvec3 p) { return {p.x, p.y, p.z}; }
-json point_json(const std::optional<glm::dvec3>& p) { return p ? point_json(*p) : json(); }
 json optional_json(std::optional<double> value) { return value ? json(*value) : json(); }
 
 // Little-endian bytes of 32-bit values, in byte planes, deflated, as base64.
@@ -59,6 +60,23 @@ std::vector<uint32_t> differences(const std::vector<glm::uvec3>& triangles) {
   return all;
 }
 
+// What the page subtracts from all places, so that its floats are as fine as the scene is small, wherever it stands: on each axis the
+// middle of the scene if all corners stay exact, as they do far from the origin; otherwise 0.
+glm::dvec3 page_origin(const Scene& scene) {
+  glm::dvec3 origin(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax_element(scene.positions.begin(), scene.positions.end(),
+                                                 [&](glm::vec3 a, glm::vec3 b) { return a[axis] < b[axis]; });
+    const float middle = low->operator[](axis) / 2 + high->operator[](axis) / 2;
+    const bool exact = std::all_of(scene.positions.begin(), scene.positions.end(), [&](glm::vec3 p) {
+      const double moved = static_cast<double>(p[axis]) - static_cast<double>(middle);
+      return static_cast<double>(static_cast<float>(moved)) == moved;
+    });
+    if (exact) origin[axis] = static_cast<double>(middle);
+  }
+  return origin;
+}
+
 // OpenGL's usual depth from -1 to 1. Near and far are moved to the scene, which cuts off no part of it.
 glm::dmat4 clip_of(const Scene& scene, CameraFrame frame) {
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
@@ -75,15 +93,15 @@ glm::dmat4 clip_of(const Scene& scene, CameraFrame frame) {
   return frame.clip_from_world();
 }
 
-json camera_json(const Scene& scene, const Settings& settings) {
+json camera_json(const Scene& scene, const Settings& settings, glm::dvec3 origin) {
   const Camera camera = effective_camera(scene, settings.view);
   const CameraFrame frame = make_camera_frame(camera, settings.view.width_px, settings.view.height_px);
-  const glm::dmat4 clip = clip_of(scene, frame);
+  const glm::dmat4 clip = glm::translate(clip_of(scene, frame), origin);
   std::vector<double> columns;
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r) columns.push_back(clip[c][r]);
   return {{"perspective", camera.projection == Projection::perspective},
-          {"eye", point_json(frame.eye_m)},
+          {"eye", point_json(frame.eye_m - origin)},
           {"right", point_json(frame.right)},
           {"up", point_json(frame.up)},
           {"forward", point_json(frame.forward)},
@@ -92,12 +110,13 @@ json camera_json(const Scene& scene, const Settings& settings) {
           {"clip", columns}};
 }
 
-json light_json(const Scene& scene, const LightSettings& light) {
+json light_json(const Scene& scene, const LightSettings& light, glm::dvec3 origin) {
   const Light own = chosen_light(scene, light).light;
-  return {{"scene_position", point_json(own.position_m)},
-          {"scene_target", point_json(own.target_m)},
-          {"position", point_json(light.position_m)},
-          {"target", point_json(light.target_m)}};
+  const auto place = [&](const std::optional<glm::dvec3>& p) { return p ? point_json(*p - origin) : json(); };
+  return {{"scene_position", place(own.position_m)},
+          {"scene_target", place(own.target_m)},
+          {"position", place(light.position_m)},
+          {"target", place(light.target_m)}};
 }
 
 // The scene's own volume is of its first light, as that is (why_not_the_scenes in technique/light_frame.cpp); the script sees
@@ -168,8 +187,14 @@ json colours_json() {
 }
 
 json page_data(const Scene& scene, const Settings& settings, std::string_view version) {
+  const glm::dvec3 origin = page_origin(scene);
   std::vector<float> positions;
-  for (const glm::vec3& p : scene.positions) positions.insert(positions.end(), {p.x, p.y, p.z});
+  float largest = 0;  // coordinate in the world, by which the program's rays err (raytrace/light_view.h)
+  for (const glm::vec3& p : scene.positions) {
+    const glm::vec3 moved(glm::dvec3(p) - origin);
+    positions.insert(positions.end(), {moved.x, moved.y, moved.z});
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(p[axis]));
+  }
   const double cap = settings.bias.plane_cap.value_or(static_cast<double>(std::numeric_limits<float>::max()));
   return {{"version", version},
           {"scene", printable(scene.name)},
@@ -178,8 +203,9 @@ json page_data(const Scene& scene, const Settings& settings, std::string_view ve
           {"defaults", state_json({})},
           {"width", settings.view.width_px},
           {"height", settings.view.height_px},
-          {"camera", camera_json(scene, settings)},
-          {"light", light_json(scene, settings.light)},
+          {"camera", camera_json(scene, settings, origin)},
+          {"light", light_json(scene, settings.light, origin)},
+          {"largest_m", largest},
           {"map", map_json(scene, settings.map, settings.light)},
           {"bias",
            {{"unit", static_cast<int>(settings.bias.unit)}, {"plane_cap", cap}, {"parts", parts_json(settings.bias)}}},

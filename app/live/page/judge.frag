@@ -10,6 +10,7 @@ uniform sampler2D place_image;  // of P: (u, v), its depth, and its triangle; -1
 uniform sampler2D offsets;      // of each tap, texels
 uniform int taps;
 uniform int lit_beyond_far;
+uniform float program_error_m;  // ray_error_m of the program, where the scene stands
 uniform vec2 first_texel_m;     // the place of the map's lower left corner
 uniform float near_depth, depth_range;  // metres: where window depth is 0, and to where it is 1
 
@@ -42,7 +43,7 @@ void main() {
   bool outside = beyond_far || !inside_map(ivec2(floor(receiver.map_texels)));
   bool ambiguous = false;
   for (int way = 0; way < 4; ++way) {
-    float error = way < 2 ? ray_error_m : -ray_error_m;
+    float error = way < 2 ? program_error_m : -program_error_m;
     ambiguous = ambiguous || is_shadowed(own, p + (way % 2 == 0 ? vec2(error, 0.0) : vec2(0.0, error))) == lit_truth;
   }
   rungs.x = 1.0 + (lit_truth ? 2.0 : 0.0) + (outside ? 4.0 : 0.0) + (ambiguous ? 8.0 : 0.0);

@@ -50,8 +50,8 @@ function placedLight(given, azimuth, elevation) {
 }
 
 // The frame of the light and its map. positions: Float32Array of the scene. map: live-data's "map". set: the state's
-// resolution and extent (null: from the scene, or fitted).
-function lightFrame(light, map, set, positions) {
+// resolution and extent (null: from the scene, or fitted). largest: live-data's "largest_m".
+function lightFrame(light, map, set, positions, largest) {
   const direction = unit(minus(light.target, light.position)).map(Math.fround), forward = unit(direction);
   const {right, up} = uprightAxes(forward, [0, 1, 0]);
   const inLight = (x, y, z, origin) => {
@@ -78,16 +78,17 @@ function lightFrame(light, map, set, positions) {
   const origin = add(light.position, add(times(map.shift[0] * texel, right), times(map.shift[1] * texel, up)));
   const middle = [0, 1, 2].map(k => (low[k] + high[k]) / 2);
   const size = length(minus(high, low));
-  let largest = 0;
-  for (let i = 0; i < positions.length; ++i) largest = Math.max(largest, Math.abs(positions[i]));
+  const rayError = farthest => Math.pow(2, -24) * (Math.sqrt(3) * farthest + 4 * size);
+  let farthest = 0;
+  for (let i = 0; i < positions.length; ++i) farthest = Math.max(farthest, Math.abs(positions[i]));
   return {
     forward, right, up, origin, position: light.position, extent, texel, resolution: set.resolution,
     near: map.near_m === null ? range.near_m : map.near_m, far: map.far_m === null ? range.far_m : map.far_m,
     fittedExtent: volume.extent_m * map.extent_scale,
     // The middle of the scene as the light sees it. The shader's places are relative to it, so that they are small.
     middle,
-    // raytrace/light_view.h: how far a ray of the program may pass beside its exact place.
-    rayError: Math.pow(2, -24) * (Math.sqrt(3) * largest + 4 * size),
+    // raytrace/light_view.h: how far a ray may pass beside its exact place, with these positions and in the program.
+    rayError: rayError(farthest), programError: rayError(largest),
     // A point of the world, relative to the middle.
     place: (x, y, z) => minus(inLight(x, y, z, light.position), middle)
   };

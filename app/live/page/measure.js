@@ -244,6 +244,7 @@ void main() { color = vec4(textureLod(depths, vec3(gl_FragCoord.xy / side, 0.0),
     set('wrap', '1i', data.map.wrap);
     set('lit_beyond_far', '1i', data.map.lit_beyond_far ? 1 : 0);
     set('ray_error_m', '1f', frame.rayError);
+    set('program_error_m', '1f', frame.programError);
     this.setPlaces(program, frame);
     const step = Math.fround(Number(data.state['filter.step_texels'])), offsets = [];
     for (let y = 0; y < side; ++y)
@@ -301,7 +302,7 @@ void main() { color = vec4(textureLod(depths, vec3(gl_FragCoord.xy / side, 0.0),
   // The answers of every pixel, the map's frame, and the metrics of compare/results/metrics.cpp.
   measure(state) {
     const numbers = checkedState(state), light = placedLight(this.data.light, numbers.azimuth, numbers.elevation);
-    const frame = lightFrame(light, this.data.map, numbers, this.mesh.positions);
+    const frame = lightFrame(light, this.data.map, numbers, this.mesh.positions, this.data.largest_m);
     if (!(frame.near < frame.far)) throw new Error('the map\'s near plane is not before its far plane');
     this.turnLight(light, frame);
     this.drawMap(frame, numbers.format);
