@@ -114,12 +114,12 @@ Light light_of(const noonmark_frame& f) {
       wrong_call("light_kind is none of NOONMARK_DIRECTIONAL, NOONMARK_SPOT and NOONMARK_POINT");
   }
   light.position_m = {f.light_position[0], f.light_position[1], f.light_position[2]};
+  for (const double part : f.light_direction) require_in_range("light.direction", part);
   if (light.kind != LightKind::point) {
-    for (const double part : f.light_direction) require_in_range("light.direction", part);
     if (!has_direction(way)) wrong_call("light_direction has no length; set it to the way the light travels");
     light.target_m = light.position_m + glm::normalize(way);
   }
-  if (light.kind == LightKind::spot) light.cone_deg = f.light_cone_deg;
+  light.cone_deg = f.light_cone_deg;
   light.angular_diameter_deg = f.light_angular_diameter_deg;
   light.radius_m = f.light_radius_m;
   return light;

@@ -102,10 +102,14 @@ void require_shape(Scene& scene, const Placement& placement) {
   const std::string there = fmt::format("scene.move_m = {},{},{} moves {} to where float coordinates are {:g} m apart",
                                         by.x, by.y, by.z, scene.name, shape.step_m);
   if (shape.triangles > 0 && (shape.lost == shape.triangles || shape.step_m >= shown_from_m))
-    throw Error(ErrorKind::usage,
-                fmt::format("{}, and its camera is {:.3g} m from what it shows: {} of its {} triangles have no area "
-                            "there; move it less far",
-                            there, shown_from_m, shape.lost, shape.triangles));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}, {}; move it less far", there,
+                    shape.lost == shape.triangles
+                        ? fmt::format("and none of its {} triangles has an area there", shape.triangles)
+                        : fmt::format("no less than the {:.3g} m from its camera to what it shows, so its picture "
+                                      "would be of the rounding alone",
+                                      shown_from_m)));
   if (!shape.in_world)
     throw Error(ErrorKind::usage, fmt::format("{}, and a coordinate is at most {:g} m; move it less far", there,
                                               ranges::coordinate_m.most));

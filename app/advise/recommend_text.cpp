@@ -448,6 +448,10 @@ std::vector<std::string> cautions(const Advice& advice) {
         fmt::format("It is fragile: a bias that is {:.0f}% less or more breaks a bound, and nothing wider was found "
                     "that costs little more.",
                     100 * fragile_below));
+  if (tried.bias && tried.bias->window.low <= 0)
+    lines.push_back(
+        "Even without a bias the acne in these views is within its bound, so they do not say how small the bias may be "
+        "where more is lit.");
   if (place.of_casters)
     lines.push_back(
         "The map holds what casts shadows, and not the ground around it. Outside of the map everything is lit: an "

@@ -6,6 +6,7 @@
 
 #include "base/build_facts.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/judge/deliveries.h"
 #include "compare/judge/laws.h"
 #include "compare/judge/poor_view.h"
@@ -39,7 +40,8 @@ Json point_of(const PointRecord& point, const RunInfo& info) {
   if (point.curve) {
     json["curve"] = {{"parameter", point.curve->parameter}};
     for (const CurveQuantity& row : curve_quantities()) {
-      const std::optional<double> value = row.value(*point.curve);
+      const auto& known = known_curve(point);
+      const std::optional<double> value = known ? row.value(*known) : std::nullopt;
       json["curve"][row.name] = value ? Json(number_json(*value)) : Json();
     }
   }

@@ -264,7 +264,8 @@ void print_ladder(const Measurement& m, const char* clock) {
     return;
   }
   print_window(m, c);
-  fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
+  if (!hides_window(m.record))
+    fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
 }
 
 struct RenderOptions {

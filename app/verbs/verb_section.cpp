@@ -21,6 +21,7 @@
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "measure/workbench.h"
+#include "scenes/library.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -126,6 +127,8 @@ int draw_section(const SectionOptions& options) {
   fmt::print("{}, pixel {},{}{}: {}\n\n", printable(m.scene.name), pixel.at.x, pixel.at.y,
              pixel.why.empty() ? "" : " (" + pixel.why + ")", report::section_title(section));
   for (const std::string& paragraph : report::section_words(section)) fmt::print("  {}\n", paragraph);
+  for (const std::string& note : {ambiguous_note(m.record), notes_line(m.scene)})
+    if (!note.empty()) fmt::print("\n  note: {}\n", printable(note));
   fmt::print("\n{} is written\n", printable(options.out));
   return 0;
 }

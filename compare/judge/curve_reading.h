@@ -71,6 +71,11 @@ std::optional<Interval> usable_window(const BiasCurve& curve);
 // Whether the point has a curve, but so many receivers are ambiguous that its usable window is not known (hides_bounds(),
 // compare/judge/undecided.h).
 bool hides_window(const PointRecord& point);
+// The point's curve, of which all numbers are known: empty without one and where it hides_window().
+inline const std::optional<BiasCurve>& known_curve(const PointRecord& point) {
+  static const std::optional<BiasCurve> none;
+  return hides_window(point) ? none : point.curve;
+}
 // The window of the point's free setting. Empty also without a curve, and where it hides_window().
 std::optional<Interval> usable_window(const PointRecord& point);
 // Whether the point has a curve, and no value of its free setting is usable.

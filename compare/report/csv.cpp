@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/judge/curve_reading.h"
 #include "compare/report/escape.h"
 #include "compare/results/metrics.h"
 #include "compare/results/quantities.h"
@@ -86,7 +87,7 @@ std::vector<Column> all_columns(const Results& results) {
                     }});
   for (const CurveQuantity& quantity : curve_quantities())
     list.push_back({quantity.name, [&quantity](const PointRecord& point, std::string& csv) {
-                      const auto& curve = point.curve;
+                      const auto& curve = known_curve(point);
                       if (const auto value = curve ? quantity.value(*curve) : std::nullopt) add_number(*value, csv);
                     }});
   for (const RecordField& field : record_fields())

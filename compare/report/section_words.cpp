@@ -36,13 +36,22 @@ std::string nearer_text(double depth_m, double than_m) {
                           : fmt::format("{} farther from the light than", length_text(depth_m - than_m));
 }
 
+// Of what the texel's depth is nearer than the receiver's, the larger part: the way on the receiver's plane to the centre, or what the
+// casters were moved.
+std::string why_nearer(const ReceiverSection& section, const SectionTap& tap) {
+  const double plane_m = tap.reference_m + glm::dot(section.gradient_m, tap.centre);
+  if (section.casters_moved && plane_m - tap.exact_m > tap.reference_m - plane_m)
+    return fmt::format("casters are moved or offset before the map is drawn, which stores the surface {} where it is",
+                       nearer_text(tap.exact_m, plane_m));
+  return "one depth stands for the whole texel";
+}
+
 std::string acne_text(const ReceiverSection& section, const SectionTap& tap) {
   return fmt::format(
       "The exact map stores in {} a depth {} the compared depth. The texel's centre is {}, and no shadow edge lies "
-      "between them: the surface shadows itself, because one depth stands for the whole texel. {} more bias would "
-      "light the tap.",
+      "between them: the surface shadows itself, because {}. {} more bias would light the tap.",
       texel_text(section, tap), nearer_text(tap.exact_m, tap.compared_m), away_text(section, tap),
-      length_text(tap.compared_m - tap.exact_m));
+      why_nearer(section, tap), length_text(tap.compared_m - tap.exact_m));
 }
 
 std::string panning_text(const ReceiverSection& section, const SectionTap& tap) {

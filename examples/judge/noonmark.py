@@ -21,7 +21,8 @@ class Frame(c.Structure):
                 ("y_down", c.c_int32), ("light_kind", c.c_int32), ("light_position", c.c_double * 3),
                 ("light_direction", c.c_double * 3), ("light_cone_deg", c.c_double),
                 ("light_angular_diameter_deg", c.c_double), ("light_radius_m", c.c_double), ("edge_pixels", c.c_double),
-                ("edge_m", c.c_double), ("contact_m", c.c_double), ("accept", c.c_char_p)]
+                ("edge_m", c.c_double), ("contact_m", c.c_double), ("accept", c.c_char_p),
+                ("normalised", c.c_int64)]
 
 
 def _library():

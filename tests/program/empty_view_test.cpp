@@ -181,14 +181,17 @@ at_most = "1"
   EXPECT_TRUE(says("held: peter_panning <= 50%; found 0% ± 14")) << output_;
   EXPECT_TRUE(says("-> 0% ± 14")) << "since the last run: " << output_;
   ASSERT_EQ(run(with_far({"check", "far.toml", "--out", "out", "--json", "--quiet"})), 1) << output_;
-  for (const char* key : {"\"found_room\": 0.14", "\"doubts\"", "peter_panning is not known"})
+  for (const char* key :
+       {"\"found_room\": 0.14", "\"doubts\"", "\"best_bias_depth\": null", "peter_panning is not known"})
     EXPECT_TRUE(says(key)) << key << ": " << output_;
   const std::string summary = text("out/summary.md");
   EXPECT_EQ(summary.find("0 … 1"), std::string::npos) << "a usable window: " << summary;
-  EXPECT_NE(summary.find("| not known | not known |"), std::string::npos) << "the window and the best bias: " << summary;
+  EXPECT_NE(summary.find("| not known | not known |"), std::string::npos)
+      << "the window and the best bias: " << summary;
 
   EXPECT_EQ(run(with_far({"render", "far.toml", "--out", "point"})), 0) << output_;
   EXPECT_TRUE(says("usable bias.constant: not known")) << output_;
+  EXPECT_FALSE(says("best bias.constant")) << output_;
   EXPECT_FALSE(says("free of acne")) << output_;
   for (const std::vector<std::string>& pixel : std::vector<std::vector<std::string>>{{}, {"--worst", "error"}}) {
     std::vector<std::string> words = with_far({"section", "far.toml", "--out", "section.svg"});

@@ -27,6 +27,20 @@ TEST_F(SectionVerb, DrawsTheWorstPixelAndSaysWhyItIsWrong) {
   EXPECT_NE(svg.find("prefers-color-scheme:dark"), std::string::npos);
 }
 
+TEST_F(SectionVerb, NamesTheOffsetOfTheCasters) {
+  const std::vector<std::string> plane = {"--set", "scene.name=plane",        "--set", "scene.theta_deg=0",
+                                          "--set", "bias.polygon_units=-1e6", "--set", "map.format=32f"};
+  ASSERT_EQ(section(plane), 0) << output_;
+  EXPECT_TRUE(says("casters are moved or offset before the map is drawn")) << output_;
+  ASSERT_EQ(section({"--set", "scene.name=plane", "--overwrite"}), 0) << output_;
+  EXPECT_TRUE(says("one depth stands for the whole texel")) << output_;
+}
+
+TEST_F(SectionVerb, SaysThatRoundingDecidesMuchOfThePicture) {
+  ASSERT_EQ(section({"--set", "scene.move_m=1e7,0,0"}), 0) << output_;
+  EXPECT_TRUE(says("note: the truth of ") && says("have no area there")) << output_;
+}
+
 TEST_F(SectionVerb, DrawsTheSameFileTwice) {
   ASSERT_EQ(section({"--pixel", "40,30"}), 0) << output_;
   const std::string once = text("section.svg");
