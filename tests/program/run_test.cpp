@@ -196,6 +196,11 @@ TEST_F(Program, RebuildsTheReportFromTheStore) {
   fs::remove(folder_ / "out/report.html");
   ASSERT_EQ(run({"report", "out"}), 0) << output_;
   EXPECT_EQ(read_file((folder_ / "out/report.html").string()), report);
+  const std::string asked = text("out/results.csv");
+  EXPECT_TRUE(says("--all writes every one")) << output_;
+  ASSERT_EQ(run({"report", "out", "--all"}), 0) << output_;
+  EXPECT_EQ(asked.find("scene.name"), std::string::npos);
+  EXPECT_NE(text("out/results.csv").find("scene.name"), std::string::npos);
   EXPECT_EQ(run({"report", "nowhere"}), 2) << output_;
 }
 

@@ -90,7 +90,7 @@ environment["PATH"] = f"{work}/bin:{environment['PATH']}:/usr/sbin:/sbin"
 
 def rows_of(folder):
     """Every column of results.csv without what two runs need not share: times, and where and when a point was measured."""
-    expect(call(["noonmark", "report", folder, "--all"], env=environment).returncode == 0, f"{folder} has a report")
+    expect(call([program, "report", folder, "--all"]).returncode == 0, f"{folder} has a report")
     with open(work / folder / "results.csv") as file:
         rows = list(csv.DictReader(file))
     return [{name: value for name, value in row.items() if not name.endswith("_ms") and not name.startswith("machine_")
