@@ -14,7 +14,7 @@ std::string uniform(const KindRead<FilterSettings>& read) { return fmt::format("
 
 }  // namespace
 
-ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique) {
+ShaderSlots choice_slots(ProgramCache& programs, const Technique& technique) {
   if (!technique.cascade) return {{"choice", "shaders/cascade/single.glsl"}};
   const std::string_view shape = technique.cascade->shape->name;
   const std::string blend = fmt::format("blend {}", shape);
@@ -72,7 +72,7 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
     slots.merge(moment_slots(programs, technique));
     slots["filter"] = "moments";
     programs.define("moments", "#include <lookup>\n#include \"shaders/filter/moments.glsl\"\n");
-    slots.merge(cascade_slots(programs, technique));
+    slots.merge(choice_slots(programs, technique));
     return slots;
   }
   const Filter& filter = *technique.filter;
@@ -90,12 +90,14 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
 
   ShaderSlots slots = receiver_slots(programs, technique.frame, technique.bias);
   slots["filter"] = "filter " + name;
-  slots.merge(cascade_slots(programs, technique));
+  slots.merge(choice_slots(programs, technique));
   programs.define(slots["filter"], text);
   return slots;
 }
 
-void set_cascade_uniforms(Program& program, const CascadePlace& cascade) {
+void set_choice_uniforms(Program& program, const Technique& technique) {
+  if (!technique.cascade) return;
+  const CascadePlace& cascade = *technique.cascade;
   program.set("last_cascade", cascade.last());
   program.set("cascade_blend", cascade.blend);
   program.set("cascade_seam", cascade.seam);

@@ -22,7 +22,7 @@ ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
 
 // <choice>, and of cascades <blend>, a text that it defines in `programs`:
 //   float weight_of_next(float place, float blend)   technique/blends/<name>.glsl at a place of technique/cascade_place.glsl
-ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique);
+ShaderSlots choice_slots(ProgramCache& programs, const Technique& technique);
 
 // The slot of the passes that make a map of moments, <lookup>: the formulas of technique.moments, as
 //   vec4 stored_texel(float depth)                   what a texel of this window depth stores
@@ -31,7 +31,8 @@ ShaderSlots cascade_slots(ProgramCache& programs, const Technique& technique);
 ShaderSlots moment_slots(ProgramCache& programs, const Technique& technique);
 void set_lookup_uniforms(Program& program, const Technique& technique);
 
-void set_cascade_uniforms(Program& program, const CascadePlace& cascade);
+// Of <choice>; a single map has none.
+void set_choice_uniforms(Program& program, const Technique& technique);
 void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings);
 
 }  // namespace noonmark::gl

@@ -156,7 +156,7 @@ MapResults Renderer::lookup_maps(const ShadowMap& map, std::span<const Technique
     r.set_pattern(program, pattern);
     set_filter_uniforms(program, *first.filter, first.settings.filter);
   }
-  if (first.cascade) set_cascade_uniforms(program, *first.cascade);
+  set_choice_uniforms(program, first);
   program.set("lit_beyond_far", first.settings.map.lit_beyond_far ? 1 : 0);
   const int width = r.position_image.width, height = r.position_image.height;
   if (time_ms) *time_ms = 0;

@@ -128,8 +128,8 @@ MapChoice Renderer::choose_maps(const Technique& technique) {
   if (!technique.cascade) return only_map;
   if (!r.position_image.texture) throw std::logic_error("load_receivers comes before choose_maps");
   Program& program =
-      r.programs.get({"shaders/screen.vert", "shaders/choose_cascade.frag"}, cascade_slots(r.programs, technique));
-  set_cascade_uniforms(program, *technique.cascade);
+      r.programs.get({"shaders/screen.vert", "shaders/choose_cascade.frag"}, choice_slots(r.programs, technique));
+  set_choice_uniforms(program, technique);
   program.set_if_used("eye_m", r.eye_m);
   glBindTextureUnit(0, r.position_image.texture.id());
   const int width = r.position_image.width, height = r.position_image.height;

@@ -12,6 +12,7 @@
 #include "compare/ladder/numbers.h"
 #include "compare/results/curve_fields.h"
 #include "compare/results/number_text.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
@@ -218,8 +219,7 @@ std::optional<Interval> usable_window(const PointRecord& point) {
 }
 
 bool has_fixed_reduction(const PointRecord& point) {
-  const std::string kind = setting_of(point, "lookup.kind");
-  return !kind.empty() && kind != "compare" && number_of(setting_of(point, "lookup.reduction_span")).value_or(0) > 0;
+  return filtered_lookup_of(point) && number_of(setting_of(point, "lookup.reduction_span")).value_or(0) > 0;
 }
 
 bool rounds_too_much(const PointRecord& point) {

@@ -166,10 +166,8 @@ bool must_have(const PointRecord& point, const SoundLimit& limit) {
   const std::string frame = setting_of(point, "given.frame");
   const bool given = !frame.empty() && frame != find_setting("given.frame").get(Settings());
   if (!metric.is(Metric::moments)) return !metric.optional() && !given;
-  const auto kind = std::find_if(lookups().begin(), lookups().end(),
-                                 [&](const LookupKind& one) { return one.name == setting_of(point, "lookup.kind"); });
-  if (kind == lookups().end() || kind->compares()) return false;
-  return std::string_view(limit.metric) != "below_comparison" || kind->bound;
+  const LookupKind* const kind = filtered_lookup_of(point);
+  return kind && (std::string_view(limit.metric) != "below_comparison" || kind->bound);
 }
 
 std::vector<Unsound> find_unsound(std::span<const PointRecord> points) {

@@ -7,6 +7,7 @@
 
 #include "compare/judge/curve_reading.h"
 #include "compare/results/number_text.h"
+#include "compare/results/point_settings.h"
 #include "compare/results/quantities.h"
 #include "technique/settings.h"
 
@@ -78,8 +79,7 @@ Techniques techniques_of(const ComparedGroup& group, const Results& results) {
 }
 
 std::vector<std::string> tuned_settings(const Choice& choice) {
-  const std::string& kind = setting_of(choice.first(), "lookup.kind");
-  if (!kind.empty() && kind != LookupTable::first) {
+  if (filtered_lookup_of(choice.first())) {
     std::vector<std::string> tuned = {"bias.constant"};
     for (const KindParameter* one : LookupTable::parameters())
       if (one->type == ValueType::real && !one->of_blur) tuned.emplace_back(one->setting);

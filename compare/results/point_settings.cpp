@@ -1,6 +1,10 @@
 #include "compare/results/point_settings.h"
 
+#include <algorithm>
 #include <string>
+
+#include "compare/results/quantities.h"
+#include "technique/lookups.h"
 
 namespace noonmark {
 
@@ -10,6 +14,13 @@ Settings settings_of(const PointRecord& point) {
     if (const auto found = point.settings.find(std::string(row.name)); found != point.settings.end())
       row.set(settings, found->second);
   return settings;
+}
+
+const LookupKind* filtered_lookup_of(const PointRecord& point) {
+  const std::string name = setting_of(point, "lookup.kind");
+  const auto kind =
+      std::find_if(lookups().begin(), lookups().end(), [&](const LookupKind& one) { return one.name == name; });
+  return kind == lookups().end() || kind->compares() ? nullptr : &*kind;
 }
 
 }  // namespace noonmark
