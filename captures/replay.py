@@ -11,9 +11,7 @@ import renderdoc as rd
 
 NULL = rd.ResourceId.Null()
 MOST_INSTANCES = 4096  # of one draw; GetPostVSData is one call for each
-WINDOW_ID = 10 ** 18  # RenderDoc numbers the textures of a window from here, anew at each opening
 STAGES = (rd.ShaderStage.Vertex, rd.ShaderStage.Pixel)
-INDEX_TYPES = {1: 'u1', 2: '<u2', 4: '<u4'}
 
 
 class Refusal(Exception):
@@ -133,17 +131,12 @@ class Capture:
         return *first, action.vertexOffset
 
     def _reads(self, state):
-        """Of OpenGL's textures a shader declares and uses only some; all others are bound by chance."""
-        found = set()
+        """Only those that its shaders use: OpenGL's others are bound by chance."""
+        found, place = set(), lambda point: (point.bindset, point.bind)
         for stage in STAGES:
-            reflection = state.GetShaderReflection(stage)
-            if not reflection:
-                continue
-            points = state.GetBindpointMapping(stage).readOnlyResources
-            bound = {(b.bindPoint.bindset, b.bindPoint.bind): b.resources for b in state.GetReadOnlyResources(stage)}
-            for resource in reflection.readOnlyResources:
-                point = points[resource.bindPoint]  # an index into the mapping, and not the place itself
-                found |= {r.resourceId for r in bound.get((point.bindset, point.bind), []) if point.used}
+            used = {place(point) for point in state.GetBindpointMapping(stage).readOnlyResources if point.used}
+            bound = [b.resources for b in state.GetReadOnlyResources(stage) if place(b.bindPoint) in used]
+            found |= {r.resourceId for resources in bound for r in resources}
         return found - {NULL}
 
     def entry(self, draw):
@@ -155,6 +148,9 @@ class Capture:
     # ---- vertices
     def _rows(self, kind, columns, *buffer):
         return rows_of(self.control.GetBufferData(*buffer), kind, columns)
+
+    def _indices(self, buffer, offset, width, count, base):
+        return self._rows(f'<u{width}', 1, buffer, offset, count * width)[:, 0].astype('i8') + base
 
     @functools.cache
     def after_vertex_shader(self, draw):
@@ -171,8 +167,8 @@ class Capture:
             rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
             index = np.arange(mesh.numIndices)
             if mesh.indexResourceId != NULL and mesh.indexByteStride:
-                index = self._rows(INDEX_TYPES[mesh.indexByteStride], 1, mesh.indexResourceId, mesh.indexByteOffset,
-                                   mesh.numIndices * mesh.indexByteStride)[:, 0].astype('i8') + mesh.baseVertex
+                index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.numIndices,
+                                      mesh.baseVertex)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
         if not found:
             return None
@@ -204,8 +200,8 @@ class Capture:
         index = np.arange(draw.count) + action.vertexOffset
         if action.flags & rd.ActionFlags.Indexed:
             ib = state.GetIBuffer()
-            index = self._rows(INDEX_TYPES[ib.byteStride], 1, ib.resourceId, ib.byteOffset + action.indexOffset * ib.byteStride,
-                               draw.count * ib.byteStride)[:, 0].astype('i8') + action.baseVertex
+            index = self._indices(ib.resourceId, ib.byteOffset + action.indexOffset * ib.byteStride, ib.byteStride,
+                                  draw.count, action.baseVertex)
         for attribute in state.GetVertexInputs():
             form = attribute.format
             if (attribute.vertexBuffer >= len(buffers) or attribute.perInstance or form.compType != rd.CompType.Float
@@ -217,10 +213,8 @@ class Capture:
             n = (len(raw) - width) // stride + 1
             if n <= 0 or index.max() >= n or index.min() < 0:
                 continue
-            rows = np.ndarray((n, form.compCount), {4: '<f4', 2: '<f2'}[form.compByteWidth], raw, strides=(stride, form.compByteWidth))
-            place = np.zeros((len(index), 3))
-            place[:, :min(3, form.compCount)] = rows[index, :3]
-            found.append(place)
+            rows = np.ndarray((n, min(3, form.compCount)), f'<f{form.compByteWidth}', raw, strides=(stride, form.compByteWidth))
+            found.append(np.pad(rows[index].astype('f8'), ((0, 0), (0, 3 - rows.shape[1]))))
         return found
 
     # ---- constants
@@ -243,11 +237,8 @@ class Capture:
 
     # ---- textures
     def same(self, texture, other):
-        """The texture of this opening that `texture` is in the opening `other`."""
-        if texture in self.textures:
-            return texture
-        window = lambda c: sorted((r for r in c.textures if int(r) >= WINDOW_ID), key=int)
-        return window(self)[window(other).index(texture)]
+        """The texture of this opening that `texture` is in the opening `other`: those of a window are numbered anew, in their order."""
+        return sorted(self.textures, key=int)[sorted(other.textures, key=int).index(texture)]
 
     def image(self, target, event):
         """float32 height x width x channels of (texture, slice, mip) after the event; of sample 0."""
@@ -288,12 +279,8 @@ def unorm(at, bits):
 
 
 def small_float(at, mantissa):
-    """Without a sign, with five bits of exponent."""
-    def value(v):
-        exponent, rest = v >> at + mantissa & 31, v >> at & 2 ** mantissa - 1
-        return np.where(exponent == 0, rest * 2.0 ** (-14 - mantissa),
-                        (1 + rest / 2.0 ** mantissa) * 2.0 ** (exponent.astype('f8') - 15))
-    return value
+    """A half float without its sign and its last bits."""
+    return lambda v: ((v >> at & 2 ** (5 + mantissa) - 1) << 10 - mantissa).astype('<u2').view('<f2')
 
 
 def float_or_unorm(v):

@@ -1,4 +1,5 @@
 """The casters and receivers of the frame as triangles in the camera's axes, written as a GLB: one node a draw."""
+import collections
 import dataclasses
 import itertools
 import json
@@ -174,39 +175,38 @@ def png(alpha):
 
 def write_glb(path, parts, capture):
     """One node a draw, named as the debugger numbers it."""
-    blob = bytearray()
-    gltf = {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(parts)))}], 'nodes': [], 'meshes': [],
-            'materials': [], 'accessors': [], 'bufferViews': [], 'images': [], 'textures': []}
+    blob, gltf = bytearray(), collections.defaultdict(list)
 
-    def add(kind, item):
+    def add(kind, **item):
         gltf[kind].append(item)
         return len(gltf[kind]) - 1
 
     def view(data):
-        number = add('bufferViews', {'buffer': 0, 'byteOffset': len(blob), 'byteLength': len(data)})
+        number = add('bufferViews', buffer=0, byteOffset=len(blob), byteLength=len(data))
         blob.extend(data + b'\0' * (-len(data) % 4))
         return number
 
     def accessor(rows):
         rows = np.ascontiguousarray(rows.reshape(-1, rows.shape[-1]), '<f4')
-        return add('accessors', {'bufferView': view(rows.tobytes()), 'componentType': 5126, 'count': len(rows),
-                                 'type': f'VEC{rows.shape[1]}', 'min': rows.min(0).tolist(), 'max': rows.max(0).tolist()})
+        return add('accessors', bufferView=view(rows.tobytes()), componentType=5126, count=len(rows),
+                   type=f'VEC{rows.shape[1]}', min=rows.min(0).tolist(), max=rows.max(0).tolist())
 
-    materials = {None: add('materials', {'doubleSided': True})}
+    materials = {None: add('materials', doubleSided=True)}
     for part in sorted(parts, key=lambda p: p.draw.event):
         attributes = {'POSITION': accessor(part.triangles)}
         if part.mask:
             attributes['TEXCOORD_0'] = accessor(part.coordinates)
         if part.mask not in materials:
             texture, channel, cut = part.mask
-            image = add('images', {'bufferView': view(png(mask_image(texture, part.draw, capture)[..., channel])), 'mimeType': 'image/png'})
-            materials[part.mask] = add('materials', {
-                'doubleSided': True, 'alphaMode': 'MASK', 'alphaCutoff': cut,
-                'pbrMetallicRoughness': {'baseColorTexture': {'index': add('textures', {'source': image})}}})
-        mesh = add('meshes', {'name': part.name, 'primitives': [{'attributes': attributes, 'material': materials[part.mask]}]})
-        add('nodes', {'mesh': mesh, 'name': part.name})
-    gltf['buffers'] = [{'byteLength': len(blob)}]
-    text = json.dumps({k: v for k, v in gltf.items() if v != []}).encode()
+            alpha = mask_image(texture, part.draw, capture)[..., channel]
+            image = add('images', bufferView=view(png(alpha)), mimeType='image/png')
+            base = {'baseColorTexture': {'index': add('textures', source=image)}}
+            materials[part.mask] = add('materials', doubleSided=True, alphaMode='MASK', alphaCutoff=cut, pbrMetallicRoughness=base)
+        mesh = add('meshes', name=part.name, primitives=[{'attributes': attributes, 'material': materials[part.mask]}])
+        add('nodes', mesh=mesh, name=part.name)
+    gltf |= {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(parts)))}],
+             'buffers': [{'byteLength': len(blob)}]}
+    text = json.dumps(gltf).encode()
     text += b' ' * (-len(text) % 4)
     with open(path, 'wb') as f:
         f.write(struct.pack('<4sII', b'glTF', 2, 28 + len(text) + len(blob)))

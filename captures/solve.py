@@ -120,14 +120,13 @@ def robust_line(t, y, rounds=6):
 def field_of(g, orthographic):
     """(fx, fy, cx, cy) of the camera that draws an object by clip = g object, if the object's axes stay at right angles; else None."""
     x, y, along = g[0, :3], g[1, :3], g[2 if orthographic else 3, :3]
-    s = np.linalg.norm(along)
-    if s == 0:
+    if not along.any():
         return None
-    cx, cy = (0, 0) if orthographic else (x @ along / s ** 2, y @ along / s ** 2)
-    hx, hy = x - cx * along, y - cy * along
-    lx, ly = np.linalg.norm(hx), np.linalg.norm(hy)
-    skew = max(abs(hx @ hy) / (lx * ly), abs(hx @ along) / (lx * s), abs(hy @ along) / (ly * s))
-    return (lx / s, ly / s, cx, cy) if skew < 1e-3 else None
+    cx, cy = (0, 0) if orthographic else (x @ along / (along @ along), y @ along / (along @ along))
+    axes = np.array([x - cx * along, y - cy * along, along])
+    length = np.linalg.norm(axes, axis=1)
+    is_right = np.abs(axes @ axes.T - np.diag(length ** 2)).max() < 1e-3 * length.min() * length.max()
+    return (length[0] / length[2], length[1] / length[2], cx, cy) if is_right else None
 
 
 def camera_of(drawn, capture):
