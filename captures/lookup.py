@@ -15,6 +15,7 @@ MOST_RECEIVERS = 40000  # for the fit; evenly over the picture
 FEWEST_RECEIVERS = 100
 AT_TEXEL = 4  # texels along the light: a place that lies nearer to what its texel holds is in the map; a slope does less within a texel
 SLOPES = (0.25, 0.5, 1, 2)  # of the constant, for each tangent of the angle to the light
+OFFSETS = np.arange(0.5, 4.1, 0.5)  # texels along the normal, that are tried; from the best of them in steps of a half and a quarter of that
 
 
 # ---- the receivers
@@ -54,12 +55,14 @@ class Lookup:
     constant: float  # window depth
     between: tuple  # constants that give the same visibility
     tan: float  # window depth per tangent of the angle to the light
+    offset: float  # texels along the normal
     misses: float  # mean difference from the frame's visibility
     wrong: float  # share of the receivers where it differs by more than a half: an unknown filter differs by less
 
     @property
     def technique(self):
-        return FILTERS[self.filter] | {'bias.constant': f'{self.constant:.4g}', 'bias.tan': f'{self.tan:.4g}'}
+        return FILTERS[self.filter] | {'bias.constant': f'{self.constant:.4g}', 'bias.tan': f'{self.tan:.4g}',
+                                       'bias.normal_offset': f'{self.offset:.4g}'}
 
 
 class Taps:
@@ -116,10 +119,11 @@ def explain(m, place, normal, visibility, given_filter=None, given_bias=None):
     if use.sum() < FEWEST_RECEIVERS:
         return None
     tangent, goal = (np.sqrt(1 - cosine ** 2) / cosine)[use], visibility[use]
+    step = m.texel(place)[:, None] * normal
 
-    def tried(name, tan=0.0):
+    def tried(name, tan=0.0, offset=0.0):
         """The best constant of a filter, with its interval."""
-        beyond, weights = (a[:, use] for a in taps.read(name))
+        beyond, weights = (a[:, use] for a in Taps(m, place + offset * step).read(name))
         beyond = beyond - tan * tangent
         constant, between = given_bias, (given_bias, given_bias)
         if given_bias is None:
@@ -131,16 +135,23 @@ def explain(m, place, normal, visibility, given_filter=None, given_bias=None):
             constant = 0.0 if low <= ROUNDING and high >= -ROUNDING else (low + min(high, 1.5 * low)) / 2 if low > 0 else constants[best]
             between = float(low), float(high)
         off = np.abs(((beyond <= constant) * weights).sum(0) - goal)
-        return Lookup(name, float(constant), between, tan, off.mean(), (off > 0.5).mean())
+        return Lookup(name, float(constant), between, tan, float(offset), off.mean(), (off > 0.5).mean())
 
     better = lambda old, new, share: new if new.misses < share * old.misses - max(1e-4, 2 / len(goal)) else old
     is_filtered = ((goal > 0.02) & (goal < 0.98)).mean() > 1e-3
     found = tried(given_filter or 'none')
     for name in FILTERS if is_filtered and not given_filter else ():
         found = better(found, tried(name), 0.8)
-    for share in SLOPES if given_bias is None and found.constant else ():  # does the bias grow with the slope?
-        sloped = tried(found.filter, share * abs(found.constant))
-        found = better(found, sloped, 0.7) if sloped.constant >= 0 else found
+    if given_bias is not None or not found.constant:
+        return found
+    # Does the bias grow with the slope, or is the place moved along the normal?
+    tries = [tried(found.filter, tan=share * abs(found.constant)) for share in SLOPES]
+    moved = [tried(found.filter, offset=offset) for offset in OFFSETS]
+    for width in OFFSETS[0] / np.array([2, 4]):
+        best = min(moved, key=lambda one: one.misses).offset
+        moved += [tried(found.filter, offset=best + way) for way in (-width, width)]
+    for one in sorted(tries + moved, key=lambda one: one.misses)[::-1]:
+        found = better(found, one, 0.7) if one.constant >= 0 else found
     return found
 
 
