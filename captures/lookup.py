@@ -15,7 +15,7 @@ MOST_RECEIVERS = 40000  # for the fit; evenly over the picture
 FEWEST_RECEIVERS = 100
 AT_TEXEL = 4  # texels along the light: a place that lies nearer to what its texel holds is in the map; a slope does less within a texel
 SLOPES = (0.25, 0.5, 1, 2)  # of the constant, for each tangent of the angle to the light
-OFFSETS = np.arange(0.5, 4.1, 0.5)  # texels along the normal, that are tried; from the best of them in steps of a half and a quarter of that
+OFFSETS = np.arange(0.5, 4.1, 0.5)  # texels along the normal; around the best of them finer steps are tried
 
 
 # ---- the receivers

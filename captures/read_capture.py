@@ -174,7 +174,8 @@ class Reader:
         low, high = found.between
         said = (f'filter {found.filter}, bias {found.constant:.4g} of window depth (from {low:.3g} to {high:.3g} alike)'
                 + (f' and {found.tan:.3g} tan' if found.tan else '')
-                + (f' and {found.offset:.3g} texels along the normal' if found.offset else '') + f', which leaves {100 * found.misses:.2f}% unexplained')
+                + (f' and {found.offset:.3g} texels along the normal' if found.offset else '')
+                + f', which leaves {100 * found.misses:.2f}% unexplained')
         if found.wrong > UNEXPLAINED:
             said += f', AND {100 * found.wrong:.2f}% ARE WRONG: they do not follow from the map at their own places'
         return said + ('; A BIAS BELOW 0: its sign is wrong, or another value is compared; judged by place' if found.constant < 0 else '')

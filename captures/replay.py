@@ -213,7 +213,8 @@ class Capture:
             n = (len(raw) - width) // stride + 1
             if n <= 0 or index.max() >= n or index.min() < 0:
                 continue
-            rows = np.ndarray((n, min(3, form.compCount)), f'<f{form.compByteWidth}', raw, strides=(stride, form.compByteWidth))
+            rows = np.ndarray((n, min(3, form.compCount)), f'<f{form.compByteWidth}', raw,
+                              strides=(stride, form.compByteWidth))
             found.append(np.pad(rows[index].astype('f8'), ((0, 0), (0, 3 - rows.shape[1]))))
         return found
 
@@ -237,7 +238,7 @@ class Capture:
 
     # ---- textures
     def same(self, texture, other):
-        """The texture of this opening that `texture` is in the opening `other`: those of a window are numbered anew, in their order."""
+        """The texture of this opening that `texture` is in `other`: a window's are numbered anew, in their order."""
         return sorted(self.textures, key=int)[sorted(other.textures, key=int).index(texture)]
 
     def image(self, target, event):

@@ -201,7 +201,8 @@ def write_glb(path, parts, capture):
             alpha = mask_image(texture, part.draw, capture)[..., channel]
             image = add('images', bufferView=view(png(alpha)), mimeType='image/png')
             base = {'baseColorTexture': {'index': add('textures', source=image)}}
-            materials[part.mask] = add('materials', doubleSided=True, alphaMode='MASK', alphaCutoff=cut, pbrMetallicRoughness=base)
+            materials[part.mask] = add('materials', doubleSided=True, alphaMode='MASK', alphaCutoff=cut,
+                                       pbrMetallicRoughness=base)
         mesh = add('meshes', name=part.name, primitives=[{'attributes': attributes, 'material': materials[part.mask]}])
         add('nodes', mesh=mesh, name=part.name)
     gltf |= {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(parts)))}],
