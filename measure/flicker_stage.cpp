@@ -134,12 +134,14 @@ FlickerPoints counted_points(const FlickerInput& in, const NextFrame& next, cons
       }
       if (!seen->seen[i] || seen->ambiguous[i]) {
         ++points.hidden;
+        points.ambiguous += seen->ambiguous[i];
         continue;
       }
       pixels[i] = pixel;
     }
     if (!after.facing[i] || after.ambiguous[i]) {
       ++points.unlit;
+      points.ambiguous += after.facing[i] && after.ambiguous[i];
       continue;
     }
     ++points.shared;

@@ -69,8 +69,9 @@ struct Experiment {
   PhaseRequest phase;
   std::vector<FrameRequest> frames;     // then each is a point, given.frame is swept, and nothing else is measured
   std::optional<bool> times;            // the key `times`; empty: as time_asked_for() says
-  std::string pictures = "first";       // which points get pictures: first | all | none | worst | extremes | answers
-  bool exr = false;                     // their numbers as OpenEXR files; points with a broken bound have them anyway
+  std::string pictures = "first";       // which points get pictures: a word of the key `pictures`
+  bool pictures_given = false;          // the file has the key; without it check takes "broken"
+  bool exr = false;                     // their numbers as OpenEXR files
   std::vector<std::string> overridden;  // settings given by apply_override, in order
   std::vector<std::string> chosen;      // parts given by choose_parts
   std::string part;                     // its name, if it is a part of another experiment

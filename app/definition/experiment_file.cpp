@@ -46,9 +46,10 @@ class Reader : private SettingsReader {
         experiment_.part = string(*item.node, "name");
       else if (!in_part_ && item.key == "title")
         experiment_.title = string(*item.node, "title");
-      else if (!in_part_ && item.key == "pictures")
+      else if (!in_part_ && item.key == "pictures") {
+        experiment_.pictures_given = true;
         experiment_.pictures = one_of(*item.node, "pictures", key_choices("root", "pictures"));
-      else if (!in_part_ && item.key == "exr")
+      } else if (!in_part_ && item.key == "exr")
         experiment_.exr = boolean(*item.node, "exr");
       else if (!in_part_ && item.key == "times")
         times_ = item.node;
@@ -554,11 +555,10 @@ Experiment load_experiment(const std::string& path, const std::vector<std::strin
                             shell_quoted(path)));
   for (const BuiltinScene& scene : builtin_scenes())
     if (path == scene.name && !std::filesystem::exists(path))
-      throw Error(
-          ErrorKind::usage,
-          fmt::format("{0} is a built-in scene, not an experiment; noonmark render --set scene.name={0} renders "
-                      "it, and noonmark map {0} and noonmark recommend {0} take its name",
-                      path));
+      throw Error(ErrorKind::usage,
+                  fmt::format("{0} is a built-in scene, not an experiment; noonmark render, section, live, map and "
+                              "recommend take its name",
+                              path));
   std::string text;
   try {
     text = read_file(path, max_experiment_bytes);

@@ -44,12 +44,10 @@ const std::vector<ExperimentKey>& root_keys() {
       {"law", Kind::tables, "What one number must be, given others; check judges it."},
       of_part("name", Kind::text, "The part's name; different for every part."),
       of_file("title", Kind::text, "The heading of the report."),
-      of_file("pictures", Kind::choice, "Which points get pictures; default: first.",
-              {"first", "all", "none", "worst", "extremes", "answers"}),
-      of_file(
-          "exr", Kind::flag,
-          "Whether points with pictures also have their numbers as OpenEXR files; default: false. Those with a broken "
-          "bound have."),
+      of_file("pictures", Kind::choice, "Which points get pictures; default: first, and broken where check measures.",
+              {"first", "all", "none", "broken", "worst", "extremes", "answers"}),
+      of_file("exr", Kind::flag,
+              "Whether points with pictures also have their numbers as OpenEXR files; default: false."),
       of_file("times", Kind::flag,
               "Whether map and lookup are timed; default: where a metric that is named is a time."),
       of_file("plot", Kind::table, "Which metrics stand at the top of the report's list."),

@@ -83,8 +83,8 @@ void PromiseReader::condition(const std::string& name, const toml::node& value) 
   const Setting& row = find_setting(name);
   if (where_->contains(name)) fail(value, fmt::format("where names {} twice", name));
   // A list is a list of values, except for settings that are points or lists, where a list of numbers is one value.
-  const bool many = value.is_array() && !(row.is_of_numbers() && !value.as_array()->empty() &&
-                                          value.as_array()->front().is_number());
+  const bool many =
+      value.is_array() && !(row.is_of_numbers() && !value.as_array()->empty() && value.as_array()->front().is_number());
   const std::vector<const toml::node*> nodes = many ? list(value, name) : std::vector<const toml::node*>{&value};
   for (const toml::node* node : nodes) {
     const std::string text = canonical(row, *node);
@@ -156,6 +156,7 @@ void PromiseReader::read_law(const toml::table& table) {
     if (other.name == law.name) fail(table, fmt::format("two laws have the name '{}'", law.name));
   if (!law.over.empty() && values_of(find_setting(law.over)).size() < 2)
     fail(table, fmt::format("a slope over {}, which has only one value; sweep it", law.over));
+  law.location = location_text(table.source());
   experiment_.laws.push_back(std::move(law));
 }
 

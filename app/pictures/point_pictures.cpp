@@ -97,8 +97,9 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
     // The report opens with this light.
     if (const PointRecord* light = report::largest_light(results)) add(light->id);
   };
-  if (pictures == "first") {
-    ids = {points.front().id};
+  if (pictures == "broken" && std::none_of(results.bounds.begin(), results.bounds.end(), breaks)) return ids;
+  if (pictures == "first" || pictures == "broken") {
+    if (pictures == "first") ids = {points.front().id};
     add_spoken_of();
     return ids;
   }

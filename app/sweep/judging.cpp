@@ -1,6 +1,7 @@
 #include "app/sweep/judging.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <span>
@@ -24,6 +25,19 @@ namespace noonmark {
 
 namespace {
 
+// Of a law that no point matches: where its file gives it, and which --set took its points away.
+std::string no_point_words(const Experiment& part, const std::string& name) {
+  const auto law = std::find_if(part.laws.begin(), part.laws.end(), [&](const Law& one) { return one.name == name; });
+  std::string text = fmt::format("no point is left that {} speaks of", printable(law->name));
+  if (!law->location.empty()) text += fmt::format(" ({})", law->location);
+  for (const auto& [setting, values] : law->where)
+    if (const auto given = part.locations.find(setting);
+        given != part.locations.end() && given->second.starts_with("--set"))
+      text += fmt::format("; it is about {} = {}, and {} leaves none of them", setting, fmt::join(values, " | "),
+                          given->second);
+  return text;
+}
+
 void judge_parts(const Experiment& experiment, Results& results) {
   const auto reproduce = [&](const PointRecord& point) { return reproduce_command(experiment, point); };
   const auto judge_part = [&](const Experiment& part, std::span<const PointRecord> points) {
@@ -38,6 +52,7 @@ void judge_parts(const Experiment& experiment, Results& results) {
     }
     for (LawResult& law : evaluate_laws(points, part.laws, reproduce)) {
       law.part = part.part;
+      if (law.samples.empty()) law.found = no_point_words(part, law.name);
       results.laws.push_back(std::move(law));
     }
   };

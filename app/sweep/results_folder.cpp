@@ -114,7 +114,7 @@ void ResultsFolder::remove_earlier_results() const {
   for (const auto& entry : fs::directory_iterator(path_ + "/images", none)) {
     const std::string name = entry.path().filename().string();
     if (name.size() > 5 && name[0] == 'p' && std::isdigit(static_cast<unsigned char>(name[1])) &&
-        (name.ends_with(".png") || name.ends_with(".exr")))
+        (name.ends_with(".png") || name.ends_with(".exr") || name.ends_with("-live.bin") || name.ends_with(".svg")))
       fs::remove(entry.path(), none);
   }
 }

@@ -8,6 +8,7 @@
 #include "compare/judge/bounds.h"
 #include "compare/judge/deliveries.h"
 #include "compare/judge/laws.h"
+#include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
 #include "compare/results/quantities.h"
 #include "technique/setting_json.h"
@@ -58,7 +59,7 @@ Json point_of(const PointRecord& point, const RunInfo& info) {
   return json;
 }
 
-Json bound_of(const BoundResult& bound) {
+Json bound_of(const BoundResult& bound, std::span<const PointRecord> points) {
   Json json = {{"metric", bound.metric}};
   if (!bound.part.empty()) json["part"] = bound.part;
   if (bound.max) json["max"] = *bound.max;
@@ -68,6 +69,7 @@ Json bound_of(const BoundResult& bound) {
   if (!bound.where.empty()) json["where"] = bound.where;
   json["verdict"] = bound.held ? "held" : bound.warns ? "warning" : "broken";
   json["found"] = bound.points == 0 ? Json() : Json(number_json(bound.found));
+  if (const double room = room_of(bound, points); room > 0) json["found_room"] = number_json(room);
   if (bound.before) json["found_before"] = number_json(*bound.before);
   json["points"] = bound.points;
   json["worst_point"] = bound.point < 0 ? Json() : Json(bound.point);
@@ -141,8 +143,10 @@ Json results_json(const SweepOutcome& outcome, const JsonRun& run) {
   json["conditions"] = info.over;
   json["warnings"] = info.sweep_notes;
   json["notes"] = info.scene_notes;
+  json["doubts"] = Json::array();
+  for (std::string& doubt : doubts_of(results.points)) json["doubts"].push_back(std::move(doubt));
   for (const char* list : {"bounds", "laws"}) json[list] = Json::array();
-  for (const BoundResult& bound : results.bounds) json["bounds"].push_back(bound_of(bound));
+  for (const BoundResult& bound : results.bounds) json["bounds"].push_back(bound_of(bound, results.points));
   for (const LawResult& law : results.laws) json["laws"].push_back(law_of(law));
   if (const auto& baseline = results.baseline)
     json["baseline"] = {{"held", baseline->held()}, {"compared", baseline->compared}, {"changed", baseline->changed},

@@ -14,9 +14,9 @@ Survey::Survey(Workbench& bench, const Experiment& experiment, const std::vector
     const auto i = static_cast<size_t>(id);
     scenes.remember(bench, points[i]);
     const Experiment& part = part_of_point(experiment, id);
-    // A point with a broken bound has pictures too.
-    const bool pictures =
-        writes_pictures(experiment) && (experiment.pictures != "first" || id == 0 || !part.bounds.empty());
+    // Where bounds can break, any point can get pictures.
+    const bool by_itself = experiment.pictures != "broken" && (experiment.pictures != "first" || id == 0);
+    const bool pictures = writes_pictures(experiment) && (by_itself || !part.bounds.empty());
     memory[i] = at_point(experiment, id, [&] {
       idle.add(part, points[i], effective_light(bench.scene(points[i].scene), points[i]).kind);
       return bench.memory(points[i], part.curve_enabled, pictures);

@@ -241,9 +241,7 @@ void SweepRun::tell() {
       outcome_.scenes[static_cast<size_t>(id)] = survey_.scenes.of(point);
   outcome_.results = store_->load();
   progress_->shown.end_line();
-  for (const std::string& text : {poor_view_note(outcome_.results.points), no_flicker_note(outcome_.results.points),
-                                  undecided_note(outcome_.results.points)})
-    if (!text.empty()) fmt::print(stderr, "note: {}\n", text);
+  for (const std::string& doubt : doubts_of(outcome_.results.points)) fmt::print(stderr, "note: {}\n", doubt);
 }
 
 void SweepRun::judge() {

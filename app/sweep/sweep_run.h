@@ -51,7 +51,6 @@ class SweepRun {
   bool stop_after(int64_t done) const;
   bool draw_phase_before(int64_t id);
   void measure_point(int64_t id);
-  bool wants_exr(int64_t id) const;
   PointPictures pictures_of(const Measurement& m, const PointRecord& with_curve);
   void keep_light(const Measurement& m);
   LightPart light_of(int64_t id);

@@ -46,18 +46,12 @@ std::vector<double> marks_of(const PointRecord& point) {
 
 }  // namespace
 
-// The numbers behind a picture are written where somebody asks for them, and where a bound is broken, to find out why.
-bool SweepRun::wants_exr(int64_t id) const {
-  const auto breaks_here = [&](const BoundResult& bound) { return bound.point == id && breaks(bound); };
-  return experiment_.exr || std::any_of(outcome_.results.bounds.begin(), outcome_.results.bounds.end(), breaks_here);
-}
-
 // Writes all picture files of a measured point. The measurement's images are gone afterwards.
 // with_curve: the point's record, with the curve if it has one; a measurement for its pictures alone has none.
 PointPictures SweepRun::pictures_of(const Measurement& m, const PointRecord& with_curve) {
   const int64_t id = with_curve.id;
   PointPictures kept = keep_pictures_and_sections(bench_, m, id, folder_.path(),
-                                                  wants_exr(id) ? PictureFormats::png_and_exr : PictureFormats::png);
+                                                  experiment_.exr ? PictureFormats::png_and_exr : PictureFormats::png);
   const Settings settings = m.technique.settings;
   const std::vector<double> marks = marks_of(with_curve);
   kept.images.push_back(keep_live_picture(bench_, settings, marks, id, folder_.path()));
@@ -94,7 +88,7 @@ void SweepRun::picture() {
 bool SweepRun::has_all_pictures(const PointRecord& point) {
   if (std::all_of(point.pictures.begin(), point.pictures.end(), is_lights_picture)) return false;
   const std::string why = measured_before(point.id) ? why_not_as_written(point, folder_.path()) : "";
-  if (why.empty()) return has_exr(point) || !wants_exr(point.id);
+  if (why.empty()) return has_exr(point) || !experiment_.exr;
   progress_->shown.end_line();
   fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), point.id);
   return false;

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "app/definition/default_folder.h"
 #include "app/definition/experiment_file.h"
 #include "app/verbs/option_values.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "scenes/library.h"
 
 namespace noonmark {
 
@@ -145,6 +147,21 @@ Experiment experiment_from(const std::string& path, const ExperimentArguments& a
                fit_of_cascades);
   if (const std::string note = note_on_offsets(experiment); !note.empty()) fmt::print(stderr, "note: {}\n", note);
   return experiment;
+}
+
+CLI::Option* add_scene_or_experiment(CLI::App& verb, std::string& what, const char* help) {
+  return verb.add_option("what", what, help)
+      ->check(not_empty())
+      ->type_name("SCENE|FILE.gltf|FILE.glb|FILE.vrm|FILE.toml");
+}
+
+Experiment scene_or_experiment(const std::string& what, ExperimentArguments arguments) {
+  std::error_code none;
+  const std::filesystem::path path(what);
+  const bool experiment =
+      what.empty() || path.extension() == ".toml" || (std::filesystem::exists(path, none) && !names_file(what));
+  if (!experiment) take_scene(arguments, what);
+  return experiment_from(experiment ? what : "", arguments);
 }
 
 }  // namespace noonmark

@@ -59,4 +59,9 @@ std::string folders_of(std::initializer_list<const char*> subjects,
 // The experiment with its overrides. An empty path: the default settings.
 Experiment experiment_from(const std::string& path, const ExperimentArguments& arguments);
 
+// Of verbs for one point: their argument is an experiment's file, a built-in scene, or a model's file. A scene or a model has the
+// default settings.
+CLI::Option* add_scene_or_experiment(CLI::App& verb, std::string& what, const char* help);  // not required
+Experiment scene_or_experiment(const std::string& what, ExperimentArguments arguments);
+
 }  // namespace noonmark

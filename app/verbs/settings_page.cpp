@@ -48,7 +48,8 @@ Markup settings_section() {
       end_group();
       group = std::move(its);
     }
-    rows += tr(Attribute("id", row.name), name_cell(row.name), td(code(row.get(defaults))), td(row.range_with_unit()),
+    rows += tr(Attribute("id", row.name), name_cell(row.name),
+               td(Attribute("style", "white-space: nowrap"), code(row.get(defaults))), td(row.range_with_unit()),
                td(row.help));
   }
   end_group();

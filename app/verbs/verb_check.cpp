@@ -48,6 +48,13 @@ std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& out
                                                       outcome.counts(), printable(listed.out));
 }
 
+// Where the experiment does not say which points get pictures, those that break a bound do.
+Experiment experiment_to_check(const std::string& path, const ExperimentArguments& arguments) {
+  Experiment experiment = experiment_from(path, arguments);
+  if (!experiment.pictures_given) experiment.pictures = "broken";
+  return experiment;
+}
+
 // What is printed of a checked experiment: text, or JSON.
 struct Checked {
   int exit_code = 0;
@@ -64,7 +71,7 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
     throw Error(ErrorKind::usage,
                 fmt::format("{}: is not a regular file; in a folder only regular files are checked", path));
-  const Experiment experiment = experiment_from(path, arguments);
+  const Experiment experiment = experiment_to_check(path, arguments);
   const auto promises = [](const Experiment& e) { return !e.bounds.empty() || !e.laws.empty(); };
   if (options.baseline.file.empty() && !promises(experiment) &&
       std::none_of(experiment.parts.begin(), experiment.parts.end(), promises))
@@ -105,7 +112,7 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
 
 // check --shard: measures the share of one experiment. Nothing is judged; merge does that.
 Checked measure_share(const ListedExperiment& listed, const ExperimentArguments& arguments) {
-  const Experiment experiment = experiment_from(listed.file, arguments);
+  const Experiment experiment = experiment_to_check(listed.file, arguments);
   Checked checked;
   const std::vector<int64_t> share = points_of_share(experiment, *arguments.shard);
   if (share.empty()) {
@@ -213,7 +220,7 @@ int print_plans(const ExperimentList& list, const ExperimentArguments& arguments
   for (const UnreadableFolder& one : list.unreadable) throw one.error;
   for (const ListedExperiment& listed : list.experiments) {
     fmt::print("{}:\n", printable(listed.file));
-    print_plan(experiment_from(listed.file, arguments), arguments.shard);
+    print_plan(experiment_to_check(listed.file, arguments), arguments.shard);
   }
   return 0;
 }
@@ -222,7 +229,7 @@ int print_one_config(const ExperimentList& list, const ExperimentArguments& argu
   for (const UnreadableFolder& one : list.unreadable) throw one.error;
   if (list.experiments.size() != 1)
     throw Error(ErrorKind::usage, "--print-config: the text is one file, so give one experiment");
-  fmt::print("{}", experiment_text(experiment_from(list.experiments.front().file, arguments)));
+  fmt::print("{}", experiment_text(experiment_to_check(list.experiments.front().file, arguments)));
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "app/live/live_page.h"
 #include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
+#include "app/verbs/one_point.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "base/build_facts.h"
@@ -29,32 +30,11 @@ struct LiveOptions {
 
 std::string page_of(const std::string& what) { return "live-" + fs::path(what).stem().string() + ".html"; }
 
-Settings the_point(const LiveOptions& options) {
-  if (fs::path(options.what).extension() != ".toml") {
-    ExperimentArguments arguments = options.arguments;
-    take_scene(arguments, options.what);
-    if (options.point > 0)
-      throw Error(ErrorKind::usage,
-                  fmt::format("--point {} needs an experiment; {} is a scene", options.point, options.what));
-    return points(experiment_from("", arguments)).at(0);
-  }
-  const std::vector<Settings> all = points(experiment_from(options.what, options.arguments));
-  const auto last = static_cast<long>(all.size()) - 1;
-  if (options.point < 0 && last > 0)
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("{} has {} points, but a live page begins at one; give --point 0 ... {}, or --set the swept "
-                    "settings",
-                    options.what, all.size(), last));
-  if (options.point > last)
-    throw Error(ErrorKind::usage, fmt::format("there is no point {}; the last one is {}", options.point, last));
-  return all[static_cast<size_t>(std::max(options.point, 0L))];
-}
-
 int write_page(const LiveOptions& options) {
   const std::string file = options.arguments.out.empty() ? page_of(options.what) : options.arguments.out;
   require_new_file(file, "", options.arguments.overwrite);
-  const Settings settings = live_settings(the_point(options));
+  const Settings settings =
+      live_settings(the_point(scene_or_experiment(options.what, options.arguments), options.point, "live"));
   const Scene scene = make_scene(settings.scene);
   require_live(scene, settings);
   const std::string page = live_page(scene, settings, build_facts().version);
@@ -69,12 +49,8 @@ int write_page(const LiveOptions& options) {
 
 RunVerb add_live(CLI::App& verb) {
   const auto options = std::make_shared<LiveOptions>();
-  verb.add_option("what", options->what, "A built-in scene, a model, or an experiment's TOML file")
-      ->required()
-      ->check(not_empty())
-      ->type_name("SCENE|FILE.gltf|FILE.glb|FILE.vrm|FILE.toml");
-  verb.add_option("--point", options->point, "Number of the point in the experiment's sweep, from 0")
-      ->check(whole_number(0));
+  add_scene_or_experiment(verb, options->what, "A built-in scene, a model, or an experiment's TOML file")->required();
+  add_point(verb, options->point);
   add_sets(verb, options->arguments);
   verb.add_option("--out", options->arguments.out, "The page that is written")
       ->check(not_empty())

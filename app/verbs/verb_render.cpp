@@ -270,7 +270,7 @@ int render_point(const RenderOptions& options) {
   const auto& [path, point, arguments] = options;
   const VerbOutputs outputs = outputs_of("render", path, arguments.out);
   OutputFolder folder(outputs);
-  const Experiment experiment = experiment_from(path, arguments);
+  const Experiment experiment = scene_or_experiment(path, arguments);
   const Settings settings = the_point(experiment, point, "render");
   const std::string& out = outputs.folder;
   folder.make();
@@ -302,7 +302,8 @@ int render_point(const RenderOptions& options) {
 RunVerb add_render(CLI::App& verb) {
   const auto options = std::make_shared<RenderOptions>();
   ExperimentArguments& arguments = options->arguments;
-  add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
+  add_scene_or_experiment(verb, options->experiment,
+                          "A built-in scene, a model, or an experiment's TOML file; without one, the default settings");
   add_point(verb, options->point);
   add_sets(verb, arguments);
   add_parts(verb, arguments);

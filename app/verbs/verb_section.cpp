@@ -104,7 +104,7 @@ int draw_section(const SectionOptions& options) {
     throw Error(ErrorKind::usage, "--pixel and --worst both choose the pixel; give one of them");
   if (!options.pixel.empty()) (void)pixel_from(options.pixel);
   require_new_file(options.out, ".svg", options.arguments.overwrite);
-  const Experiment experiment = experiment_from(options.experiment, options.arguments);
+  const Experiment experiment = scene_or_experiment(options.experiment, options.arguments);
   const Settings settings = the_point(experiment, options.point, "section");
   require_compared(settings, "a section");
   if (!options.worst.empty()) (void)find_quantity(options.worst);
@@ -133,7 +133,8 @@ int draw_section(const SectionOptions& options) {
 RunVerb add_section(CLI::App& verb) {
   const auto options = std::make_shared<SectionOptions>();
   ExperimentArguments& arguments = options->arguments;
-  add_experiment(verb, options->experiment, "The experiment's TOML file; without one, the default settings");
+  add_scene_or_experiment(verb, options->experiment,
+                          "A built-in scene, a model, or an experiment's TOML file; without one, the default settings");
   add_point(verb, options->point);
   verb.add_option("--pixel", options->pixel,
                   "The pixel: column and row from 0,0 at the top left. Without it and without --worst, one in the "

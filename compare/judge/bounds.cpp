@@ -389,13 +389,18 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
     return doubt.empty() ? text : text + fmt::format("  {}\n", doubt);
   }
 
-  if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
+  if (point && !std::isfinite(bound.found) && ambiguous_room(*point, bound.metric) > 0)
+    text += "  not known to hold: the receivers whose truth is ambiguous could break it\n";
+  else if (!std::isfinite(bound.found))
+    text += "  a value that could not be measured breaks every bound\n";
   if (point && !point->metrics.contains(bound.metric) && is_of_moments(bound.metric))
     text += fmt::format(
         "  {} is measured only of a lookup in a map of moments; give those lookups a [[part]] and the bound as "
         "[[part.bound]]\n",
         bound.metric);
-  if (const std::string poor = point ? why_poor_view(*point) : ""; !poor.empty()) text += fmt::format("  {}\n", poor);
+  if (const std::string poor = point ? why_poor_view(*point) : "";
+      !poor.empty() && poor != ambiguous_note(*point))  // a note of the whole run says that once
+    text += fmt::format("  {}\n", poor);
   if (const std::string why =
           point && std::isnan(bound.found) && bound.metric.starts_with("flicker") ? why_no_flicker(*point) : "";
       !why.empty())

@@ -62,11 +62,13 @@ std::string law_table(std::span<const LawResult> laws) {
     const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
     text += fmt::format("{:<{}}  {:>7}  {:>12}  {:>10}  {:>16}  {}\n", printable(law.name), width, law.samples.size(),
                         predicted_text(law), worst ? short_number(worst->measured) : "-", ratio_text(law),
-                        law.held ? "holds" : "BROKEN");
+                        law.held ? "holds"
+                        : worst  ? "BROKEN"
+                                 : "NO POINT");
     if (law.held) continue;
     text += fmt::format("    {}\n", printable(law_text(law)));
     if (!worst)
-      text += "    no finished point matches it; change its where, or the swept values\n";
+      text += "    no point is left that it speaks of; change its where, or the swept values\n";
     else
       text += std::isnan(worst->measured - worst->predicted)
                   ? fmt::format("    point {}: a value that could not be measured breaks every law\n", worst->point)

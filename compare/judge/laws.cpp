@@ -1,6 +1,7 @@
 #include "compare/judge/laws.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -329,6 +330,11 @@ std::vector<LawResult> evaluate_laws(std::span<const PointRecord> points, std::s
       result.predicted += fmt::format("{} {} = {}", separator, name, texts.front());
       separator = ",";
     }
+    separator = " where";
+    for (const auto& [name, texts] : law.where) {
+      result.predicted += fmt::format("{} {} = {}", separator, name, fmt::join(texts, " | "));
+      separator = " and";
+    }
     result.relation = law.relation;
     if (law.within > 0) result.tolerance = fmt::format("within {:g}%", 100 * law.within);
     if (!law.slack.empty())
@@ -350,6 +356,12 @@ std::vector<LawResult> evaluate_laws(std::span<const PointRecord> points, std::s
         result.reproduce = reproduce(*point);
         const PointRecord* other = law.against.empty() ? &*point : partner(*point, law.against, points);
         if (other) result.found = reader.found(*point, *other);
+        for (const std::string& name : reader.names())
+          if (!result.held && ambiguous_room(*point, name) > 0) {
+            result.found = fmt::format("{} is not known, because the truth of {} of the receivers is ambiguous", name,
+                                       share_text(metric_of(*point, "ambiguous")));
+            break;
+          }
       }
     }
     results.push_back(std::move(result));

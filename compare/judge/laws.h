@@ -41,6 +41,7 @@ struct Law {
   Conditions where;    // which points are measured; empty: all
   Conditions against;  // if given, `predicted` is evaluated at another point: the one that differs from the measured
                        // point only in the settings named here, which have the given values there
+  std::string location{};  // where the experiment gives it: "file:line:column"; empty: not known
   std::vector<std::pair<std::string, std::string>> let;  // definitions, in order; each may use the ones before
 };
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "compare/judge/no_flicker.h"
 #include "compare/judge/undecided.h"
 #include "compare/results/quantities.h"
 
@@ -108,6 +109,12 @@ std::string poor_view_note(std::span<const PointRecord> points) {
   return count == 1 ? fmt::format("point {}: {}", first->id, why)
                     : fmt::format("the picture is poor at {} of {} points; at point {}, {}", count, points.size(),
                                   first->id, why);
+}
+
+std::vector<std::string> doubts_of(std::span<const PointRecord> points) {
+  std::vector<std::string> doubts = {poor_view_note(points), no_flicker_note(points), undecided_note(points)};
+  std::erase(doubts, "");
+  return doubts;
 }
 
 }  // namespace noonmark

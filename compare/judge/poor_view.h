@@ -3,6 +3,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <vector>
 
 #include "compare/results/records.h"
 
@@ -18,5 +19,8 @@ std::string why_poor_view(const PointRecord& point);
 
 // The same for several points: how many are poor, and the text of the first. Empty if there is none.
 std::string poor_view_note(std::span<const PointRecord> points);
+
+// All that makes the points' numbers say little, a sentence each: the poor picture, no flicker, undecided taps.
+std::vector<std::string> doubts_of(std::span<const PointRecord> points);
 
 }  // namespace noonmark

@@ -31,6 +31,13 @@ double many_ambiguous_of_lights(const PointRecord& point) {
   return many_ambiguous(ambiguous, ambiguous + metric_of(point, "lights_counted"));
 }
 
+// Of what is counted over two frames' points: those that are left out because the truth of either frame is ambiguous, if many are.
+double many_ambiguous_of_motion(const PointRecord& point) {
+  const double facing = metric_of(point, "facing"), next = metric_of(point, "flicker_ambiguous"),
+               left_out = metric_of(point, "ambiguous") * facing + (std::isfinite(next) ? next : 0);
+  return many_ambiguous(left_out, facing) > 0 ? left_out : 0;
+}
+
 bool is_brought(const PointRecord& point, std::string_view name) {
   return std::any_of(point.causes.begin(), point.causes.end(), [&](const RungCause& one) { return one.name == name; });
 }
@@ -75,6 +82,11 @@ double many_ambiguous(double ambiguous, double receivers) {
 
 double ambiguous_room(const PointRecord& point, std::string_view quantity) {
   constexpr double any = std::numeric_limits<double>::infinity();
+  if (quantity.starts_with("flicker") && quantity != "flicker_ambiguous") {
+    const double left_out = many_ambiguous_of_motion(point);
+    if (left_out == 0 || find_quantity(std::string(quantity), {&point, 1}).unit == "count") return left_out;
+    return left_out / (metric_of(point, "flicker_points") + left_out);
+  }
   const double share = is_of_lights(quantity) ? many_ambiguous_of_lights(point) : many_ambiguous_of(point);
   if (share == 0) return 0;
   const double of_curve = hides_window(point) ? any : 0;

@@ -35,7 +35,8 @@ double many_ambiguous(double ambiguous, double receivers);
 bool hides_bounds(const PointRecord& point);
 
 // By how much the quantity of all facing receivers may differ from that of the counted ones: of a share the ambiguous share,
-// and infinity of what has no such limit (Metric::unbounded) and of what a curve says. 0 where not many are ambiguous,
+// and infinity of what has no such limit (Metric::unbounded) and of what a curve says; of flicker, and of its counts of points, the points
+// that are ambiguous in this frame or in the next one. 0 where not many are ambiguous,
 // where the record does not have their number, of a quantity that does not depend on the truth, and of any other name (a setting).
 double ambiguous_room(const PointRecord& point, std::string_view quantity);
 

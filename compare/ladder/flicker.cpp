@@ -44,7 +44,8 @@ std::map<std::string, double> measure_flicker(const Flicker& flicker) {
   std::map<std::string, double> metrics = {{"flicker_points", points},
                                            {"flicker_outside", static_cast<double>(flicker.points.outside)},
                                            {"flicker_hidden", static_cast<double>(flicker.points.hidden)},
-                                           {"flicker_unlit", static_cast<double>(flicker.points.unlit)}};
+                                           {"flicker_unlit", static_cast<double>(flicker.points.unlit)},
+                                           {"flicker_ambiguous", static_cast<double>(flicker.points.ambiguous)}};
   if (flicker.points.shared > 0)
     metrics["flicker_truth"] =
         static_cast<double>(flicker.points.truth_changed) / static_cast<double>(flicker.points.shared);

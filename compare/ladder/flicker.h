@@ -52,6 +52,7 @@ struct FlickerPoints {
   // the first of: outside the next frame's picture; hidden there, seen from its back, or ambiguous in that; turned away
   // from the next frame's light, or ambiguous there.
   uint64_t outside = 0, hidden = 0, unlit = 0;
+  uint64_t ambiguous = 0;  // of hidden and unlit, those of which rounding decides that
 };
 
 struct Flicker {
@@ -66,7 +67,7 @@ std::array<double, flicker_steps> flicker_parts(const std::array<double, flicker
 Flicker flicker_of(const FlickerLookups& lookups, FlickerPoints points);
 
 // The metrics flicker, flicker_changed, flicker_cascade, flicker_grid, flicker_depth, flicker_kernel, flicker_coverage, flicker_truth,
-// flicker_points, flicker_outside, flicker_hidden and flicker_unlit.
+// flicker_points, flicker_outside, flicker_hidden, flicker_unlit and flicker_ambiguous.
 // Fractions of no points are left out. A lookup that is not finite makes its class not finite.
 std::map<std::string, double> measure_flicker(const Flicker& flicker);
 

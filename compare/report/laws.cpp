@@ -36,7 +36,7 @@ size_t drawn_every(const LawResult& law) {
 // Where a broken law is furthest off, and the command that shows it.
 Markup broken_law_row(const LawResult& law) {
   if (law.held) return "";
-  Markup what = "no point matches";
+  Markup what = "No point is left that it speaks of.";
   if (law.worst >= 0) {
     const LawResult::Sample& sample = law.samples[static_cast<size_t>(law.worst)];
     what = prose("Off by {} at {}, where at most {} is allowed.", number(sample.measured - sample.predicted),
@@ -51,7 +51,10 @@ Markup said_below(const std::string& text) { return text.empty() ? "" : line_bre
 Markup law_row(const LawResult& law) {
   const auto figure = [](const Markup& content) { return td(css("number"), content); };
   const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
-  return tr(css(law.held ? "held" : "broken"), td(law.held ? "✓ holds" : "✗ broken"),
+  return tr(css(law.held ? "held" : "broken"),
+            td(law.held ? "✓ holds"
+               : worst  ? "✗ broken"
+                        : "✗ no point"),
             row_head(law.name, said_below(law.says), said_below(law.found), line_break(), code(law_text(law))),
             figure(law.samples.size()), figure(predicted_text(law)), figure(worst ? number(worst->measured) : "–"),
             figure(ratio_text(law)));

@@ -359,6 +359,11 @@ Markup making_section(const Results& results) {
                                           "as a GPU would, but they do not predict a GPU's milliseconds.",
                                           software, bold("software times")));
   out += truth_in_words(results);
+  if (std::all_of(results.points.begin(), results.points.end(),
+                  [](const PointRecord& p) { return p.pictures.empty(); }))
+    out += paragraph(css("note"), prose("No point has pictures. The experiment's key {} says which points do: {} draws "
+                                        "those of point 0.",
+                                        code("pictures"), code("pictures = \"first\"")));
   // The settings that all points share, for a reader who wants to repeat the experiment.
   Markup fixed;
   if (!results.points.empty())

@@ -342,6 +342,11 @@ constexpr Metric from_frame_to_frame[] = {
      "Number of world points that face the light in this frame and that the next frame sees, and that face away from "
      "its light or whose truth there is ambiguous. They are left out of flicker.",
      motion},
+    {"flicker_ambiguous", "count",
+     "Number of world points of flicker_hidden and flicker_unlit that are there because rounding decides the truth of "
+     "the "
+     "next frame.",
+     motion},
 };
 
 // Of the frame that the lights make together, the same at the points of all its lights, but for those that begin with light_.

@@ -2,6 +2,7 @@
 noonmarkLive.ready.then(function() {
   leave({
     says: document.getElementById('says').textContent,
+    drawn: getComputedStyle(document.getElementById('frame')).display !== 'none' && document.getElementById('frame').offsetParent !== null,
     metrics: liveStates.map(function(state) { return noonmarkLive.measure(state); }),
     errors: errors
   });

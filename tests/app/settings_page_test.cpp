@@ -68,5 +68,11 @@ TEST(SettingsPage, CommonNamesFindTheirSetting) {
     EXPECT_NE(settings_that_say(name).find("lookup.kind "), std::string::npos) << name;
 }
 
+// In a narrow column a browser breaks "as_built" inside the word.
+TEST(SettingsPage, KeepsADefaultOnOneLine) {
+  const std::string page = settings_page("1.2.3");
+  EXPECT_NE(page.find("<td style=\"white-space: nowrap\"><code>as_built</code></td>"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace noonmark

@@ -180,6 +180,9 @@ at_most = "1"
   EXPECT_TRUE(says("BROKEN")) << "the law: " << output_;
   EXPECT_TRUE(says("held: peter_panning <= 50%; found 0% ± 14")) << output_;
   EXPECT_TRUE(says("-> 0% ± 14")) << "since the last run: " << output_;
+  ASSERT_EQ(run(with_far({"check", "far.toml", "--out", "out", "--json", "--quiet"})), 1) << output_;
+  for (const char* key : {"\"found_room\": 0.14", "\"doubts\"", "peter_panning is not known"})
+    EXPECT_TRUE(says(key)) << key << ": " << output_;
   const std::string summary = text("out/summary.md");
   EXPECT_EQ(summary.find("0 … 1"), std::string::npos) << "a usable window: " << summary;
   EXPECT_NE(summary.find("not known"), std::string::npos) << summary;

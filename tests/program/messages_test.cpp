@@ -35,12 +35,12 @@ TEST_F(Messages, AWrongOptionIsNamedInPlainWords) {
 TEST_F(Messages, TheExperimentsFaultComesBeforeThatOfTheFolder) {
   write("file", "");
   write("x.toml", "scne = \"plate\"\n");
-  for (const char* verb : {"run", "check", "render"}) {
+  for (const char* verb : {"run", "check"}) {
     EXPECT_EQ(run({verb, "x.toml", "--out", "file/below"}), 2);
     EXPECT_TRUE(says("did you mean 'scene'") && !says("folder")) << output_;
   }
   write("x.toml", one_point + held_bound);
-  for (const char* verb : {"run", "check", "render"}) {
+  for (const char* verb : {"run", "check"}) {
     EXPECT_EQ(run({verb, "x.toml", "--out", "file/below"}), 2) << verb;
     EXPECT_TRUE(says("cannot make the folder file/below") && says("another --out")) << output_;
   }
@@ -48,12 +48,24 @@ TEST_F(Messages, TheExperimentsFaultComesBeforeThatOfTheFolder) {
 
 TEST_F(Messages, AModelInPlaceOfAnExperimentIsNamed) {
   write("model.gltf", "{}");
-  for (const char* verb : {"run", "check", "render"}) {
+  for (const char* verb : {"run", "check"}) {
     EXPECT_EQ(run({verb, "model.gltf"}), 2) << verb;
     EXPECT_TRUE(says("is a model, not an experiment; noonmark init model.gltf")) << output_;
     EXPECT_EQ(run({verb, "plate"}), 2) << verb;
     EXPECT_TRUE(says("plate is a built-in scene, not an experiment")) << output_;
   }
+}
+
+TEST_F(Messages, VerbsOfOnePointTakeASceneByItsName) {
+  for (const std::vector<std::string>& verb : {std::vector<std::string>{"render", "plate", "--out", "r"},
+                                               {"section", "plate", "--out", "s.svg"},
+                                               {"live", "plate"}}) {
+    std::vector<std::string> small = verb;
+    small.insert(small.end(), {"--set", "view.width_px=32", "--set", "view.height_px=18"});
+    EXPECT_EQ(run(small), 0) << verb.front() << output_;
+  }
+  EXPECT_EQ(run({"render", "plaet"}), 2) << output_;
+  EXPECT_TRUE(says("(did you mean ")) << output_;
 }
 
 TEST_F(Messages, ABudgetIsANumberAboveZero) {

@@ -102,6 +102,32 @@ TEST_F(Program, ChecksAFolderWithAResultsFolderForEachExperiment) {
   EXPECT_EQ(run({"check", "exps", "--out", "out"}), 1) << output_;
 }
 
+// A check whose bounds hold writes no pictures. After --overwrite none of the run before are left.
+TEST_F(Program, DrawsForACheckOnlyWhatIsBroken) {
+  const auto experiment = [&](const std::string& max) {
+    return write("one.toml",
+                 "scene = \"cube-room\"\nview.width_px = 96\nview.height_px = 54\n[bias]\nunit = \"m\"\n"
+                 "constant = 0.02\n[[bound]]\nmetric = \"error\"\nmax = " +
+                     max + "\n");
+  };
+  const auto drawn = [&] {
+    std::error_code none;
+    size_t files = 0, exr = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/images", none))
+      ++files, exr += entry.path().extension() == ".exr";
+    EXPECT_EQ(exr, 0U);
+    return files;
+  };
+  ASSERT_EQ(run({"check", experiment("1"), "--out", "out"}), 0) << output_;
+  EXPECT_EQ(drawn(), 0U);
+  ASSERT_EQ(run({"check", experiment("1e-9"), "--out", "out"}), 1) << output_;
+  EXPECT_GT(drawn(), 5U);
+  ASSERT_EQ(run({"run", experiment("1"), "--out", "out", "--overwrite"}), 0) << output_;
+  EXPECT_GT(drawn(), 5U);
+  ASSERT_EQ(run({"check", experiment("1"), "--out", "out", "--overwrite"}), 0) << output_;
+  EXPECT_EQ(drawn(), 0U);
+}
+
 TEST_F(Program, ChecksTheExperimentOfTheDemo) {
   // Every point, with a ninth of the pixels. This is enough, because the bounds are shares of the receivers (57,600
   // pixels). The phase diagram has all its texel sizes and biases, of a small picture: no bound reads it, and its numbers

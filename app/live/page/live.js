@@ -42,17 +42,17 @@ function areMany(share, receivers) {
   const usual = data.much_ambiguous * receivers;
   return share * receivers > usual + 3 * Math.sqrt(usual);
 }
+// Places of float are then as coarse as what the page would draw, so none of its numbers is the program's.
+const isRefused = m => m.facing > 0 && areMany(m.ambiguous, m.facing);
 function sentence(m) {
   if (!m.facing) return 'No receiver in the picture faces the light.';
-  const doubt = areMany(m.ambiguous, m.facing) ?
-      `Rounding decides the truth of ${percent(m.ambiguous)} of the receivers, so each share may be larger or smaller by as much: ` +
-          'the scene is too far from the origin for its size, or shapes overlap. ' :
-      '';
-  if (doubt && m.error <= m.ambiguous) return doubt + 'So it is not known what is wrong.';
+  if (isRefused(m))
+    return `This page does not show this scene, because in float rounding decides the truth of ${percent(m.ambiguous)} of the receivers: ` +
+        'it is too far from the origin for its size, or shapes overlap. The command below measures it.';
   const [cause] = Object.keys(advice).sort((a, b) => m[b] - m[a]);
   if (m.error === 0) return 'No receiver is wrong.';
   const [name, what] = advice[cause];
-  return `${doubt}${percent(m.error)} of the receivers are wrong. ${name}, ${percent(m[cause])}: ${what}.`;
+  return `${percent(m.error)} of the receivers are wrong. ${name}, ${percent(m[cause])}: ${what}.`;
 }
 
 function setPressed(selector, matches) {
@@ -107,6 +107,7 @@ function show() {
   try {
     run = meter.measure(state);
     element('says').className = '';
+    document.querySelector('.left').classList.toggle('refused', isRefused(run.metrics));
     element('says').textContent = sentence(run.metrics);
     fillLegend(run.metrics);
     drawPictures();

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
 #include "compare/judge/verdict.h"
 #include "compare/report/junit.h"
@@ -125,6 +126,39 @@ TEST(Bounds, WhatIsAmbiguousHasNoSayInWhatDoesNotDependOnTheTruth) {
               metric != "wrong" && metric != "edge_displacement_pixels")
         << metric;
   }
+}
+
+// The next frame's ambiguous points are left out of flicker as this frame's are.
+TEST(Bounds, WhatIsAmbiguousInTheNextFrameCanBreakABoundOnFlicker) {
+  std::vector<PointRecord> points = points_with({0.001});
+  for (const auto& [name, value] : std::map<std::string, double>{
+           {"ambiguous", 0}, {"facing", 1000}, {"flicker", 0.1}, {"flicker_points", 900}, {"flicker_unlit", 100}})
+    points[0].metrics[name] = value;
+  for (const double ambiguous : {0.0, 100.0})
+    for (const auto& [metric, limit] : std::map<std::string, double>{{"flicker", 0.15}, {"flicker_unlit", 150}}) {
+      points[0].metrics["flicker_ambiguous"] = ambiguous;
+      Bound bound = at_most(limit);
+      bound.metric = metric;
+      EXPECT_EQ(evaluate_bounds(points, std::span(&bound, 1), command_of).at(0).held, ambiguous == 0) << metric;
+      bound.max = 2 * limit;
+      EXPECT_TRUE(evaluate_bounds(points, std::span(&bound, 1), command_of).at(0).held) << metric;
+    }
+}
+
+TEST(Bounds, TheNoteOnTheAmbiguousIsNoPartOfABound) {
+  PointRecord point = sample_point(0);
+  point.metrics["ambiguous"] = 0.142, point.metrics["facing"] = 1e6, point.metrics["acne"] = 0;
+  const Bound bound = [] {
+    Bound one = at_most(0.1);
+    one.metric = "acne";
+    return one;
+  }();
+  const BoundResult result = evaluate_bounds({&point, 1}, {&bound, 1}, command_of).at(0);
+  ASSERT_FALSE(result.held);
+  const std::string text = describe(result, &point);
+  EXPECT_EQ(text.find(ambiguous_note(point)), std::string::npos) << text;
+  EXPECT_NE(text.find("not known to hold"), std::string::npos) << text;
+  EXPECT_FALSE(poor_view_note({&point, 1}).empty()) << "the note of the run";
 }
 
 TEST(Bounds, WithBothLimitsTheBrokenSideIsReported) {

@@ -77,8 +77,11 @@ TEST(Flicker, CountsOnlyWhatBothFramesSeeWithOneTruth) {
 TEST(Flicker, OfNoPointsHasNoFractions) {
   const Image<float> one(1, 1, 1);
   const auto metrics = measure_flicker(flicker_of({one, one, one, one, one}, points_of(Image<uint8_t>(1, 1, 0))));
-  EXPECT_EQ(metrics, (std::map<std::string, double>{
-                         {"flicker_points", 0}, {"flicker_outside", 0}, {"flicker_hidden", 0}, {"flicker_unlit", 0}}));
+  EXPECT_EQ(metrics, (std::map<std::string, double>{{"flicker_points", 0},
+                                                    {"flicker_outside", 0},
+                                                    {"flicker_hidden", 0},
+                                                    {"flicker_unlit", 0},
+                                                    {"flicker_ambiguous", 0}}));
 }
 
 TEST(Flicker, OfALookupThatIsNotFiniteIsNotFinite) {
