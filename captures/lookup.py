@@ -69,7 +69,7 @@ class Taps:
     """How much farther than the map's texels places are, for each tap of a filter."""
 
     def __init__(self, m, place):
-        self.map, self.place, self.depths = m, place, 1 - m.depths if m.reversed else m.depths
+        self.map, self.place, self.depths = m, place, 1 - m.depths if m.drawn.reversed else m.depths
         self.u, self.v, self.z = m.window(place)
         self.rows, self.columns = m.depths.shape
         self.inside = (self.u > 0) & (self.u < 1) & (self.v > 0) & (self.v < 1) & (self.z < 1)
@@ -189,7 +189,7 @@ def without_model(capture, m, matrix, draws):
     lie elsewhere in the map. matrix: the map's clip space from the picture's."""
     found = []
     for draw in draws:
-        clip, written = capture.after_vertex_shader(draw) or (np.zeros((0, 4)), None)
+        clip, written = capture.after_vertex_shader(draw)
         places = [np.c_[p, np.ones(len(p))] for p in capture.vertex_inputs(draw) if len(p) == len(clip) > 0]
         for name, constant in capture.matrices(draw) if places else []:
             factor = aperture(constant) / aperture(m.clip)

@@ -30,14 +30,11 @@ def space(clip, drawn):
 class Reader:
     def __init__(self, options):
         self.options = options
-        self.capture = Capture(options.capture, self.say)
+        self.capture = Capture(options.capture)
         self.draws = self.capture.draws()
         self.passes = solve.passes_of(self.draws)
         self.camera, self.maps = solve.camera_and_maps(self.capture, self.passes)
         self.lights = solve.lights_of(self.maps)
-
-    def say(self, text):
-        print(text, flush=True)
 
     def path(self, name):
         return os.path.join(self.options.out, name)
@@ -52,12 +49,12 @@ class Reader:
 
     def describe(self):
         c, cam = self.capture, self.camera
-        self.say(f'{c.driver}, {len(self.draws)} draws; the picture: {cam.name}, {cam.viewport[2]:.0f} x {cam.viewport[3]:.0f}, '
+        print(f'{c.file.DriverName()}, {len(self.draws)} draws; the picture: {cam.name}, {cam.viewport[2]:.0f} x {cam.viewport[3]:.0f}, '
                  f'{"orthographic" if cam.orthographic else "perspective"} camera')
         for n, group in enumerate(self.lights, 1):
             for m in group:
                 f, u = m.drawn.draws[0].polygon_offset
-                self.say(f'light {n}, {solve.light_of(group)["kind"]}: map {c.describe(m.drawn.target)} '
+                print(f'light {n}, {solve.light_of(group)["kind"]}: map {c.describe(m.drawn.target)} '
                          f'"{c.names.get(m.drawn.target[0], "")}", {m.drawn.name}, {len(m.pairs)} of {len(m.drawn.draws)} draws are in the '
                          f'picture too, residual {m.residual:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
                          + ('' if m.cull == 'none' else f', without {m.cull} faces by their winding') + self.unfilled(m))
@@ -90,16 +87,16 @@ class Reader:
         jitter = np.eye(4)  # through the place of sample 0
         jitter[:2, 3] = (1 - 2 * np.array(SAMPLE_0.get(first.samples, (0.5, 0.5)))) / cam.viewport[2:]
         self.base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'depth': self.save('depth.npy', depth) | {'measure': 'window'},
-                     'camera': space(jitter @ cam.clip, first)}
+                     'camera': space(jitter @ cam.clip, cam)}
         edited = copies.Copies(self.options.capture, self.options.scratch)
         self.pictures = visibility.Pictures(self, edited)
         wanted = [n for n in range(1, len(self.lights) + 1) if self.options.light in (0, n)]
         refused = [] if wanted else [f'there is no light {self.options.light}: it has {len(self.lights)}']
         for n in wanted:
             try:
-                self.light(f'light-{n}', self.lights[n - 1], lambda note: self.say(f'light {n}: {note}'))
+                self.light(f'light-{n}', self.lights[n - 1], lambda note: print(f'light {n}: {note}'))
             except Refusal as why:
-                self.say(f'light {n}: refused: {why}')
+                print(f'light {n}: refused: {why}')
                 refused.append(str(why))
         if len(refused) >= max(1, len(wanted)):
             raise Refusal('no light of this capture can be judged: ' + '; '.join(sorted(set(refused))))
@@ -185,7 +182,7 @@ class Reader:
         drawn = [d for m in group for d in m.pairs.values()]
         seeds = np.random.default_rng(0)
         for part in self.parts:
-            if part.role != 'camera' or part.draw in drawn:
+            if part.drawn is not self.camera or part.draw in drawn:
                 continue
             weights = seeds.dirichlet((1, 1, 1), max(8, 800 // len(part.triangles)))
             places = np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3)
@@ -236,14 +233,15 @@ class Reader:
         if not found or found.constant < 0:
             return {}
         technique = found.technique | {'map.cull': m.cull}
-        factor, units = (-n if m.reversed else n for n in m.drawn.draws[0].polygon_offset)
+        factor, units = (-n if m.drawn.reversed else n for n in m.drawn.draws[0].polygon_offset)
         if factor or units:
             technique |= {'bias.polygon_factor': repr(factor), 'bias.polygon_units': repr(units)}
-        return {'map': self.save(f'{name}-depths.npy', m.depths[::-1]) | space(m.clip, m) | {
+        return {'map': self.save(f'{name}-depths.npy', m.depths[::-1]) | space(m.clip, m.drawn) | {
             'first_row': 'bottom', 'technique': technique}}
 
 
 def main(options):
+    sys.stdout.reconfigure(line_buffering=True)
     rd.InitialiseReplay(rd.GlobalEnvironment(), [])
     try:
         Reader(options).run()
@@ -251,6 +249,4 @@ def main(options):
     except Refusal as why:
         print(f'noonmark: {options.capture}: {why}', file=sys.stderr)
         code = 3
-    sys.stdout.flush()
-    sys.stderr.flush()
     os._exit(code)  # RenderDoc's own ending can wait for a display that is gone

@@ -3,7 +3,6 @@
 Everything that this package knows of RenderDoc's state stands here. Conventions, for every API:
 rows of an image start at the bottom, y of clip space grows upwards, matrices multiply column vectors.
 """
-import dataclasses
 import functools
 
 import numpy as np
@@ -18,35 +17,64 @@ class Refusal(Exception):
     """The capture cannot be judged; the text says why and what to do."""
 
 
-@dataclasses.dataclass(eq=False)
 class Draw:
-    event: int
-    chunk: int  # of the capture's list of calls
-    action: rd.ActionDescription
-    count: int
-    instances: int
-    topology: rd.Topology
-    geometry: tuple  # what vertices it draws; equal in every pass that draws the same mesh
-    depth: tuple  # (texture, slice, mip), or ()
-    outputs: tuple  # of the same
-    viewport: tuple  # x, y, width, height in pixels, from the bottom
-    reads: set  # the textures that its shaders use
-    has_geometry_shader: bool
-    zero_to_one: bool  # depths of clip space
-    reversed: bool
-    y_down: bool
-    writes_depth: bool
-    culls: str  # 'none', or the turn on the screen of the triangles that are not drawn: 'ccw', 'cw'
-    polygon_offset: tuple  # factor, units
-    discards: bool  # its fragment shader can drop fragments
-    samples: int
+    """A draw call, and the state that it is made in."""
+
+    def __init__(self, action, state, capture):
+        self.event, self.action, self.count, self.topology = action.eventId, action, action.numIndices, state.GetPrimitiveTopology()
+        chunk = action
+        while chunk.parent and chunk.parent.flags & rd.ActionFlags.MultiAction:
+            chunk = chunk.parent  # of a draw out of a call for several RenderDoc counts on from the call's own place
+        self.chunk = chunk.events[-1].chunkIndex  # of the capture's list of calls
+        has_geometry_shader, instances = state.GetShader(rd.ShaderStage.Geometry) != NULL, max(1, action.numInstances)
+        self.stage = rd.MeshDataStage.GSOut if has_geometry_shader else rd.MeshDataStage.VSOut
+        self.instances = 1 if has_geometry_shader else instances  # that are read one by one: a geometry shader's output holds all
+        self.geometry = (*_mesh(action, state), self.count, instances)  # equal in every pass that draws the same mesh
+        self.depth, self.outputs = (  # (texture, slice, mip), or (); and such of colours
+            [(t.resourceId, max(0, t.firstSlice), max(0, t.firstMip)) for t in targets if t.resourceId != NULL]
+            for targets in ([state.GetDepthTarget()], state.GetOutputTargets()))
+        self.depth, self.outputs = tuple(*self.depth), tuple(self.outputs)
+        self.reads = set()  # textures, only those that its shaders use: OpenGL's others are bound by chance
+        place = lambda point: (point.bindset, point.bind)
+        for stage in STAGES:
+            used = {place(point) for point in state.GetBindpointMapping(stage).readOnlyResources if point.used}
+            self.reads |= {r.resourceId for b in state.GetReadOnlyResources(stage) if place(b.bindPoint) in used for r in b.resources}
+        self.reads.discard(NULL)
+        own, view = capture.control.GetGLPipelineState() if capture.gl else capture.control.GetVulkanPipelineState(), state.GetViewport(0)
+        if capture.gl:
+            raster, test, bottom = own.rasterizer.state, own.depthState, view.y
+            self.writes_depth = test.depthEnable and test.depthWrites
+        else:
+            raster, test, bottom = own.rasterizer, own.depthStencil, -max(view.y, view.y + view.height)
+            self.writes_depth = test.depthTestEnable and test.depthWriteEnable
+        self.zero_to_one = not (capture.gl and own.vertexProcessing.clipNegativeOneToOne)  # depths of clip space
+        self.y_down = not capture.gl and view.height > 0
+        self.samples = 1
+        for texture, _, mip in (*self.outputs, *filter(None, [self.depth]))[:1]:
+            self.samples = max(1, capture.textures[texture].msSamp)
+            bottom += 0 if capture.gl else capture.textures[texture].height >> mip
+        self.viewport = (view.x, bottom, view.width, abs(view.height))  # pixels, from the bottom
+        self.reversed = test.depthFunction in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual)
+        self.polygon_offset = raster.slopeScaledDepthBias, raster.depthBias  # factor, units
+        self.culls = 'none'  # or the turn on the screen of the triangles that are not drawn
+        if raster.cullMode in (rd.CullMode.Front, rd.CullMode.Back):
+            self.culls = 'ccw' if (raster.cullMode == rd.CullMode.Front) == bool(raster.frontCCW) else 'cw'
+        self.discards = discards(state.GetShaderReflection(rd.ShaderStage.Pixel))
+
+
+def _mesh(action, state):
+    if action.flags & rd.ActionFlags.Indexed:
+        buffer = state.GetIBuffer()
+        return int(buffer.resourceId), buffer.byteOffset + action.indexOffset * buffer.byteStride, action.baseVertex
+    buffers, inputs = state.GetVBuffers(), state.GetVertexInputs()
+    first = [(int(b.resourceId), b.byteOffset) for b in buffers[inputs[0].vertexBuffer:][:1]] if len(inputs) else []
+    return *first, action.vertexOffset
 
 
 class Capture:
     """An open capture. Close it: RenderDoc replays one at a time well, several badly."""
 
-    def __init__(self, path, say=print):
-        self.say = say
+    def __init__(self, path):
         self.file = rd.OpenCaptureFile()
         result = self.file.OpenFile(path, '', None)
         if result.code != rd.ResultCode.Succeeded:
@@ -55,7 +83,6 @@ class Capture:
         if self.control is None:
             raise Refusal(f'RenderDoc cannot replay it on this machine: {result.Message()}')
         self.gl = self.control.GetAPIProperties().pipelineType == rd.GraphicsAPI.OpenGL
-        self.driver = self.file.DriverName()
         self.textures = {t.resourceId: t for t in self.control.GetTextures()}
         self.names = {r.resourceId: r.name for r in self.control.GetResources()}
         self.event = None
@@ -72,78 +99,24 @@ class Capture:
         return self.control.GetPipelineState()
 
     # ---- draws and their state
-    def actions(self):
+    def actions(self, flags):
         def walk(actions):
             for action in actions:
-                yield action
+                yield from [action] if action.flags & flags else []
                 yield from walk(action.children)
-        return list(walk(self.control.GetRootActions()))
+        return walk(self.control.GetRootActions())
 
     def clears(self):
         """[(chunk, depth texture, colour textures)] that are cleared, or whose pass begins."""
-        return [(a.events[-1].chunkIndex, a.depthOut, list(a.outputs)) for a in self.actions()
-                if a.flags & (rd.ActionFlags.Clear | rd.ActionFlags.PassBoundary)]
+        return [(a.events[-1].chunkIndex, a.depthOut, a.outputs) for a in self.actions(rd.ActionFlags.Clear | rd.ActionFlags.PassBoundary)]
 
     def draws(self):
-        return [self._draw(a) for a in self.actions() if a.flags & rd.ActionFlags.Drawcall]
+        return [Draw(a, self.at(a.eventId), self) for a in self.actions(rd.ActionFlags.Drawcall)]
 
-    def _draw(self, action):
-        state = self.at(action.eventId)
-        target = lambda t: (t.resourceId, max(0, t.firstSlice), max(0, t.firstMip))
-        depth = state.GetDepthTarget()
-        depth = () if depth.resourceId == NULL else target(depth)
-        outputs = tuple(target(o) for o in state.GetOutputTargets() if o.resourceId != NULL)
-        main = self.textures[(outputs[0] if outputs else depth)[0]] if outputs or depth else None
-        view = state.GetViewport(0)
-        if self.gl:
-            own = self.control.GetGLPipelineState()
-            raster, test, bottom = own.rasterizer.state, own.depthState, view.y
-            zero_to_one, writes_depth = not own.vertexProcessing.clipNegativeOneToOne, test.depthEnable and test.depthWrites
-        else:
-            own = self.control.GetVulkanPipelineState()
-            raster, test = own.rasterizer, own.depthStencil
-            rows = main.height >> (outputs[0] if outputs else depth)[2] if main else 0
-            bottom = rows - max(view.y, view.y + view.height)
-            zero_to_one, writes_depth = True, test.depthTestEnable and test.depthWriteEnable
-        culls = 'none'
-        if raster.cullMode in (rd.CullMode.Front, rd.CullMode.Back):
-            culls = 'ccw' if (raster.cullMode == rd.CullMode.Front) == bool(raster.frontCCW) else 'cw'
-        chunk = action
-        while chunk.parent and chunk.parent.flags & rd.ActionFlags.MultiAction:
-            chunk = chunk.parent  # of a draw out of a call for several RenderDoc counts on from the call's own place
-        instances = max(1, action.numInstances)
-        return Draw(
-            event=action.eventId, chunk=chunk.events[-1].chunkIndex, action=action, count=action.numIndices, instances=instances,
-            topology=state.GetPrimitiveTopology(), geometry=(*self._geometry(action, state), action.numIndices, instances),
-            depth=depth, outputs=outputs, viewport=(view.x, bottom, view.width, abs(view.height)), reads=self._reads(state),
-            has_geometry_shader=state.GetShader(rd.ShaderStage.Geometry) != NULL, zero_to_one=zero_to_one,
-            reversed=test.depthFunction in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual),
-            y_down=not self.gl and view.height > 0, writes_depth=writes_depth, culls=culls,
-            polygon_offset=(raster.slopeScaledDepthBias, raster.depthBias),
-            discards=discards(state.GetShaderReflection(rd.ShaderStage.Pixel)), samples=max(1, main.msSamp) if main else 1)
-
-    def _geometry(self, action, state):
-        if action.flags & rd.ActionFlags.Indexed:
-            buffer = state.GetIBuffer()
-            return int(buffer.resourceId), buffer.byteOffset + action.indexOffset * buffer.byteStride, action.baseVertex
-        buffers, inputs = list(state.GetVBuffers()), list(state.GetVertexInputs())
-        first = [(int(b.resourceId), b.byteOffset) for b in buffers[inputs[0].vertexBuffer:][:1]] if inputs else []
-        return *first, action.vertexOffset
-
-    def _reads(self, state):
-        """Only those that its shaders use: OpenGL's others are bound by chance."""
-        found, place = set(), lambda point: (point.bindset, point.bind)
-        for stage in STAGES:
-            used = {place(point) for point in state.GetBindpointMapping(stage).readOnlyResources if point.used}
-            bound = [b.resources for b in state.GetReadOnlyResources(stage) if place(b.bindPoint) in used]
-            found |= {r.resourceId for resources in bound for r in resources}
-        return found - {NULL}
-
-    def entry(self, draw):
-        """The names of the draw's shaders, as the debugger shows them."""
+    def fragment_shader(self, draw):
+        """As the debugger shows it."""
         state = self.at(draw.event)
-        return [f'{self.names.get(state.GetShader(s), "")} {state.GetShaderEntryPoint(s)}()'
-                for s in STAGES if state.GetShader(s) != NULL]
+        return f'{self.names.get(state.GetShader(STAGES[1]), "")} {state.GetShaderEntryPoint(STAGES[1])}()'
 
     # ---- vertices
     def _rows(self, kind, columns, *buffer):
@@ -154,68 +127,55 @@ class Capture:
 
     @functools.cache
     def after_vertex_shader(self, draw):
-        """(clip positions, all that the shader writes behind them), a row for each index of each instance; None if they are not read."""
+        """(clip positions, all that the shader writes behind them), a row for each index of each instance that is read."""
         self.at(draw.event)
-        if draw.topology == rd.Topology.PatchList_1CPs or draw.instances > MOST_INSTANCES:
-            self.say(f'draw {draw.event} has patches, or {draw.instances} instances where {MOST_INSTANCES} are read; this draw is left out')
-            return None
-        stage, found = rd.MeshDataStage.GSOut if draw.has_geometry_shader else rd.MeshDataStage.VSOut, []
-        for instance in range(1 if draw.has_geometry_shader else draw.instances):  # the output of a geometry shader holds all
-            mesh = self.control.GetPostVSData(instance, 0, stage)
+        is_read, found = draw.topology != rd.Topology.PatchList_1CPs and draw.instances <= MOST_INSTANCES, []
+        if not is_read:
+            print(f'draw {draw.event} has patches, or {draw.instances} instances where {MOST_INSTANCES} are read; this draw is left out')
+        for instance in range(draw.instances if is_read else 0):
+            mesh = self.control.GetPostVSData(instance, 0, draw.stage)
             if mesh.vertexResourceId == NULL or mesh.numIndices == 0:
                 continue
-            rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
-            index = np.arange(mesh.numIndices)
+            rows, index = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0), np.arange(mesh.numIndices)
             if mesh.indexResourceId != NULL and mesh.indexByteStride:
-                index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.numIndices,
-                                      mesh.baseVertex)
+                index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.numIndices, mesh.baseVertex)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
-        if not found:
-            return None
-        rows = np.concatenate(found)
-        clip = rows[:, :4].astype('f8')
-        if draw.y_down:
-            clip[:, 1] *= -1
-        return clip, rows[:, 4:]
+        rows = np.concatenate(found) if found else np.zeros((0, 4))
+        return rows[:, :4] * np.array([1, -1 if draw.y_down else 1, 1, 1.0]), rows[:, 4:]
 
     def clip(self, draw):
-        found = self.after_vertex_shader(draw)
-        return None if found is None else found[0]
+        return self.after_vertex_shader(draw)[0]
 
-    def texture_coordinate(self, draw):
-        """Where the first output of two floats stands behind the position, a mask's texture coordinate; None if there is none."""
+    def coordinates(self, draw):
+        """The first output of two floats, a mask's texture coordinate, a row for each index; None if there is none."""
         reflection, at = self.at(draw.event).GetShaderReflection(rd.ShaderStage.Vertex), 0
         for output in reflection.outputSignature if reflection else []:
-            if output.systemValue == rd.ShaderBuiltin.Position:
-                continue
             if output.compCount == 2 and output.systemValue == rd.ShaderBuiltin.Undefined:
-                return at
-            at += output.compCount
+                found = self.after_vertex_shader(draw)[1][:, at:at + 2]
+                return found if found.shape[1] == 2 else None
+            at += 0 if output.systemValue == rd.ShaderBuiltin.Position else output.compCount
         return None
 
     def vertex_inputs(self, draw):
         """Each attribute of two or three floats, a row for each index. Which one is the place is found by a fit."""
-        state, action = self.at(draw.event), draw.action
-        buffers, found = state.GetVBuffers(), []
-        index = np.arange(draw.count) + action.vertexOffset
+        state, action, found = self.at(draw.event), draw.action, []
+        index, buffers = np.arange(draw.count) + action.vertexOffset, state.GetVBuffers()
         if action.flags & rd.ActionFlags.Indexed:
             ib = state.GetIBuffer()
             index = self._indices(ib.resourceId, ib.byteOffset + action.indexOffset * ib.byteStride, ib.byteStride,
                                   draw.count, action.baseVertex)
         for attribute in state.GetVertexInputs():
-            form = attribute.format
+            form, size = attribute.format, attribute.format.compByteWidth
             if (attribute.vertexBuffer >= len(buffers) or attribute.perInstance or form.compType != rd.CompType.Float
-                    or form.compCount < 2 or form.compByteWidth not in (2, 4) or buffers[attribute.vertexBuffer].resourceId == NULL):
+                    or form.compCount < 2 or size not in (2, 4) or buffers[attribute.vertexBuffer].resourceId == NULL):
                 continue
-            buffer, width = buffers[attribute.vertexBuffer], form.compByteWidth * form.compCount
+            buffer = buffers[attribute.vertexBuffer]
             raw = self.control.GetBufferData(buffer.resourceId, buffer.byteOffset + attribute.byteOffset, 0)
-            stride = buffer.byteStride or width
-            n = (len(raw) - width) // stride + 1
-            if n <= 0 or index.max() >= n or index.min() < 0:
-                continue
-            rows = np.ndarray((n, min(3, form.compCount)), f'<f{form.compByteWidth}', raw,
-                              strides=(stride, form.compByteWidth))
-            found.append(np.pad(rows[index].astype('f8'), ((0, 0), (0, 3 - rows.shape[1]))))
+            stride = buffer.byteStride or size * form.compCount
+            n = (len(raw) - size * form.compCount) // stride + 1
+            if n > index.max() >= index.min() >= 0:
+                rows = np.ndarray((n, min(3, form.compCount)), f'<f{size}', raw, strides=(stride, size))[index]
+                found.append(np.pad(rows.astype('f8'), ((0, 0), (0, 3 - rows.shape[1]))))
         return found
 
     # ---- constants
@@ -232,8 +192,7 @@ class Capture:
                     continue
                 variables = self.control.GetCBufferVariableContents(
                     state.GetGraphicsPipelineObject(), reflection.resourceId, stage, reflection.entryPoint, i, buffer.resourceId, 0, 0)
-                found += [(v.name, np.array(list(v.value.f32v)[:16], 'f8').reshape(4, 4)) for v in flat(variables)
-                          if v.rows == 4 and v.columns == 4]
+                found += [(v.name, np.array(v.value.f32v[:16], 'f8').reshape(4, 4)) for v in flat(variables) if v.rows == 4 == v.columns]
         return [(n, m) for n, m in found if np.isfinite(m).all() and 0 < np.abs(m).max() < 1e7]
 
     # ---- textures
@@ -252,8 +211,7 @@ class Capture:
 
     def describe(self, target):
         t = self.textures[target[0]]
-        what = f'{t.width} x {t.height} {t.format.Name()}'
-        return what + (f', slice {target[1]} of {t.arraysize}' if t.arraysize > 1 else '')
+        return f'{t.width} x {t.height} {t.format.Name()}' + (f', slice {target[1]} of {t.arraysize}' if t.arraysize > 1 else '')
 
 
 def rows_of(raw, kind, columns):
@@ -322,9 +280,8 @@ def decode(raw, form, width, height, gl):
     texels = rows_of(raw, kind, 1 if is_packed else form.compCount)[:width * height]
     if len(texels) < width * height:  # compressed
         raise Refusal(f'a texture of the format {form.Name()} is not read')
-    if is_packed:
-        return np.stack([read(texels[:, 0]) for read in channels], -1).astype('f4').reshape(height, width, -1)
-    v = texels.reshape(height, width, -1).astype('f4') / np.float32(channels)
+    v = np.stack([read(texels[:, 0]) for read in channels], -1).astype('f4') if is_packed else texels.astype('f4') / np.float32(channels)
+    v = v.reshape(height, width, -1)
     if form.compType == rd.CompType.UNormSRGB:
         v[..., :3] = np.where(v[..., :3] <= 0.04045, v[..., :3] / 12.92, ((v[..., :3] + 0.055) / 1.055) ** 2.4)
     return v[..., [2, 1, 0, 3][:form.compCount]] if form.BGRAOrder() else v

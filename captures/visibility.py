@@ -40,14 +40,14 @@ class Pictures:
                 images[target] = crop(capture.image(own, event + shift), self.camera.viewport)[..., :3].astype('f8')
             except Refusal as why:
                 if capture is self.capture:
-                    capture.say(str(why))
+                    print(str(why))
         return images
 
     def replay(self, lit=(), dark=(), value=None):
         """The pictures with some maps empty, and with others cleared to a value (None: the nearest depth)."""
         edits, shift = self.copies.without([d for m in (*lit, *dark) for d in m.drawn.draws]), 0
         for m in dark:
-            to = int(m.reversed) if value is None else value
+            to = int(m.drawn.reversed) if value is None else value
             clear, more = self.copies.cleared(m.drawn, self.capture.clears(), self.reads_colour(m), to)
             shift += 0 if set(clear) & set(edits) else more
             edits |= clear
@@ -94,7 +94,7 @@ def measure(pictures, group):
     last = pictures.targets[target]
     entry = [d for d in pictures.draws if target in d.outputs and d.reads]
     notes = [f'visibility from {capture.describe(target)} after event {last}' +
-             (f', drawn by {capture.entry(entry[-1])[-1]}' if entry else '')]
+             (f', drawn by {capture.fragment_shader(entry[-1])}' if entry else '')]
     if form.compByteWidth == 1:  # where a channel is at its end, the light may go further than it shows
         clamped = (np.maximum(lit, frame) >= 1 - step / 2) & (span != 0)
         if 0 < clamped.any(2).sum() <= MASK * (span != 0).any(2).sum():  # more is not a bright picture: a mask whose 1 is lit
