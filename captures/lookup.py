@@ -1,12 +1,7 @@
-"""What the frame does with its map: the matrix that it looks up with, and the bias and filter that its visibility shows.
-
-Both are read off numbers: matrices among the lit draw's constants, and the depths of the captured map under the receivers.
-"""
+"""The bias and filter that the frame's visibility shows: read off the depths of the captured map under the receivers."""
 import dataclasses
 
 import numpy as np
-
-from solve import fit
 
 FILTERS = {'none': {}, 'hardware': {'filter.kind': 'hardware'}}  # settings of Noonmark
 FILTERS |= {f'box{size}': {'filter.kind': 'box', 'filter.size': str(size)} for size in (3, 5, 7)}
@@ -16,14 +11,14 @@ FEWEST_RECEIVERS = 100
 AT_TEXEL = 4  # texels along the light: a place that lies nearer to what its texel holds is in the map; a slope does less within a texel
 SLOPES = (0.25, 0.5, 1, 2)  # of the constant, for each tangent of the angle to the light
 OFFSETS = np.arange(0.5, 4.1, 0.5)  # texels along the normal; around the best of them finer steps are tried
+UNEXPLAINED = 0.01  # of the receivers: a tenth of that is left where the lookup is one of those that are known
 
 
-# ---- the receivers
-def receivers(depth, camera, is_zero_to_one):
+def receivers(depth, camera):
     """Places and normals of the pixels in the camera's axes, from its depths; float64, height x width x 3."""
     height, width = depth.shape
     y, x = np.mgrid[0:height, 0:width]
-    z = depth.astype('f8') if is_zero_to_one else 2 * depth.astype('f8') - 1
+    z = depth.astype('f8') if camera.zero_to_one else 2 * depth.astype('f8') - 1
     clip = np.stack([(x + 0.5) / width * 2 - 1, (y + 0.5) / height * 2 - 1, z, np.ones_like(z)], -1)
     place = clip @ np.linalg.inv(camera.clip).T
     with np.errstate(all='ignore'):
@@ -48,7 +43,6 @@ def to_light(light, place):
     return towards / np.maximum(1e-30, np.linalg.norm(towards, axis=-1, keepdims=True))
 
 
-# ---- bias and filter
 @dataclasses.dataclass
 class Lookup:
     filter: str
@@ -59,10 +53,19 @@ class Lookup:
     misses: float  # mean difference from the frame's visibility
     wrong: float  # share of the receivers where it differs by more than a half: an unknown filter differs by less
 
-    @property
     def technique(self):
         return FILTERS[self.filter] | {'bias.constant': f'{self.constant:.4g}', 'bias.tan': f'{self.tan:.4g}',
                                        'bias.normal_offset': f'{self.offset:.4g}'}
+
+    def __str__(self):
+        low, high = self.between
+        return (f'filter {self.filter}, bias {self.constant:.4g} of window depth (from {low:.3g} to {high:.3g} alike)'
+                + (f' and {self.tan:.3g} tan' if self.tan else '')
+                + (f' and {self.offset:.3g} texels along the normal' if self.offset else '')
+                + f', which leaves {100 * self.misses:.2f}% unexplained'
+                + (f', AND {100 * self.wrong:.2f}% ARE WRONG: they do not follow from the map at their own places'
+                   if self.wrong > UNEXPLAINED else '')
+                + ('; A BIAS BELOW 0: its sign is wrong, or another value is compared; judged by place' if self.constant < 0 else ''))
 
 
 class Taps:
@@ -114,8 +117,7 @@ def explain(m, place, normal, visibility, given_filter=None, given_bias=None):
     pick = np.linspace(0, len(place) - 1, min(len(place), MOST_RECEIVERS)).astype(int)
     place, normal, visibility = place[pick], normal[pick], visibility[pick]
     cosine = np.clip((normal * to_light(m.light, place)).sum(1), 1e-3, 1)
-    taps = Taps(m, place)
-    use = taps.inside & (cosine > 0.05)
+    use = Taps(m, place).inside & (cosine > 0.05)
     if use.sum() < FEWEST_RECEIVERS:
         return None
     tangent, goal = (np.sqrt(1 - cosine ** 2) / cosine)[use], visibility[use]
@@ -153,63 +155,3 @@ def explain(m, place, normal, visibility, given_filter=None, given_bias=None):
     for one in sorted(tries + moved, key=lambda one: one.misses)[::-1]:
         found = better(found, one, 0.7) if one.constant >= 0 else found
     return found
-
-
-# ---- the matrix of the lookup
-def own_matrix(matrices, camera, m):
-    """[(rest, name, rows, matrix)]: matrices among the constants that look the map up, from the camera's axes, the nearest one first.
-
-    Row i of such a matrix is rows[i][0] times row i of the map's and rows[i][1] times its w; rest says how far it is from that.
-    A constant can start from the camera's axes or from any others; the constants that lead from these to the camera are tried.
-    """
-    rigid = lambda k: np.abs(k[3] - (0, 0, 0, 1)).max() < 1e-5 and np.abs(k[:3, :3] @ k[:3, :3].T - np.eye(3)).max() < 1e-4
-    to_camera, backs = np.linalg.inv(camera.clip), [np.eye(4)]
-    for view in (v for _, k in matrices for v in (k, to_camera @ k)):
-        if abs(view[3, 3]) > 1e-9 and rigid(view / view[3, 3]):
-            back = np.linalg.inv(view / view[3, 3])
-            if not any(np.abs(back - b).max() < 1e-5 for b in backs):
-                backs.append(back)
-    found, w, size = [], m.clip[3], np.linalg.norm(m.clip, axis=1)
-    for back in backs[:200]:
-        n = np.array([k for _, k in matrices]) @ back
-        scale = n[:, 3] @ w / (w @ w)
-        near = np.abs(n[:, 3] - scale[:, None] * w).max(1) < 0.05 * np.abs(scale) * np.abs(w).max()
-        for k in np.flatnonzero(near & (np.abs(scale) > 1e-9)):
-            one = n[k] / scale[k]
-            bases = [np.c_[m.clip[i], w] for i in (0, 1)]
-            rows = [fit(base, one[i][:, None])[0][0] for i, base in enumerate(bases)]
-            rest = max(np.abs(bases[i] @ rows[i] - one[i]).max() / size[i] for i in (0, 1))
-            if rest < 0.2 and min(abs(r[0]) for r in rows) > 1e-3:
-                found.append((rest, matrices[k][0], rows, one))
-    return sorted(found, key=lambda f: f[0])
-
-
-def without_model(capture, m, matrix, draws):
-    """[(draw, name)]: whose vertex shader hands over a constant with the map's aperture times the draw's own vertices, although these
-    lie elsewhere in the map. matrix: the map's clip space from the picture's."""
-    found = []
-    for draw in draws:
-        clip, written = capture.after_vertex_shader(draw)
-        places = [np.c_[p, np.ones(len(p))] for p in capture.vertex_inputs(draw) if len(p) == len(clip) > 0]
-        for name, constant in capture.matrices(draw) if places else []:
-            factor = aperture(constant) / aperture(m.clip)
-            scale = 1 if abs(factor[0] - 1) < 0.1 else 0.5  # 0.5 where clip space is brought to 0 ... 1
-            if np.abs(factor - scale).max() > 1e-4:
-                continue
-            right = clip @ matrix.T
-            right[:, :2] = right[:, :2] * scale + right[:, 3:] * (1 - scale)
-            for local in (p @ constant.T for p in places):
-                size = np.abs(local).max()
-                stands = np.abs((local * right[:, 3:] - right * local[:, 3:])[:, :2]).max() < 1e-3 * size * np.abs(right).max()
-                handed_over = any(np.abs(written[:, k:k + 4] - local).max() < 1e-5 * size for k in range(written.shape[1] - 3))
-                found += [(draw, name)] if handed_over and not stands else []
-    return found
-
-
-def aperture(matrix):
-    """Of a light's clip matrix: the lengths of x and y across its axis, which neither a pose nor an added w changes."""
-    across, w = matrix[:2, :3], matrix[3, :3]
-    size = np.linalg.norm(w)
-    if size < 1e-4 * np.linalg.norm(across):
-        return np.linalg.norm(across, axis=1) / max(1e-30, abs(matrix[3, 3]))
-    return np.linalg.norm(across - np.outer(across @ w, w) / size ** 2, axis=1) / size

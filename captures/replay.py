@@ -233,55 +233,44 @@ def discards(reflection):
 
 
 # ---- the formats of textures
-def unorm(at, bits):
-    return lambda v: (v >> at & 2 ** bits - 1) / (2.0 ** bits - 1)
-
-
-def small_float(at, mantissa):
+def small_float(v, mantissa):
     """A half float without its sign and its last bits."""
-    return lambda v: ((v >> at & 2 ** (5 + mantissa) - 1) << 10 - mantissa).astype('<u2').view('<f2')
+    return ((v & 2 ** (5 + mantissa) - 1) << 10 - mantissa).astype('<u2').view('<f2')
 
 
-def float_or_unorm(v):
+def float_or_unorm(v, _):
     """GL_DEPTH_COMPONENT32 has the same name as the depth of floats."""
     x = v.view('<f4')
-    return x if np.isfinite(x).all() and x.min() >= 0 and x.max() <= 1 else unorm(0, 32)(v)
+    return x if np.isfinite(x).all() and x.min() >= 0 and x.max() <= 1 else v / (2.0 ** 32 - 1)
 
 
-# (the type of a texel, how its channels are read, how far two values near 1 lie apart), by the beginning of the format's name.
-PACKED = {'D16': ('<u2', [unorm(0, 16)], 2 ** -16),
-          'D24': ('<u4', [unorm(0, 32)], 2 ** -24),  # spread over 32 bits
-          'GL D24S8': ('<u4', [unorm(8, 24)], 2 ** -24),
-          'D24S8': ('<u4', [unorm(0, 24)], 2 ** -24),  # Vulkan's has the stencil behind all depths
-          'GL D32S8': ('<u8', [lambda v: v.astype('<u4').view('<f4')], 2 ** -23),
-          'D32S8': ('<f4', [np.copy], 2 ** -23),
-          'D32': ('<u4', [float_or_unorm], 2 ** -23),
-          'R10G10B10A2': ('<u4', [unorm(0, 10), unorm(10, 10), unorm(20, 10)], 1 / 1023),
-          'R11G11B10': ('<u4', [small_float(0, 6), small_float(11, 6), small_float(22, 5)], 2 ** -6)}
-# (the type of a channel, the number that is 1, how far two values near 1 lie apart), by type and bytes of a channel.
-PLAIN = {(rd.CompType.UNorm, 1): ('u1', 255, 1 / 255), (rd.CompType.UNormSRGB, 1): ('u1', 255, 1 / 255),
-         (rd.CompType.UNorm, 2): ('<u2', 65535, 1 / 65535), (rd.CompType.Float, 2): ('<f2', 1, 2 ** -11),
-         (rd.CompType.Float, 4): ('<f4', 1, 2 ** -23)}
+# How the first 32 bits of a texel are read, by the beginning of the format's name; the others have numbers in a row.
+PACKED = {'D24': lambda v, gl: v / (2.0 ** 32 - 1),  # spread over 32 bits
+          'D24S8': lambda v, gl: (v >> 8 if gl else v & 2 ** 24 - 1) / (2.0 ** 24 - 1),  # Vulkan's has the stencil behind all depths
+          'D32': float_or_unorm, 'D32S8': float_or_unorm,
+          'R10G10B10A2': lambda v, gl: np.stack([(v >> at & 1023) / 1023 for at in (0, 10, 20)], -1),
+          'R11G11B10': lambda v, gl: np.stack([small_float(v, 6), small_float(v >> 11, 6), small_float(v >> 22, 5)], -1)}
+KINDS = {rd.CompType.UNorm: 'u', rd.CompType.UNormSRGB: 'u', rd.CompType.Depth: 'u', rd.CompType.Float: 'f'}
 
 
-def format_of(form, gl=False):
-    """The row of PACKED or PLAIN."""
-    name = form.Name().split('_')[0]
-    row = PACKED.get('GL ' + name if gl else name) or PACKED.get(name) or PLAIN.get((form.compType, form.compByteWidth))
-    if row is None:
-        raise Refusal(f'a texture of the format {form.Name()} is not read')
-    return row
+def step_of(form):
+    """How far two values near 1 lie apart."""
+    packed = {'R10G10B10A2': 1 / 1023, 'R11G11B10': 2 ** -6}.get(form.Name().split('_')[0])
+    kind = 'f4' if packed else f'{KINDS[form.compType]}{form.compByteWidth}'
+    return packed or (1 / np.iinfo(kind).max if kind[0] == 'u' else np.finfo(kind).epsneg)
 
 
 def decode(raw, form, width, height, gl):
     """The values of a texture's bytes, as float32; sRGB formats are decoded."""
-    kind, channels, _ = format_of(form, gl)
-    is_packed = isinstance(channels, list)
-    texels = rows_of(raw, kind, 1 if is_packed else form.compCount)[:width * height]
-    if len(texels) < width * height:  # compressed
+    name, pixels, v = form.Name().split('_')[0], width * height, ()
+    if name in PACKED:
+        v = PACKED[name](rows_of(raw, '<u4', max(1, len(raw) // 4 // pixels))[:pixels, 0], gl)
+    elif form.compType in KINDS:
+        v = rows_of(raw, f'<{KINDS[form.compType]}{form.compByteWidth}', form.compCount)[:pixels]
+        v = v / np.iinfo(v.dtype).max if v.dtype.kind == 'u' else v
+    if len(v) < pixels:  # compressed, too
         raise Refusal(f'a texture of the format {form.Name()} is not read')
-    v = np.stack([read(texels[:, 0]) for read in channels], -1).astype('f4') if is_packed else texels.astype('f4') / np.float32(channels)
-    v = v.reshape(height, width, -1)
+    v = v.astype('f4').reshape(height, width, -1)
     if form.compType == rd.CompType.UNormSRGB:
         v[..., :3] = np.where(v[..., :3] <= 0.04045, v[..., :3] / 12.92, ((v[..., :3] + 0.055) / 1.055) ** 2.4)
     return v[..., [2, 1, 0, 3][:form.compCount]] if form.BGRAOrder() else v

@@ -1,0 +1,103 @@
+"""The matrix that the frame looks its map up with, found by its numbers among the constants of the draw that is lit."""
+import numpy as np
+
+from lookup import UNEXPLAINED
+from solve import centre_of, fit, with_one
+
+DIFFER = 'MAP AND LOOKUP DIFFER: '
+
+
+def own_matrix(matrices, camera, m):
+    """[(rest, name, rows, matrix)]: matrices among the constants that look the map up, from the camera's axes, the nearest one first.
+
+    Row i of such a matrix is rows[i][0] times row i of the map's and rows[i][1] times its w; rest says how far it is from that.
+    A constant can start from the camera's axes or from any others; the constants that lead from these to the camera are tried.
+    """
+    rigid = lambda k: np.abs(k[3] - (0, 0, 0, 1)).max() < 1e-5 and np.abs(k[:3, :3] @ k[:3, :3].T - np.eye(3)).max() < 1e-4
+    to_camera, backs = np.linalg.inv(camera.clip), [np.eye(4)]
+    for view in (v for _, k in matrices for v in (k, to_camera @ k)):
+        if abs(view[3, 3]) > 1e-9 and rigid(view / view[3, 3]):
+            back = np.linalg.inv(view / view[3, 3])
+            if not any(np.abs(back - b).max() < 1e-5 for b in backs):
+                backs.append(back)
+    found, w, size = [], m.clip[3], np.linalg.norm(m.clip, axis=1)
+    for back in backs[:200]:
+        n = np.array([k for _, k in matrices]) @ back
+        scale = n[:, 3] @ w / (w @ w)
+        near = np.abs(n[:, 3] - scale[:, None] * w).max(1) < 0.05 * np.abs(scale) * np.abs(w).max()
+        for k in np.flatnonzero(near & (np.abs(scale) > 1e-9)):
+            one = n[k] / scale[k]
+            bases = [np.c_[m.clip[i], w] for i in (0, 1)]
+            rows = [fit(base, one[i][:, None])[0][0] for i, base in enumerate(bases)]
+            rest = max(np.abs(bases[i] @ rows[i] - one[i]).max() / size[i] for i in (0, 1))
+            if rest < 0.2 and min(abs(r[0]) for r in rows) > 1e-3:
+                found.append((rest, matrices[k][0], rows, one))
+    return sorted(found, key=lambda f: f[0])
+
+
+def aperture(matrix):
+    """Of a light's clip matrix: the lengths of x and y across its axis, which neither a pose nor an added w changes."""
+    across, w = matrix[:2, :3], matrix[3, :3]
+    size = np.linalg.norm(w)
+    if size < 1e-4 * np.linalg.norm(across):
+        return np.linalg.norm(across, axis=1) / max(1e-30, abs(matrix[3, 3]))
+    return np.linalg.norm(across - np.outer(across @ w, w) / size ** 2, axis=1) / size
+
+
+def without_model(capture, m, camera, draws):
+    """[(draw, name)]: whose vertex shader hands over a constant with the map's aperture times the draw's own vertices, although these
+    lie elsewhere in the map."""
+    found, matrix = [], m.clip @ np.linalg.inv(camera.clip)
+    for draw in draws:
+        clip, written = capture.after_vertex_shader(draw)
+        places = [with_one(p) for p in capture.vertex_inputs(draw) if len(p) == len(clip) > 0]
+        for name, constant in capture.matrices(draw) if places else []:
+            factor = aperture(constant) / aperture(m.clip)
+            scale = 1 if abs(factor[0] - 1) < 0.1 else 0.5  # 0.5 where clip space is brought to 0 ... 1
+            if np.abs(factor - scale).max() > 1e-4:
+                continue
+            right = clip @ matrix.T
+            right[:, :2] = right[:, :2] * scale + right[:, 3:] * (1 - scale)
+            for local in (p @ constant.T for p in places):
+                size = np.abs(local).max()
+                stands = np.abs((local * right[:, 3:] - right * local[:, 3:])[:, :2]).max() < 1e-3 * size * np.abs(right).max()
+                handed_over = any(np.abs(written[:, k:k + 4] - local).max() < 1e-5 * size for k in range(written.shape[1] - 3))
+                found += [(draw, name)] if handed_over and not stands else []
+    return found
+
+
+def of_lookup(capture, m, camera, light, lit, wrong):
+    """(what the lookup's own matrix says of the light, where the map's vertices are moved and the constants hold it; notes about this
+    and about a lookup with another matrix). lit: the draws that read the map. wrong: what the lookup of each map does not explain, None
+    where that is not known."""
+    found = own_matrix(capture.matrices(lit[-1]), camera, m) if lit else []
+    if light['kind'] == 'spot' and found:
+        _, name, _, matrix = found[0]
+        centre, axis = centre_of(matrix), m.clip[3, :3]
+        way = centre - light['position']
+        moved = np.linalg.norm(way)
+        is_along = abs(way @ axis) > 0.999 * moved * np.linalg.norm(axis)  # aside it would be another light, or another frame's
+        if is_along and 1e-4 < moved / max(1, np.linalg.norm(centre)) < 0.1:
+            return {'position': centre.tolist()}, [f"the map's vertices are moved by {moved:.4g} along the light (a bias in the map's "
+                                                   f'shader); the truth is of the light that {name} looks up from']
+    is_wrong, is_unknown = any(x and x > UNEXPLAINED for x in wrong), None in wrong
+    t, (x, y, w, h) = capture.textures[m.drawn.target[0]], m.drawn.viewport
+    part = [w / t.width / 2, (x + w / 2) / t.width, h / t.height / 2, (y + h / 2) / t.height]
+    wanted = np.array([[1, 0, 1, 0], [0.5, 0.5, 0.5, 0.5], part])
+    exact = []  # [(how far the matrix is from one that reads the map, its scale alone, name, rows)]
+    for rest, name, (x, y), _ in found:
+        off = np.abs(wanted - [x[0], x[1], abs(y[0]), y[1]])
+        exact += [(off.max(1).min(), off[:, [0, 2]].max(1).min(), name, x, y)] if rest < 1e-3 else []
+    # Of many constants some look alike by chance, moved by a draw's own place: that is a finding only where the lookup does not
+    # follow from the map, and where that is not known, another scale is.
+    if exact and (is_wrong and min(e[0] for e in exact) > 1e-2 or is_unknown and min(e[1] for e in exact) > 1e-2):
+        *_, name, x, y = min(exact, key=lambda e: e[0])
+        return {}, [f'{DIFFER}the matrix {name} reads x = {x[0]:.4f} X + {x[1]:.4f}, y = {y[0]:.4f} Y + {y[1]:.4f}, where X and Y are '
+                    'those of the map as it is drawn']
+    if found and not exact and is_wrong and not camera.orthographic:  # its scale is not known, nor so what leads to the world
+        rest, name, *_ = found[0]
+        return {}, [f'{DIFFER}the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or another '
+                    'light?), and no constant of the lit draw is nearer']
+    astray = without_model(capture, m, camera, lit) if is_wrong or is_unknown else []
+    return {}, [f'{DIFFER}{", ".join(f"draw {d.event}" for d, _ in astray)}: {astray[0][1]} times their own vertices is not where the '
+                'map has them: the lookup lacks their model matrix'] if astray else []

@@ -1,0 +1,184 @@
+"""The frame's visibility of one light: (I - I0) / (I1 - I0), from the frame as captured, with its maps all lit and all dark.
+
+Light that other lamps, ambience or history add is in all three pictures and drops out, and so do albedo and N.L. The two others are
+of edited copies of the capture, through RenderDoc's XML form. Its replay can replace shaders, but no contents of a texture, and a
+shader of the map may be the picture's as well; a copy without the map's draws is right in every case.
+"""
+import os
+import re
+import subprocess
+
+import numpy as np
+
+from replay import Capture, Refusal, step_of
+
+MASK = 0.9  # of the pixels that react: more of them at the end of the format are no highlights
+STEPS_OF_REACTION = 8  # of the target's format, between lit and dark, that a pixel must show
+FEWEST_PIXELS = 100  # that react to a map
+COUNTS = re.compile(r'(<u?int name="(?:count|indexCount|vertexCount|drawCount|instanceCount)"[^>]*>)\d+')
+CLEARS = ('glClear', 'glClearBufferfv', 'glClearBufferfi', 'vkCmdBeginRenderPass')
+FLOAT, INTEGER = re.compile(r'(<float [^>]*>)[^<]*'), re.compile(r'(<u?int [^>]*>)[^<]*')
+CLEAR = '''<chunk id="1696" name="glClearBufferfv" length="48" threadID="1" timestamp="1" duration="1">
+<ResourceId name="framebuffer" typename="GLResource" width="8">{framebuffer}</ResourceId>
+<enum name="buffer" typename="RDCGLenum" string={buffer}</enum>
+<int name="drawbuffer" typename="int32_t" width="4" important="true">0</int>
+<array name="value" important="true">{values}</array>
+<array name="DebugMessages" typename="DebugMessage" hidden="true" />
+</chunk>
+'''
+
+
+def crop(image, viewport):
+    x, y, w, h = (int(v) for v in viewport)
+    return image[y:y + h, x:x + w]
+
+
+def divided(part, span):
+    """The share of the span that the part is, by least squares over the channels; NaN without a span."""
+    with np.errstate(invalid='ignore'):
+        return (part * span).sum(2) / (span * span).sum(2)
+
+
+class Pictures:
+    """What the frame draws at the picture's size after its maps, as captured and in copies."""
+
+    def __init__(self, path, folder, capture, draws, passes, camera, maps):
+        self.folder, self.capture, self.draws, self.camera, self.maps = folder, capture, draws, camera, maps
+        self._convert(path, 'base.zip.xml', 'zip.xml')
+        with open(self._file('base.zip.xml'), encoding='utf-8', errors='surrogateescape') as f:
+            text = f.read()
+        start, end = text.index('<chunk id'), text.index('</chunks>')
+        self.head, self.tail, self.clears = text[:start], text[end:], capture.clears()
+        self.chunks = re.findall(r'<chunk id=[^>]*/>\s*|<chunk id=.*?</chunk>\s*', text[start:end], re.S)
+        later = [p for p in passes if p.last > maps[-1].drawn.first and p.viewport[2:] == camera.viewport[2:]]
+        ends = {target: p.last for p in sorted(later, key=lambda p: p.last) for target in p.outputs}
+        self.targets = dict(sorted(ends.items(), key=lambda t: t[1]))
+        self.frame = self._read(capture, 0)
+
+    def _file(self, name):
+        return os.path.join(self.folder, name)
+
+    def _convert(self, path, name, form):
+        done = subprocess.run(['renderdoccmd', 'convert', '-f', path, '-o', self._file(name), '-c', form],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        if done.returncode:
+            raise Refusal(f'renderdoccmd convert ends with {done.returncode}: {done.stderr.decode(errors="replace").strip()[-200:]}')
+
+    def _call(self, chunk):
+        return re.match(r'<chunk id="\d+" name="([^"]*)"', self.chunks[chunk]).group(1)
+
+    def _read(self, capture, shift):
+        images = {}
+        for target, event in self.targets.items():
+            own = (capture.same(target[0], self.capture), *target[1:])
+            try:
+                images[target] = crop(capture.image(own, event + shift), self.camera.viewport)[..., :3].astype('f8')
+            except Refusal as why:
+                if capture is self.capture:
+                    print(why)
+        return images
+
+    def _cleared(self, m, value):
+        """(edits, calls put in): the map is cleared to `value` where this frame clears it last before drawing."""
+        drawn, outputs = m.drawn, {o[0] for o in m.drawn.outputs}
+        mine = [c for c, z, o in self.clears if c < drawn.draws[0].chunk and self._call(c) in CLEARS
+                and (z == drawn.depth[0] if drawn.depth else outputs & set(o))]
+        if not mine:
+            raise Refusal(f'the map of {drawn.name} is not cleared in this frame, so it keeps what earlier frames drew; move '
+                          'the light a little while the frame is captured')
+        chunk, text = mine[-1], self.chunks[mine[-1]]
+        if self._call(chunk) == 'glClear':
+            bound = [re.search(r'name="framebuffer"[^>]*>(\d+)<', self.chunks[k]).group(1)
+                     for k in range(chunk) if self._call(k) == 'glBindFramebuffer' and 'READ' not in self.chunks[k]][-1]
+            buffer, channels = ('"GL_COLOR">6144', 4) if self.reads_colour(m) else ('"GL_DEPTH">6145', 1)
+            values = f'<float typename="float" width="4">{value}</float>' * channels
+            return {chunk: text + CLEAR.format(framebuffer=bound, buffer=buffer, values=values)}, 1
+        start, mark, values = text.rpartition('<array name="pClearValues">')
+        if mark:  # Vulkan's is a union: each of its members is written, one over the other, so all are set alike
+            values = INTEGER.sub(r'\g<1>' + ('1065353216' if value == 1 else '0'), values)
+        return {chunk: start + mark + FLOAT.sub(rf'\g<1>{value}', values)}, 0
+
+    def replay(self, lit=(), dark=(), value=None):
+        """The pictures with some maps empty, and with others cleared to a value (None: the nearest depth)."""
+        edits, shift = {}, 0
+        for draw in (d for m in (*lit, *dark) for d in m.drawn.draws):  # which stay and draw nothing, so the numbers of events stay
+            edits[draw.chunk], changed = COUNTS.subn(r'\g<1>0', self.chunks[draw.chunk])
+            if not changed:
+                raise Refusal(f'draw {draw.event} takes its vertices from {self._call(draw.chunk)}, which cannot be emptied')
+        for m in dark:
+            clear, more = self._cleared(m, int(m.drawn.reversed) if value is None else value)
+            shift += 0 if set(clear) & set(edits) else more
+            edits |= clear
+        with open(self._file('copy.zip.xml'), 'w', encoding='utf-8', errors='surrogateescape') as f:
+            f.writelines((self.head, *(edits.get(i, c) for i, c in enumerate(self.chunks)), self.tail))
+        if not os.path.exists(self._file('copy.zip')):
+            os.link(self._file('base.zip'), self._file('copy.zip'))
+        self._convert(self._file('copy.zip.xml'), 'copy.rdc', 'rdc')
+        copy = Capture(self._file('copy.rdc'))
+        images = self._read(copy, shift)
+        copy.close()
+        return images
+
+    def _reads_after(self, event):
+        return set().union(*(d.reads for d in self.draws if d.event > event))
+
+    def reads_colour(self, m):
+        """A pass may write a depth and colours; what a later draw reads is the map."""
+        read = self._reads_after(self.maps[0].drawn.first)
+        return bool(m.drawn.outputs) and (not m.drawn.depth or any(o[0] in read for o in m.drawn.outputs))
+
+    def _no_effect(self, group):
+        """Why nothing changes with the light's maps."""
+        read = self._reads_after(group[-1].drawn.last)
+        why = f'the map of {group[0].drawn.name} has no effect on the picture'
+        if any(m.drawn.textures & read for m in group):
+            return f'{why}, although draws read it: is its bias so large that nothing is in shadow?'
+        others = sorted({m.drawn.name for m in self.maps if m.drawn.target[0] in read})
+        return f'{why}: no later draw reads it' + (f'; they read the map of another light ({", ".join(others)})' if others else '')
+
+    def visibility(self, group):
+        """(V, picture all lit, picture all dark, target, notes): V has NaN where the picture does not react to the light's maps."""
+        capture, values = self.capture, [None]
+        if self.reads_colour(group[0]):  # moments: which number means dark is not known, so the pictures say it
+            values = [0, 1, 1e30] if capture.textures[group[0].drawn.outputs[0][0]].format.compByteWidth > 1 else [0, 1]
+        shots = [self.replay(lit=group), *(self.replay(dark=group, value=v) for v in values)]
+        for target in self.targets:
+            if all(target in s for s in (self.frame, *shots)):
+                dark, *_, lit = sorted((s[target] for s in shots), key=lambda image: np.nansum(np.clip(image, 0, 100)))
+                reaction = np.abs(lit - dark).max(2)
+                if (reaction > 1 / 256).sum() >= FEWEST_PIXELS:
+                    break
+        else:
+            raise Refusal(self._no_effect(group))
+        form, frame, span = capture.textures[target[0]].format, self.frame[target], lit - dark
+        step = step_of(form)
+        entry = [d for d in self.draws if target in d.outputs and d.reads]
+        notes = [f'visibility from {capture.describe(target)} after event {self.targets[target]}' +
+                 (f', drawn by {capture.fragment_shader(entry[-1])}' if entry else '')]
+        if form.compByteWidth == 1:  # where a channel is at its end, the light may go further than it shows
+            clamped = (np.maximum(lit, frame) >= 1 - step / 2) & (span != 0)
+            if 0 < clamped.any(2).sum() <= MASK * (span != 0).any(2).sum():  # more is not a bright picture: a mask whose 1 is lit
+                span = np.where(clamped, 0, span)
+                notes.append(f'{clamped.any(2).sum()} pixels reach the end of their format in a channel, which is left out')
+        v = divided(frame - dark, span)
+        v[np.abs(span).max(2) < max(STEPS_OF_REACTION * step, 0.004 * np.percentile(reaction, 99))] = np.nan
+        strong = np.abs(span) > 0.2 * np.abs(span).max(2, keepdims=True)
+        each = np.divide(frame - dark, span, out=np.full_like(span, np.nan), where=strong)
+        partly = (v > 0.1) & (v < 0.9)
+        steps = 4 * step / np.where(strong, np.abs(span), np.inf).min(2)  # what the format's steps do
+        apart = (np.nanmax(each[partly], 1) - np.nanmin(each[partly], 1) - steps[partly]) if partly.any() else np.zeros(1)
+        if np.median(apart) > 0.01:
+            notes.append(f'the channels of the picture disagree about the visibility by {np.median(apart):.2g}: the target is '
+                         'not linear in the light (a tone curve, or colours mixed after it)')
+        outside = ((v < -0.02) | (v > 1.02)).sum()
+        if outside:
+            notes.append(f'{outside} of {np.isfinite(v).sum()} pixels are outside of what all lit and all dark give, by more than 0.02')
+        return np.clip(v, 0, 1), lit, dark, target, notes
+
+    def shares(self, group, target, lit, dark):
+        """For each map of a light the share of the pixel's shadow that it decides, 0 to 1; None where maps share a texture."""
+        if len(group) == 1:
+            return [np.ones(lit.shape[:2])]
+        if len({m.drawn.target for m in group}) < len(group) or any(map(self.reads_colour, group)):
+            return None
+        return [divided(lit - self.replay(lit=[o for o in group if o is not m], dark=[m])[target], lit - dark) for m in group]
