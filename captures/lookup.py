@@ -16,14 +16,8 @@ UNEXPLAINED = 0.01  # of the receivers: a tenth of that is left where the lookup
 
 def receivers(depth, camera):
     """Places and normals of the pixels in the camera's axes, from its depths; float64, height x width x 3."""
-    height, width = depth.shape
-    y, x = np.mgrid[0:height, 0:width]
-    z = depth.astype('f8') if camera.zero_to_one else 2 * depth.astype('f8') - 1
-    clip = np.stack([(x + 0.5) / width * 2 - 1, (y + 0.5) / height * 2 - 1, z, np.ones_like(z)], -1)
-    place = clip @ np.linalg.inv(camera.clip).T
-    with np.errstate(all='ignore'):
-        place = place[..., :3] / place[..., 3:]
-    place[~np.isfinite(place)] = 0
+    y, x = ((np.mgrid[0:depth.shape[0], 0:depth.shape[1]][i] + 0.5) / depth.shape[i] for i in (0, 1))
+    place = np.nan_to_num(camera.place(x.ravel(), y.ravel(), depth.ravel().astype('f8')), posinf=0, neginf=0).reshape(*depth.shape, 3)
 
     def along(axis):
         """Of the differences to both neighbours the smaller one, which does not cross an outline."""
@@ -72,8 +66,9 @@ class Taps:
     """How much farther than the map's texels places are, for each tap of a filter."""
 
     def __init__(self, m, place):
-        self.map, self.place, self.depths = m, place, 1 - m.depths if m.drawn.reversed else m.depths
-        self.u, self.v, self.z = m.window(place)
+        self.map, self.place = m, place
+        self.u, self.v, z = m.window(place)
+        self.z, self.depths = (1 - z, 1 - m.depths) if m.reversed else (z, m.depths)  # near = 0
         self.rows, self.columns = m.depths.shape
         self.inside = (self.u > 0) & (self.u < 1) & (self.v > 0) & (self.v < 1) & (self.z < 1)
 
@@ -91,12 +86,12 @@ class Taps:
 
     def farther(self):
         """Of the places inside: by how many texels they lie behind what their texel holds, along the light's ray."""
-        inside, u, v, z = self.inside, self.u[self.inside], self.v[self.inside], self.z[self.inside]
-        stored = z - self.read('none')[0][0][inside]
+        beyond, place = self.read('none')[0][0][self.inside], self.place[self.inside]
+        stored = self.z[self.inside] - beyond
+        way = self.map.place(self.u[self.inside], self.v[self.inside], 1 - stored if self.map.reversed else stored) - place
         with np.errstate(all='ignore'):
-            way = self.map.place(u, v, stored) - self.place[inside]
-        texels = np.linalg.norm(way, axis=1) / self.map.texel(self.place[inside])
-        return np.where(np.isfinite(texels), texels, np.inf) * np.sign(z - stored)
+            texels = np.linalg.norm(way, axis=1) / self.map.texel(place)
+        return np.where(np.isfinite(texels), texels, np.inf) * np.sign(beyond)
 
 
 def turning(beyond, weights, goal):

@@ -81,7 +81,7 @@ def of_lookup(capture, m, camera, light, lit, wrong):
             return {'position': centre.tolist()}, [f"the map's vertices are moved by {moved:.4g} along the light (a bias in the map's "
                                                    f'shader); the truth is of the light that {name} looks up from']
     is_wrong, is_unknown = any(x and x > UNEXPLAINED for x in wrong), None in wrong
-    t, (x, y, w, h) = capture.textures[m.drawn.target[0]], m.drawn.viewport
+    t, (x, y, w, h) = capture.textures[m.target[0]], m.viewport
     part = [w / t.width / 2, (x + w / 2) / t.width, h / t.height / 2, (y + h / 2) / t.height]
     wanted = np.array([[1, 0, 1, 0], [0.5, 0.5, 0.5, 0.5], part])
     exact = []  # [(how far the matrix is from one that reads the map, its scale alone, name, rows)]

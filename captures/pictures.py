@@ -50,7 +50,7 @@ class Pictures:
         start, end = text.index('<chunk id'), text.index('</chunks>')
         self.head, self.tail, self.clears = text[:start], text[end:], capture.clears()
         self.chunks = re.findall(r'<chunk id=[^>]*/>\s*|<chunk id=.*?</chunk>\s*', text[start:end], re.S)
-        later = [p for p in passes if p.last > maps[-1].drawn.first and p.viewport[2:] == camera.viewport[2:]]
+        later = [p for p in passes if p.last > maps[-1].first and p.viewport[2:] == camera.viewport[2:]]
         ends = {target: p.last for p in sorted(later, key=lambda p: p.last) for target in p.outputs}
         self.targets = dict(sorted(ends.items(), key=lambda t: t[1]))
         self.frame = self._read(capture, 0)
@@ -80,11 +80,11 @@ class Pictures:
 
     def _cleared(self, m, value):
         """(edits, calls put in): the map is cleared to `value` where this frame clears it last before drawing."""
-        drawn, outputs = m.drawn, {o[0] for o in m.drawn.outputs}
-        mine = [c for c, z, o in self.clears if c < drawn.draws[0].chunk and self._call(c) in CLEARS
-                and (z == drawn.depth[0] if drawn.depth else outputs & set(o))]
+        outputs = {o[0] for o in m.outputs}
+        mine = [c for c, z, o in self.clears if c < m.draws[0].chunk and self._call(c) in CLEARS
+                and (z == m.depth[0] if m.depth else outputs & set(o))]
         if not mine:
-            raise Refusal(f'the map of {drawn.name} is not cleared in this frame, so it keeps what earlier frames drew; move '
+            raise Refusal(f'the map of {m.name} is not cleared in this frame, so it keeps what earlier frames drew; move '
                           'the light a little while the frame is captured')
         chunk, text = mine[-1], self.chunks[mine[-1]]
         if self._call(chunk) == 'glClear':
@@ -101,12 +101,12 @@ class Pictures:
     def replay(self, lit=(), dark=(), value=None):
         """The pictures with some maps empty, and with others cleared to a value (None: the nearest depth)."""
         edits, shift = {}, 0
-        for draw in (d for m in (*lit, *dark) for d in m.drawn.draws):  # which stay and draw nothing, so the numbers of events stay
+        for draw in (d for m in (*lit, *dark) for d in m.draws):  # which stay and draw nothing, so the numbers of events stay
             edits[draw.chunk], changed = COUNTS.subn(r'\g<1>0', self.chunks[draw.chunk])
             if not changed:
                 raise Refusal(f'draw {draw.event} takes its vertices from {self._call(draw.chunk)}, which cannot be emptied')
         for m in dark:
-            clear, more = self._cleared(m, int(m.drawn.reversed) if value is None else value)
+            clear, more = self._cleared(m, int(m.reversed) if value is None else value)
             shift += 0 if set(clear) & set(edits) else more
             edits |= clear
         with open(self._file('copy.zip.xml'), 'w', encoding='utf-8', errors='surrogateescape') as f:
@@ -124,23 +124,23 @@ class Pictures:
 
     def reads_colour(self, m):
         """A pass may write a depth and colours; what a later draw reads is the map."""
-        read = self._reads_after(self.maps[0].drawn.first)
-        return bool(m.drawn.outputs) and (not m.drawn.depth or any(o[0] in read for o in m.drawn.outputs))
+        read = self._reads_after(self.maps[0].first)
+        return bool(m.outputs) and (not m.depth or any(o[0] in read for o in m.outputs))
 
     def _no_effect(self, group):
         """Why nothing changes with the light's maps."""
-        read = self._reads_after(group[-1].drawn.last)
-        why = f'the map of {group[0].drawn.name} has no effect on the picture'
-        if any(m.drawn.textures & read for m in group):
+        read = self._reads_after(group[-1].last)
+        why = f'the map of {group[0].name} has no effect on the picture'
+        if any(m.textures & read for m in group):
             return f'{why}, although draws read it: is its bias so large that nothing is in shadow?'
-        others = sorted({m.drawn.name for m in self.maps if m.drawn.target[0] in read})
+        others = sorted({m.name for m in self.maps if m.target[0] in read})
         return f'{why}: no later draw reads it' + (f'; they read the map of another light ({", ".join(others)})' if others else '')
 
     def visibility(self, group):
         """(V, picture all lit, picture all dark, target, notes): V has NaN where the picture does not react to the light's maps."""
         capture, values = self.capture, [None]
         if self.reads_colour(group[0]):  # moments: which number means dark is not known, so the pictures say it
-            values = [0, 1, 1e30] if capture.textures[group[0].drawn.outputs[0][0]].format.compByteWidth > 1 else [0, 1]
+            values = [0, 1, 1e30] if capture.textures[group[0].outputs[0][0]].format.compByteWidth > 1 else [0, 1]
         shots = [self.replay(lit=group), *(self.replay(dark=group, value=v) for v in values)]
         for target in self.targets:
             if all(target in s for s in (self.frame, *shots)):
@@ -179,6 +179,6 @@ class Pictures:
         """For each map of a light the share of the pixel's shadow that it decides, 0 to 1; None where maps share a texture."""
         if len(group) == 1:
             return [np.ones(lit.shape[:2])]
-        if len({m.drawn.target for m in group}) < len(group) or any(map(self.reads_colour, group)):
+        if len({m.target for m in group}) < len(group) or any(map(self.reads_colour, group)):
             return None
         return [divided(lit - self.replay(lit=[o for o in group if o is not m], dark=[m])[target], lit - dark) for m in group]

@@ -19,10 +19,10 @@ MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, be
 EMPTY = 0.3  # of the receivers that read an empty texel, before the ground is taken for no caster of the map
 
 
-def space(clip, drawn):
+def space(clip, p):
     """A clip space as frame.json has it."""
-    return {'clip_from_world': clip.flatten().tolist(), 'order': 'row', 'depth_range': '0..1' if drawn.zero_to_one else '-1..1',
-            'reversed': drawn.reversed}
+    return {'clip_from_world': clip.flatten().tolist(), 'order': 'row', 'depth_range': '0..1' if p.zero_to_one else '-1..1',
+            'reversed': p.reversed}
 
 
 class Reader:
@@ -42,24 +42,24 @@ class Reader:
         np.save(self.path(name), np.ascontiguousarray(image[::-1], '<f4'))
         return {'file': name}
 
-    def image(self, target, drawn):
-        return crop(self.capture.image(target, drawn.last), drawn.viewport)[..., 0]
+    def image(self, target, p):
+        return crop(self.capture.image(target, p.last), p.viewport)[..., 0]
 
     def describe(self):
         c, cam = self.capture, self.camera
         print(f'{c.file.DriverName()}, {len(self.draws)} draws; the picture: {cam.name}, {cam.viewport[2]:.0f} x {cam.viewport[3]:.0f}, '
               f'{"orthographic" if cam.orthographic else "perspective"} camera')
         for n, m in ((n, m) for n, group in enumerate(self.lights, 1) for m in group):
-            f, u = m.drawn.draws[0].polygon_offset
-            print(f'light {n}, {solve.light_of(self.lights[n - 1])["kind"]}: map {c.describe(m.drawn.target)} '
-                  f'"{c.names.get(m.drawn.target[0], "")}", {m.drawn.name}, {len(m.pairs)} of {len(m.drawn.draws)} draws are in the '
+            f, u = m.draws[0].polygon_offset
+            print(f'light {n}, {solve.light_of(self.lights[n - 1])["kind"]}: map {c.describe(m.target)} '
+                  f'"{c.names.get(m.target[0], "")}", {m.name}, {len(m.pairs)} of {len(m.draws)} draws are in the '
                   f'picture too, residual {m.residual:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
                   + ('' if m.cull == 'none' else f', without {m.cull} faces by their winding') + self.unfilled(m))
 
     def unfilled(self, m):
         """Of a map that is drawn into a part of a texture into which nothing else is drawn."""
-        t, (_, _, w, h) = self.capture.textures[m.drawn.target[0]], m.drawn.viewport
-        alone = all(p is m.drawn or m.drawn.target not in (p.depth, *p.outputs) for p in self.passes)
+        t, (_, _, w, h) = self.capture.textures[m.target[0]], m.viewport
+        alone = all(p.first == m.first or m.target not in (p.depth, *p.outputs) for p in self.passes)
         return (f'; its viewport {w:.0f} x {h:.0f} fills a part of the texture, and nothing fills the rest: an atlas, or a forgotten '
                 'viewport') if alone and w * h < t.width * t.height else ''
 
@@ -73,7 +73,7 @@ class Reader:
         if np.ptp(depth) == 0:
             raise Refusal('the depth buffer of the picture reads as one value (OpenGL ES cannot read some depths); nothing can be judged')
         for m in self.maps:
-            m.depths = self.image(m.drawn.target, m.drawn)
+            m.depths = self.image(m.target, m)
         self.parts = scene.casters(cam, self.maps, self.capture)
         scene.write_glb(self.path('scene.glb'), self.parts, self.capture)
         self.place, self.normal = lookup.receivers(depth, cam)
@@ -103,7 +103,7 @@ class Reader:
         reacts = np.isfinite(v)
         use, mute = surface & reacts & facing, surface & ~reacts & facing
         if use.sum() < FEWEST_PIXELS:
-            raise Refusal(f'only {use.sum()} pixels that face the light react to the map of {group[0].drawn.name}')
+            raise Refusal(f'only {use.sum()} pixels that face the light react to the map of {group[0].name}')
         if mute.any():
             notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
         marks = np.where(surface, np.where(reacts, v, np.where(facing, NOT_JUDGED, 0)), NO_SURFACE)
@@ -114,11 +114,11 @@ class Reader:
             why = self.why_unknown(m, mine, bool(missing))
             found = None if why else lookup.explain(m, self.place[mine], self.normal[mine], v[mine], self.options.filter, self.options.bias)
             lookups.append((m, mine, found))
-            notes.append(f'map {self.capture.describe(m.drawn.target)}, {m.drawn.name}: '
+            notes.append(f'map {self.capture.describe(m.target)}, {m.name}: '
                          + str(found or (why or 'too few receivers for its lookup') + '; judged by place'))
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(missing)}')
-        readers = [d for d in self.draws if target in d.outputs and group[-1].drawn.textures & d.reads]
+        readers = [d for d in self.draws if target in d.outputs and group[-1].textures & d.reads]
         moved, astray = matrix.of_lookup(self.capture, group[-1], self.camera, light, readers, [f.wrong if f else None for *_, f in lookups])
         notes += astray
         if moved:
@@ -175,10 +175,10 @@ class Reader:
         if not found or found.constant < 0:
             return {}
         technique = found.technique() | {'map.cull': m.cull}
-        factor, units = (-n if m.drawn.reversed else n for n in m.drawn.draws[0].polygon_offset)
+        factor, units = (-n if m.reversed else n for n in m.draws[0].polygon_offset)
         if factor or units:
             technique |= {'bias.polygon_factor': repr(factor), 'bias.polygon_units': repr(units)}
-        return {'map': self.save(f'{name}-depths.npy', m.depths[::-1]) | space(m.clip, m.drawn) | {
+        return {'map': self.save(f'{name}-depths.npy', m.depths[::-1]) | space(m.clip, m) | {
             'first_row': 'bottom', 'technique': technique}}
 
 

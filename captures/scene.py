@@ -129,8 +129,8 @@ def casters(camera, maps, capture):
         elif draw.writes_depth:
             print(f'draw {draw.event} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
     for m in maps:
-        masked |= {d.geometry: (m, d) for d in m.drawn.draws if d.discards and d.reads}  # what reads nothing drops nothing
-        parts += [part_of(d, m.drawn, np.linalg.inv(m.clip), capture) for d in m.drawn.draws if d.event not in m.pairs]
+        masked |= {d.geometry: (m, d) for d in m.draws if d.discards and d.reads}  # what reads nothing drops nothing
+        parts += [part_of(d, m, np.linalg.inv(m.clip), capture) for d in m.draws if d.event not in m.pairs]
     parts = [p for p in parts if len(p.triangles)]
     if not parts:
         raise Refusal('the frame has no triangles that cast shadows')

@@ -18,12 +18,19 @@ SQUARE = 0.05  # cosine between the axes of a map
 
 @dataclasses.dataclass
 class Pass:
+    """Of a picture or of a map. As a map it is a copy, whose clip space is the light's."""
     draws: list
     depth: tuple
     outputs: tuple
     viewport: tuple
-    clip: np.ndarray = None  # 4 x 4: clip from the camera's axes; None if the pass does not tell a camera
+    clip: np.ndarray = None  # 4 x 4: clip space from the camera's axes; None where the pass tells no camera
     orthographic: bool = False
+    # Of a map:
+    light: dict = None  # frame.json's light
+    pairs: dict = None  # event of the map's draw -> draw of the camera's pass
+    residual: float = None  # 99 in 100 vertices are nearer to the matrix, in clip units
+    depth_off: np.ndarray = None  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
+    depths: np.ndarray = None  # as captured; rows start at the bottom
 
     def __post_init__(self):
         self.first, self.last = self.draws[0].event, self.draws[-1].event
@@ -35,46 +42,33 @@ class Pass:
         for draw in self.draws:
             self.meshes[draw.geometry].append(draw)
 
+    def window(self, place):
+        """(u, v, depth) of places, 0 to 1."""
+        q = with_one(place) @ self.clip.T
+        q = q[:, :3] / np.where(np.abs(q[:, 3:]) > 1e-12, q[:, 3:], 1)
+        return q[:, 0] / 2 + 0.5, q[:, 1] / 2 + 0.5, q[:, 2] if self.zero_to_one else q[:, 2] / 2 + 0.5
 
-@dataclasses.dataclass
-class Map:
-    drawn: Pass
-    clip: np.ndarray  # 4 x 4: the light's clip space from the camera's axes
-    light: dict  # frame.json's light
-    pairs: dict  # event of the map's draw -> draw of the camera's pass
-    residual: float  # 99 in 100 vertices are nearer to the matrix, in clip units
-    depth_off: list  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
-    is_square: bool  # its axes are at right angles
-    depths: np.ndarray = None  # as captured; rows start at the bottom
+    def place(self, u, v, depth):
+        """The reverse of window()."""
+        with np.errstate(all='ignore'):
+            q = with_one(np.c_[2 * u - 1, 2 * v - 1, depth if self.zero_to_one else 2 * depth - 1]) @ np.linalg.inv(self.clip).T
+            return q[:, :3] / q[:, 3:]
+
+    def texel(self, place):
+        """The width of a map's texel at places, in units of length."""
+        axis = self.clip[3, :3]
+        across = self.clip[0, :3] - (self.clip[0, :3] @ axis) * axis / (axis @ axis or 1)
+        return 2 * (with_one(place) @ self.clip[3]) / np.linalg.norm(across) / self.depths.shape[1]
 
     @property
     def cull(self):
         """map.cull: the side of the triangles that most of the map's draws leave out."""
         turns = collections.Counter()
-        for draw in self.drawn.draws:
+        for draw in self.draws:
             turns[draw.culls] += draw.count
         turn = turns.most_common(1)[0][0]
-        mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.drawn.reversed
+        mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.reversed
         return turn if turn == 'none' else 'front' if (turn == 'ccw') != mirrored else 'back'
-
-    def window(self, place):
-        """(u, v, depth) of places in the map, 0 to 1, near = 0."""
-        q = with_one(place) @ self.clip.T
-        q = q[:, :3] / np.where(np.abs(q[:, 3:]) > 1e-12, q[:, 3:], 1)
-        z = q[:, 2] if self.drawn.zero_to_one else q[:, 2] / 2 + 0.5
-        return q[:, 0] / 2 + 0.5, q[:, 1] / 2 + 0.5, 1 - z if self.drawn.reversed else z
-
-    def place(self, u, v, depth):
-        """The reverse of window()."""
-        z = 1 - depth if self.drawn.reversed else depth
-        q = np.c_[2 * u - 1, 2 * v - 1, z if self.drawn.zero_to_one else 2 * z - 1, np.ones(len(z))] @ np.linalg.inv(self.clip).T
-        return q[:, :3] / q[:, 3:]
-
-    def texel(self, place):
-        """The width of a texel at places, in units of length."""
-        axis = self.clip[3, :3]
-        across = self.clip[0, :3] - (self.clip[0, :3] @ axis) * axis / (axis @ axis or 1)
-        return 2 * (with_one(place) @ self.clip[3]) / np.linalg.norm(across) / self.depths.shape[1]
 
 
 def passes_of(draws):
@@ -224,7 +218,6 @@ def map_of(light, camera, capture):
     if mixed < 1e-4 * np.abs(m).max():
         return None  # x stays x, y stays y: a prepass, a G-buffer, a picture of half the size
     clip = m @ camera.clip
-    residual = float(np.percentile(off(m, c, l), 99))
     parallel = np.abs(clip[3, :3]).max() < 1e-4 * abs(clip[3, 3]) * np.linalg.norm(clip[0, :3])
     # The depth row has two numbers only: a bias in the vertex shader of the map bends a free fit.
     if parallel:
@@ -239,11 +232,14 @@ def map_of(light, camera, capture):
     k, b = robust_line(t, z)
     clip[2] = k * row + (0, 0, 0, b)
     along = (row if not parallel or (k > 0) != light.reversed else -row)[:3]
+    axes = np.array([v / np.linalg.norm(v) for v in (clip[0, :3], clip[1, :3], along)])
+    if np.abs(axes @ axes.T - np.eye(3)).max() > SQUARE:
+        print(f'{light.name} draws with axes that are not at right angles (a warped map?): its light cannot be told')
+        return None
     found = {'kind': 'directional', 'direction': along.tolist()} if parallel else {
         'kind': 'spot', 'position': centre_of(clip).tolist(), 'direction': along.tolist(), 'cone_deg': 170.0}
-    axes = np.array([v / np.linalg.norm(v) for v in (clip[0, :3], clip[1, :3], along)])
-    return Map(light, clip, found, pairs, residual, np.percentile((z - k * t - b) / unit, [1, 50, 99]).tolist(),
-               np.abs(axes @ axes.T - np.eye(3)).max() < SQUARE)
+    return dataclasses.replace(light, clip=clip, light=found, pairs=pairs, residual=float(np.percentile(off(m, c, l), 99)),
+                               depth_off=np.percentile((z - k * t - b) / unit, [1, 50, 99]))
 
 
 def camera_and_maps(capture, passes):
@@ -255,16 +251,11 @@ def camera_and_maps(capture, passes):
     if not cameras:
         raise Refusal('no pass of this frame tells a camera: its meshes are flat, or placed on the GPU without a linear '
                       'place for each vertex')
-    warped = []
     for camera in sorted(cameras, key=lambda p: (-p.viewport[2] * p.viewport[3], -p.last)):
         maps = [map_of(p, camera, capture) for p in passes
                 if p is not camera and p.first < camera.last and not (p.viewport == camera.viewport and p.depth == camera.depth)]
-        if any(m and m.is_square for m in maps):
-            return camera, [m for m in maps if m and m.is_square]
-        warped += filter(None, maps)
-    if warped:
-        raise Refusal(f'the map of {warped[0].drawn.name} has axes that are not at right angles (a warped map, as light-space perspective '
-                      'shadow maps are): its light cannot be told')
+        if any(maps):
+            return camera, list(filter(None, maps))
     raise Refusal('no pass draws the meshes of the picture from another eye: this frame draws no shadow map. Where a map is '
                   'kept over frames, move the light a little while the frame is captured')
 
@@ -276,13 +267,9 @@ def lights_of(maps):
         key = 'direction' if a['kind'] == 'directional' else 'position'
         return a['kind'] == b['kind'] and np.allclose(a[key], b[key], rtol=0, atol=SAME_LIGHT * max(1, np.abs(a[key]).max()))
     groups = []
-    for m in maps:
-        for group in groups:
-            if is_same(group[0].light, m.light):
-                group.append(m)
-                break
-        else:
-            groups.append([m])
+    while maps:
+        groups.append([m for m in maps if is_same(maps[0].light, m.light)])
+        maps = [m for m in maps if not is_same(maps[0].light, m.light)]
     return groups
 
 
