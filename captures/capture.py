@@ -18,7 +18,6 @@ import struct
 import sys
 import tempfile
 
-CRASHES = (-signal.SIGSEGV, -signal.SIGABRT, -signal.SIGBUS, -signal.SIGILL)
 MEMORY, SECONDS = 16 << 30, 1200
 CLONE_NEWUSER, CLONE_NEWNET, PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS = 0x10000000, 0x40000000, 1, 38
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
@@ -51,15 +50,21 @@ def confine(folder):
 
 
 def replay(options):
-    """In the child."""
+    """In the child. It ends without Python's ending, nor RenderDoc's, which can wait for ever."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     confine(options.out)
+    sys.stdout.reconfigure(line_buffering=True)
     os.environ.pop('DISPLAY', None)  # RenderDoc replays OpenGL through EGL then
     places = ('HOME', 'TMPDIR', 'XDG_RUNTIME_DIR', 'XDG_CACHE_HOME')
     os.environ.update({'LIBGL_ALWAYS_SOFTWARE': '1', 'LP_NUM_THREADS': '2'} | os.environ | dict.fromkeys(places, options.scratch))
     os.environ['EGL_PLATFORM'] = 'surfaceless'
     import read_capture
-    read_capture.main(options)
+    try:
+        read_capture.read(options)
+        os._exit(0)
+    except read_capture.Refusal as why:
+        print(f'noonmark: {options.capture}: {why}', file=sys.stderr)
+        os._exit(3)
 
 
 def main():
@@ -85,18 +90,13 @@ def main():
     for old in glob.glob(os.path.join(glob.escape(options.out), '.noonmark-scratch-*')):
         shutil.rmtree(old, ignore_errors=True)  # of a run that was killed
     options.scratch = tempfile.mkdtemp(prefix='.noonmark-scratch-', dir=options.out)
+    child = multiprocessing.get_context('fork').Process(target=replay, args=[options])
+    child.start()
     try:
-        for is_last in (False, True):
-            child = multiprocessing.get_context('fork').Process(target=replay, args=[options])
-            child.start()
-            child.join(2 * SECONDS)
-            if is_last or child.exitcode not in CRASHES:
-                break
-            print(f'the replay crashed (signal {-child.exitcode}); it is tried once more', flush=True)  # one of 130 did, in the driver
+        child.join(2 * SECONDS)
     finally:  # after its time, too, and when this process is ended
-        for running in multiprocessing.active_children():
-            running.kill()
-            running.join()
+        child.kill()
+        child.join()
         shutil.rmtree(options.scratch, ignore_errors=True)
     if child.exitcode < 0:
         print(f'noonmark: {options.capture}: the replay ended by signal {-child.exitcode} (the driver, or its limits of {MEMORY >> 30} GiB '

@@ -2,7 +2,7 @@
 import numpy as np
 
 from lookup import UNEXPLAINED
-from solve import centre_of, fit, with_one
+from solve import centre_of, with_one
 
 DIFFER = 'MAP AND LOOKUP DIFFER: '
 
@@ -13,25 +13,23 @@ def own_matrix(matrices, camera, m):
     Row i of such a matrix is rows[i][0] times row i of the map's and rows[i][1] times its w; rest says how far it is from that.
     A constant can start from the camera's axes or from any others; the constants that lead from these to the camera are tried.
     """
-    rigid = lambda k: np.abs(k[3] - (0, 0, 0, 1)).max() < 1e-5 and np.abs(k[:3, :3] @ k[:3, :3].T - np.eye(3)).max() < 1e-4
-    to_camera, backs = np.linalg.inv(camera.clip), [np.eye(4)]
-    for view in (v for _, k in matrices for v in (k, to_camera @ k)):
-        if abs(view[3, 3]) > 1e-9 and rigid(view / view[3, 3]):
-            back = np.linalg.inv(view / view[3, 3])
-            if not any(np.abs(back - b).max() < 1e-5 for b in backs):
-                backs.append(back)
-    found, w, size = [], m.clip[3], np.linalg.norm(m.clip, axis=1)
+    stack, w, near = np.array([k for _, k in matrices]), m.clip[3], lambda a, b, by: np.abs(a - b).max((-2, -1)) < by
+    views = np.concatenate([stack, np.linalg.inv(camera.clip) @ stack])
+    views = views[np.abs(views[:, 3, 3]) > 1e-9]
+    views = views / views[:, 3:, 3:]
+    turn = views[:, :3, :3]
+    rigid = views[near(views[:, 3:], (0, 0, 0, 1), 1e-5) & near(turn @ turn.transpose(0, 2, 1), np.eye(3), 1e-4)]
+    backs = np.linalg.inv([np.eye(4), *rigid])
+    backs = backs[np.sort(np.unique(backs.round(5), axis=0, return_index=True)[1])]
+    found, bases = [], m.clip[[[0, 3], [1, 3]]].transpose(0, 2, 1)  # of x and of y
     for back in backs[:200]:
-        n = np.array([k for _, k in matrices]) @ back
-        scale = n[:, 3] @ w / (w @ w)
-        near = np.abs(n[:, 3] - scale[:, None] * w).max(1) < 0.05 * np.abs(scale) * np.abs(w).max()
-        for k in np.flatnonzero(near & (np.abs(scale) > 1e-9)):
-            one = n[k] / scale[k]
-            bases = [np.c_[m.clip[i], w] for i in (0, 1)]
-            rows = [fit(base, one[i][:, None])[0][0] for i, base in enumerate(bases)]
-            rest = max(np.abs(bases[i] @ rows[i] - one[i]).max() / size[i] for i in (0, 1))
-            if rest < 0.2 and min(abs(r[0]) for r in rows) > 1e-3:
-                found.append((rest, matrices[k][0], rows, one))
+        with np.errstate(all='ignore'):
+            n = stack @ back
+            n = n / (n[:, 3:] @ w / (w @ w))[:, :, None]
+            rows = np.linalg.pinv(bases) @ n[:, :2, :, None]
+            rest = (np.abs(bases @ rows - n[:, :2, :, None]).max((2, 3)) / np.linalg.norm(m.clip[:2], axis=1)).max(1)
+            fits = near(n[:, 3:], w, 0.05 * np.abs(w).max()) & (rest < 0.2) & (np.abs(rows[:, :, 0, 0]).min(1) > 1e-3)
+        found += [(rest[k], matrices[k][0], rows[k, :, :, 0], n[k]) for k in np.flatnonzero(fits)]
     return sorted(found, key=lambda f: f[0])
 
 

@@ -42,9 +42,9 @@ def divided(part, span):
 class Pictures:
     """What the frame draws at the picture's size after its maps, as captured and in copies."""
 
-    def __init__(self, path, folder, capture, draws, passes, camera, maps):
-        self.folder, self.capture, self.draws, self.camera, self.maps = folder, capture, draws, camera, maps
-        self._convert(path, 'base.zip.xml', 'zip.xml')
+    def __init__(self, options, capture, draws, passes, camera, maps):
+        self.folder, self.capture, self.draws, self.camera, self.maps = options.scratch, capture, draws, camera, maps
+        self._convert(options.capture, 'base.zip.xml', 'zip.xml')
         with open(self._file('base.zip.xml'), encoding='utf-8', errors='surrogateescape') as f:
             text = f.read()
         start, end = text.index('<chunk id'), text.index('</chunks>')

@@ -1,7 +1,6 @@
 """A capture -> frame.json and its files for each light. Runs confined, as the child of capture.py."""
 import json
 import os
-import sys
 
 import numpy as np
 import renderdoc as rd
@@ -26,13 +25,29 @@ def space(clip, p):
 
 
 class Reader:
+    """What all lights share, which its making writes."""
+
     def __init__(self, options):
-        self.options = options
-        self.capture = Capture(options.capture)
+        self.options, self.capture = options, Capture(options.capture)
         self.draws = self.capture.draws()
         self.passes = solve.passes_of(self.draws)
         self.camera, self.maps = solve.camera_and_maps(self.capture, self.passes)
-        self.lights = solve.lights_of(self.maps)
+        self.lights, cam = solve.lights_of(self.maps), self.camera
+        self.describe()
+        depth = self.image(cam.depth, cam) if cam.depth else np.zeros(1)
+        if np.ptp(depth) == 0:
+            raise Refusal('the picture has no depth buffer, or it reads as one value (OpenGL ES cannot read some); nothing can be judged')
+        for m in self.maps:
+            m.depths = self.image(m.target, m)
+        self.parts = scene.casters(cam, self.maps, self.capture)
+        scene.write_glb(self.path('scene.glb'), self.parts, self.capture)
+        self.place, self.normal = lookup.receivers(depth, cam)
+        self.surface = depth != (0.0 if cam.reversed else 1.0)
+        jitter = np.eye(4)  # through the place of sample 0
+        jitter[:2, 3] = (1 - 2 * np.array(SAMPLE_0.get(cam.draws[0].samples, (0.5, 0.5)))) / cam.viewport[2:]
+        self.base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'depth': self.save('depth.npy', depth) | {'measure': 'window'},
+                     'camera': space(jitter @ cam.clip, cam)}
+        self.pictures = Pictures(options, self.capture, self.draws, self.passes, cam, self.maps)
 
     def path(self, name):
         return os.path.join(self.options.out, name)
@@ -51,9 +66,9 @@ class Reader:
               f'{"orthographic" if cam.orthographic else "perspective"} camera')
         for n, m in ((n, m) for n, group in enumerate(self.lights, 1) for m in group):
             f, u = m.draws[0].polygon_offset
-            print(f'light {n}, {solve.light_of(self.lights[n - 1])["kind"]}: map {c.describe(m.target)} '
-                  f'"{c.names.get(m.target[0], "")}", {m.name}, {len(m.pairs)} of {len(m.draws)} draws are in the '
-                  f'picture too, residual {m.residual:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
+            print(f'light {n}, {solve.light_of(self.lights[n - 1])["kind"]}: map {c.describe(m.target)} "{c.names.get(m.target[0], "")}", '
+                  f'{m.name}, {len(m.pairs)} of {len(m.draws)} draws are in the picture too, residual {m.residual:.1e}'
+                  + (f', polygon offset {f:g} / {u:g}' if f or u else '')
                   + ('' if m.cull == 'none' else f', without {m.cull} faces by their winding') + self.unfilled(m))
 
     def unfilled(self, m):
@@ -62,38 +77,6 @@ class Reader:
         alone = all(p.first == m.first or m.target not in (p.depth, *p.outputs) for p in self.passes)
         return (f'; its viewport {w:.0f} x {h:.0f} fills a part of the texture, and nothing fills the rest: an atlas, or a forgotten '
                 'viewport') if alone and w * h < t.width * t.height else ''
-
-    def run(self):
-        """Writes what all lights share, and then the frames of each."""
-        self.describe()
-        cam = self.camera
-        if not cam.depth:
-            raise Refusal('the picture is drawn without a depth buffer')
-        depth = self.image(cam.depth, cam)
-        if np.ptp(depth) == 0:
-            raise Refusal('the depth buffer of the picture reads as one value (OpenGL ES cannot read some depths); nothing can be judged')
-        for m in self.maps:
-            m.depths = self.image(m.target, m)
-        self.parts = scene.casters(cam, self.maps, self.capture)
-        scene.write_glb(self.path('scene.glb'), self.parts, self.capture)
-        self.place, self.normal = lookup.receivers(depth, cam)
-        self.surface = depth != (0.0 if cam.reversed else 1.0)
-        jitter = np.eye(4)  # through the place of sample 0
-        jitter[:2, 3] = (1 - 2 * np.array(SAMPLE_0.get(cam.draws[0].samples, (0.5, 0.5)))) / cam.viewport[2:]
-        self.base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'depth': self.save('depth.npy', depth) | {'measure': 'window'},
-                     'camera': space(jitter @ cam.clip, cam)}
-        self.pictures = Pictures(self.options.capture, self.options.scratch, self.capture, self.draws, self.passes, cam, self.maps)
-        wanted = [n for n in range(1, len(self.lights) + 1) if self.options.light in (0, n)]
-        refused = [] if wanted else [f'there is no light {self.options.light}: it has {len(self.lights)}']
-        for n in wanted:
-            try:
-                for note in self.light(f'light-{n}', self.lights[n - 1]):
-                    print(f'light {n}: {note}')
-            except Refusal as why:
-                print(f'light {n}: refused: {why}')
-                refused.append(str(why))
-        if len(refused) >= max(1, len(wanted)):
-            raise Refusal('no light of this capture can be judged: ' + '; '.join(sorted(set(refused))))
 
     def light(self, name, group):
         """Writes the frames of a light: of all its maps together, and where it has several of each that explains its pixels. Returns notes."""
@@ -108,7 +91,7 @@ class Reader:
             notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
         marks = np.where(surface, np.where(reacts, v, np.where(facing, NOT_JUDGED, 0)), NO_SURFACE)
         shares = self.pictures.shares(group, target, lit, dark)
-        missing, lookups = sorted(set(self.not_in(group))), []
+        missing, lookups = sorted(self.not_in(group)), []
         for m, decides in zip(group, [s > 0.99 for s in shares] if shares else self.first_inside(group)):
             mine = use & decides
             why = self.why_unknown(m, mine, bool(missing))
@@ -123,18 +106,26 @@ class Reader:
         notes += astray
         if moved:
             light, lookups = light | moved, [(m, mine, None) for m, mine, _ in lookups]
-        base = self.base | {'light': light, 'notes': notes} | ({'not_in_map': missing} if missing else {})
-
-        def write(stem, marks, more):
-            with open(self.path(stem + '.json'), 'w') as f:
-                json.dump(base | more | {'visibility': self.save(f'{stem}.npy', marks) | {'normalised': True}}, f, indent=1)
-        write(name, marks, self.map(name, group[0], lookups[0][2]) if len(group) == 1 else {})
+        told = {'light': light, 'notes': notes} | ({'not_in_map': missing} if missing else {})
+        self.write(name, marks, told, group[0], lookups[0][2] if len(group) == 1 else None)
         for k, (m, mine, found) in enumerate(lookups, 1):
             if len(group) > 1 and found:
-                stem = f'{name}-map-{k}'
                 only = np.where(mine | ~surface | ~facing, marks, NOT_JUDGED)
-                write(stem, only, {'light': m.light} | self.map(stem, m, found))
+                self.write(f'{name}-map-{k}', only, told | {'light': m.light}, m, found)
         return notes
+
+    def write(self, stem, marks, told, m, found):
+        """A frame, with the map where its lookup is known."""
+        told = self.base | told
+        if found and found.constant >= 0:
+            technique = found.technique() | {'map.cull': m.cull}
+            factor, units = (-n if m.reversed else n for n in m.draws[0].polygon_offset)
+            if factor or units:
+                technique |= {'bias.polygon_factor': repr(factor), 'bias.polygon_units': repr(units)}
+            told['map'] = self.save(f'{stem}-depths.npy', m.depths[::-1]) | space(m.clip, m) | {'first_row': 'bottom', 'technique': technique}
+        told['visibility'] = self.save(f'{stem}.npy', marks) | {'normalised': True}
+        with open(self.path(stem + '.json'), 'w') as f:
+            json.dump(told, f, indent=1)
 
     def first_inside(self, group):
         """For each map of a light where it is that with the smallest texels that holds the receiver."""
@@ -146,10 +137,9 @@ class Reader:
         """Why the lookup of this map cannot be known; '' where it can."""
         taps = lookup.Taps(m, self.place[mine])
         empty = np.mean(taps.read('none')[0][0][taps.inside] <= taps.z[taps.inside] - 1) if taps.inside.any() else 1.0
-        low, _, high = np.array(m.depth_off) / 2
         reasons = {
-            f'its shader moves the casters by {low:.2g} to {high:.2g} of window depth (a bias that grows with the slope)':
-                np.abs(m.depth_off).max() > MOVED,
+            f'its shader moves the casters by {m.depth_off[0] / 2:.2g} to {m.depth_off[2] / 2:.2g} of window depth (a bias that grows with '
+            'the slope)': np.abs(m.depth_off).max() > MOVED,
             'it holds moments or packed depths, whose lookup is not known': self.pictures.reads_colour(m),
             'its depths read as one value': np.ptp(m.depths) == 0,
             f'only {mine.sum()} pixels look it up': mine.sum() < lookup.FEWEST_RECEIVERS,
@@ -159,36 +149,29 @@ class Reader:
 
     def not_in(self, group):
         """Names of the draws of the picture that no map's pass draws, and whose places lie behind nothing in the maps that see them."""
-        drawn = [d for m in group for d in m.pairs.values()]
-        seeds = np.random.default_rng(0)
+        drawn, seeds = [d for m in group for d in m.pairs.values()], np.random.default_rng(0)
         for part in self.parts:
-            if part.drawn is not self.camera or part.draw in drawn:
-                continue
-            weights = seeds.dirichlet((1, 1, 1), max(8, 800 // len(part.triangles)))
-            places = solve.few(np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3), 2000)
-            farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
-            # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-            if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -lookup.AT_TEXEL:
-                yield part.name
-
-    def map(self, name, m, found):
-        if not found or found.constant < 0:
-            return {}
-        technique = found.technique() | {'map.cull': m.cull}
-        factor, units = (-n if m.reversed else n for n in m.draws[0].polygon_offset)
-        if factor or units:
-            technique |= {'bias.polygon_factor': repr(factor), 'bias.polygon_units': repr(units)}
-        return {'map': self.save(f'{name}-depths.npy', m.depths[::-1]) | space(m.clip, m) | {
-            'first_row': 'bottom', 'technique': technique}}
+            if part.drawn is self.camera and part.draw not in drawn:
+                weights = seeds.dirichlet((1, 1, 1), max(8, 800 // len(part.triangles)))
+                places = solve.few(np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3), 2000)
+                farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
+                # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
+                if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -lookup.AT_TEXEL:
+                    yield part.name
 
 
-def main(options):
-    sys.stdout.reconfigure(line_buffering=True)
+def read(options):
     rd.InitialiseReplay(rd.GlobalEnvironment(), [])
-    try:
-        Reader(options).run()
-        code = 0
-    except Refusal as why:
-        print(f'noonmark: {options.capture}: {why}', file=sys.stderr)
-        code = 3
-    os._exit(code)  # RenderDoc's own ending can wait for a display that is gone
+    reader, refused = Reader(options), []
+    wanted = [(n, group) for n, group in enumerate(reader.lights, 1) if options.light in (0, n)]
+    if not wanted:
+        raise Refusal(f'there is no light {options.light}: it has {len(reader.lights)}')
+    for n, group in wanted:
+        try:
+            for note in reader.light(f'light-{n}', group):
+                print(f'light {n}: {note}')
+        except Refusal as why:
+            print(f'light {n}: refused: {why}')
+            refused.append(str(why))
+    if len(refused) == len(wanted):
+        raise Refusal('no light of this capture can be judged: ' + '; '.join(sorted(set(refused))))
