@@ -45,18 +45,16 @@ def aperture(matrix):
 def without_model(capture, m, camera, draws):
     """[(draw, name)]: whose vertex shader hands over a constant with the map's aperture times the draw's own vertices, although these
     lie elsewhere in the map."""
-    found, matrix = [], m.clip @ np.linalg.inv(camera.clip)
+    found = []
     for draw in draws:
         clip, written = capture.after_vertex_shader(draw)
         places = [with_one(p) for p in capture.vertex_inputs(draw) if len(p) == len(clip) > 0]
         for name, constant in capture.matrices(draw) if places else []:
             factor = aperture(constant) / aperture(m.clip)
             scale = 1 if abs(factor[0] - 1) < 0.1 else 0.5  # 0.5 where clip space is brought to 0 ... 1
-            if np.abs(factor - scale).max() > 1e-4:
-                continue
-            right = clip @ matrix.T
+            right = clip @ (m.clip @ np.linalg.inv(camera.clip)).T
             right[:, :2] = right[:, :2] * scale + right[:, 3:] * (1 - scale)
-            for local in (p @ constant.T for p in places):
+            for local in (p @ constant.T for p in places if np.abs(factor - scale).max() <= 1e-4):
                 size = np.abs(local).max()
                 stands = np.abs((local * right[:, 3:] - right * local[:, 3:])[:, :2]).max() < 1e-3 * size * np.abs(right).max()
                 handed_over = any(np.abs(written[:, k:k + 4] - local).max() < 1e-5 * size for k in range(written.shape[1] - 3))
@@ -80,22 +78,19 @@ def of_lookup(capture, m, camera, light, lit, wrong):
                                                    f'shader); the truth is of the light that {name} looks up from']
     is_wrong, is_unknown = any(x and x > UNEXPLAINED for x in wrong), None in wrong
     t, (x, y, w, h) = capture.textures[m.target[0]], m.viewport
-    part = [w / t.width / 2, (x + w / 2) / t.width, h / t.height / 2, (y + h / 2) / t.height]
-    wanted = np.array([[1, 0, 1, 0], [0.5, 0.5, 0.5, 0.5], part])
-    exact = []  # [(how far the matrix is from one that reads the map, its scale alone, name, rows)]
-    for rest, name, (x, y), _ in found:
-        off = np.abs(wanted - [x[0], x[1], abs(y[0]), y[1]])
-        exact += [(off.max(1).min(), off[:, [0, 2]].max(1).min(), name, x, y)] if rest < 1e-3 else []
+    reading = np.array([[1, 0, 1, 0], [0.5, 0.5, 0.5, 0.5],
+                        [w / t.width / 2, (x + w / 2) / t.width, h / t.height / 2, (y + h / 2) / t.height]])
+    exact = [(np.abs(reading - [*x, abs(y[0]), y[1]]), name, x, y) for rest, name, (x, y), _ in found if rest < 1e-3]
+    exact.sort(key=lambda e: e[0].max(1).min())  # by how far the matrix is from one that reads the map
     # Of many constants some look alike by chance, moved by a draw's own place: that is a finding only where the lookup does not
     # follow from the map, and where that is not known, another scale is.
-    if exact and (is_wrong and min(e[0] for e in exact) > 1e-2 or is_unknown and min(e[1] for e in exact) > 1e-2):
-        *_, name, x, y = min(exact, key=lambda e: e[0])
+    if exact and (is_wrong and exact[0][0].max(1).min() > 1e-2 or is_unknown and min(e[0][:, ::2].max(1).min() for e in exact) > 1e-2):
+        _, name, x, y = exact[0]
         return {}, [f'{DIFFER}the matrix {name} reads x = {x[0]:.4f} X + {x[1]:.4f}, y = {y[0]:.4f} Y + {y[1]:.4f}, where X and Y are '
                     'those of the map as it is drawn']
     if found and not exact and is_wrong and not camera.orthographic:  # its scale is not known, nor so what leads to the world
-        rest, name, *_ = found[0]
-        return {}, [f'{DIFFER}the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or another '
-                    'light?), and no constant of the lit draw is nearer']
+        return {}, [f'{DIFFER}the matrix {found[0][1]} is not that of the map, but off by {100 * found[0][0]:.2g}% (of another frame or '
+                    'another light?), and no constant of the lit draw is nearer']
     astray = without_model(capture, m, camera, lit) if is_wrong or is_unknown else []
     return {}, [f'{DIFFER}{", ".join(f"draw {d.event}" for d, _ in astray)}: {astray[0][1]} times their own vertices is not where the '
                 'map has them: the lookup lacks their model matrix'] if astray else []

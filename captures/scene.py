@@ -49,8 +49,8 @@ def part_of(draw, drawn, to_camera, capture):
     return Part(draw, drawn, places[rows], None if coordinates is None else coordinates[rows])
 
 
-def mask_of(part, m, draw, capture):
-    """((texture, channel, cutoff) that explain best where the captured map holds the part, or None; whether it has holes there).
+def find_mask(part, m, draw, capture):
+    """Sets the part's mask, if one explains where the captured map holds it; otherwise returns whether it has holes there.
 
     The shader's text tells nothing: a `discard` may stand under a constant that is 0.
     """
@@ -61,9 +61,9 @@ def mask_of(part, m, draw, capture):
     farther = taps.farther()
     told = farther < AT_TEXEL  # elsewhere something nearer hides it
     if part.coordinates is None or told.sum() < ENOUGH:
-        return None, part.coordinates is None
+        return part.coordinates is None
     there, uv = (farther > -AT_TEXEL)[told], (part.coordinates[pick] * weight).sum(1)[taps.inside][told] % 1
-    best, agreement = None, max(there.mean(), 1 - there.mean())
+    agreement = max(there.mean(), 1 - there.mean())
     for texture in draw.reads:
         try:
             image = mask_image(texture, draw, capture)
@@ -75,8 +75,11 @@ def mask_of(part, m, draw, capture):
         for channel, cut in itertools.product(range(image.shape[2]), cuts):
             agrees = ((values[:, channel] >= cut) == there).mean()
             if agrees > agreement + 0.01:
-                best, agreement = (texture, channel, float(cut)), agrees
-    return best, there.mean() < 0.95
+                part.mask, agreement = (texture, channel, float(cut)), agrees
+    if part.mask:
+        texture, channel, cut = part.mask
+        print(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
+    return not part.mask and there.mean() < 0.95
 
 
 def mask_image(texture, draw, capture):
@@ -139,16 +142,10 @@ def casters(camera, maps, capture):
     print(f'{count(kept)} triangles of {len(kept)} draws; {count(p for p in kept if p.drawn is not camera)} of them only in the maps; '
           f'{count(parts) - count(kept)} are drawn again in other passes')
     for part in kept:
-        if part.draw.geometry in masked:
-            m, draw = masked[part.draw.geometry]
-            part.mask, has_holes = mask_of(part, m, draw, capture)
-            if part.mask:
-                texture, channel, cut = part.mask
-                print(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
-            elif has_holes:
-                holed.append(draw.event)
+        m, draw = masked.get(part.draw.geometry, (None, None))
+        holed += [str(draw.event)] if m and find_mask(part, m, draw, capture) else []
     if holed:
-        print(f'these draws may drop fragments, and no texture explains which: {", ".join(map(str, dict.fromkeys(holed)))}; they are '
+        print(f'these draws may drop fragments, and no texture explains which: {", ".join(dict.fromkeys(holed))}; they are '
               'solid casters here, so the shadows through their holes are not to be trusted')
     return kept
 

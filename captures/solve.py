@@ -66,7 +66,7 @@ class Pass:
         turns = collections.Counter()
         for draw in self.draws:
             turns[draw.culls] += draw.count
-        turn = turns.most_common(1)[0][0]
+        (turn, _), *_ = turns.most_common()
         mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.reversed
         return turn if turn == 'none' else 'front' if (turn == 'ccw') != mirrored else 'back'
 
