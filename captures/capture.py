@@ -26,9 +26,9 @@ WRITES = 0x1ff2 | 1 << 14  # all that changes files, and truncation; reading sta
 
 def missing():
     """Debian's packages that are not here."""
-    needed = {'python3-renderdoc': importlib.util.find_spec('renderdoc'), 'python3-numpy': importlib.util.find_spec('numpy'),
-              'renderdoc': shutil.which('renderdoccmd')}
-    return [package for package, here in needed.items() if not here]
+    needed = {'python3-renderdoc': 'renderdoc', 'python3-numpy': 'numpy'}
+    return [package for package, module in needed.items() if not importlib.util.find_spec(module)]
+
 
 
 def confine(folder):

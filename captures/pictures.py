@@ -1,31 +1,24 @@
 """The frame's visibility of one light: (I - I0) / (I1 - I0), from the frame as captured, with its maps all lit and all dark.
 
 Light that other lamps, ambience or history add is in all three pictures and drops out, and so do albedo and N.L. The two others are
-of edited copies of the capture, through RenderDoc's XML form. Its replay can replace shaders, but no contents of a texture, and a
-shader of the map may be the picture's as well; a copy without the map's draws is right in every case.
+of copies of the capture with other calls. RenderDoc's replay can replace shaders, but no contents of a texture, and a shader of the
+map may be the picture's as well; a copy without the map's draws is right in every case.
 """
 import os
-import re
-import subprocess
 
 import numpy as np
+import renderdoc as rd
 
 from replay import Capture, Refusal, step_of
 
 MASK = 0.9  # of the pixels that react: more of them at the end of the format are no highlights
 STEPS_OF_REACTION = 8  # of the target's format, between lit and dark, that a pixel must show
 FEWEST_PIXELS = 100  # that react to a map
-COUNTS = re.compile(r'(<u?int name="(?:count|indexCount|vertexCount|drawCount|instanceCount)"[^>]*>)\d+')
+COUNTS = ('count', 'indexCount', 'vertexCount', 'drawCount', 'instanceCount')  # of the calls that draw
 CLEARS = ('glClear', 'glClearBufferfv', 'glClearBufferfi', 'vkCmdBeginRenderPass')
-FLOAT, INTEGER = re.compile(r'(<float [^>]*>)[^<]*'), re.compile(r'(<u?int [^>]*>)[^<]*')
-CLEAR = '''<chunk id="1696" name="glClearBufferfv" length="48" threadID="1" timestamp="1" duration="1">
-<ResourceId name="framebuffer" typename="GLResource" width="8">{framebuffer}</ResourceId>
-<enum name="buffer" typename="RDCGLenum" string={buffer}</enum>
-<int name="drawbuffer" typename="int32_t" width="4" important="true">0</int>
-<array name="value" important="true">{values}</array>
-<array name="DebugMessages" typename="DebugMessage" hidden="true" />
-</chunk>
-'''
+INTEGERS = (rd.SDBasic.SignedInteger, rd.SDBasic.UnsignedInteger)
+GL_COLOR, GL_DEPTH, GL_READ_FRAMEBUFFER = 0x1800, 0x1801, 0x8ca8
+CLEAR_BUFFER = 1696  # RenderDoc's number of the call glClearBufferfv
 
 
 def crop(image, viewport):
@@ -39,33 +32,44 @@ def divided(part, span):
         return (part * span).sum(2) / (span * span).sum(2)
 
 
+def leaves(part):
+    for child in (part.GetChild(k) for k in range(part.NumChildren())):
+        yield from leaves(child) if child.NumChildren() else [child]
+
+
+def clear(calls, at, value, is_colour):
+    """Lets the call there clear to `value`; returns how many calls are put in for it."""
+    if calls[at].name != 'glClear':
+        of_pass = calls[at].FindChildRecursively('pClearValues')  # Vulkan's, a union: its members are written one over the other
+        for leaf in leaves(of_pass or calls[at]):
+            if leaf.type.basetype == rd.SDBasic.Float:
+                leaf.data.basic.d = value
+            elif of_pass and leaf.type.basetype in INTEGERS:
+                leaf.data.basic.u = 0x3f800000 if value == 1 else 0
+        return 0
+    bound = [calls[k].FindChild('framebuffer').AsResourceId() for k in range(at)
+             if calls[k].name == 'glBindFramebuffer' and calls[k].FindChild('target').AsInt() != GL_READ_FRAMEBUFFER]
+    call, values = rd.SDChunk('glClearBufferfv'), rd.makeSDArray('value')
+    call.metadata.chunkID = CLEAR_BUFFER
+    for _ in range(4 if is_colour else 1):
+        values.AddChild(rd.makeSDFloat('$el', value))
+    for part in (rd.makeSDResourceId('framebuffer', bound[-1]), rd.makeSDEnum('buffer', GL_COLOR if is_colour else GL_DEPTH),
+                 rd.makeSDInt32('drawbuffer', 0), values, rd.makeSDArray('DebugMessages')):
+        call.AddChild(part)
+    calls.insert(at + 1, call)
+    return 1
+
+
 class Pictures:
     """What the frame draws at the picture's size after its maps, as captured and in copies."""
 
     def __init__(self, options, capture, draws, passes, camera, maps):
-        self.folder, self.capture, self.draws, self.camera, self.maps = options.scratch, capture, draws, camera, maps
-        self._convert(options.capture, 'base.zip.xml', 'zip.xml')
-        with open(self._file('base.zip.xml'), encoding='utf-8', errors='surrogateescape') as f:
-            text = f.read()
-        start, end = text.index('<chunk id'), text.index('</chunks>')
-        self.head, self.tail, self.clears = text[:start], text[end:], capture.clears()
-        self.chunks = re.findall(r'<chunk id=[^>]*/>\s*|<chunk id=.*?</chunk>\s*', text[start:end], re.S)
+        self.options, self.capture, self.draws, self.camera, self.maps = options, capture, draws, camera, maps
+        self.clears = capture.clears()
         later = [p for p in passes if p.last > maps[-1].first and p.viewport[2:] == camera.viewport[2:]]
         ends = {target: p.last for p in sorted(later, key=lambda p: p.last) for target in p.outputs}
         self.targets = dict(sorted(ends.items(), key=lambda t: t[1]))
         self.frame = self._read(capture, 0)
-
-    def _file(self, name):
-        return os.path.join(self.folder, name)
-
-    def _convert(self, path, name, form):
-        done = subprocess.run(['renderdoccmd', 'convert', '-f', path, '-o', self._file(name), '-c', form],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        if done.returncode:
-            raise Refusal(f'renderdoccmd convert ends with {done.returncode}: {done.stderr.decode(errors="replace").strip()[-200:]}')
-
-    def _call(self, chunk):
-        return re.match(r'<chunk id="\d+" name="([^"]*)"', self.chunks[chunk]).group(1)
 
     def _read(self, capture, shift):
         images = {}
@@ -78,45 +82,41 @@ class Pictures:
                     print(why)
         return images
 
-    def _cleared(self, m, value):
-        """(edits, calls put in): the map is cleared to `value` where this frame clears it last before drawing."""
+    def _cleared_at(self, m, calls):
+        """Where this frame clears the map last before drawing."""
         outputs = {o[0] for o in m.outputs}
-        mine = [c for c, z, o in self.clears if c < m.draws[0].chunk and self._call(c) in CLEARS
+        mine = [c for c, z, o in self.clears if c < m.draws[0].chunk and calls[c].name in CLEARS
                 and (z == m.depth[0] if m.depth else outputs & set(o))]
         if not mine:
             raise Refusal(f'the map of {m.name} is not cleared in this frame, so it keeps what earlier frames drew; move '
                           'the light a little while the frame is captured')
-        chunk, text = mine[-1], self.chunks[mine[-1]]
-        if self._call(chunk) == 'glClear':
-            bound = [re.search(r'name="framebuffer"[^>]*>(\d+)<', self.chunks[k]).group(1)
-                     for k in range(chunk) if self._call(k) == 'glBindFramebuffer' and 'READ' not in self.chunks[k]][-1]
-            buffer, channels = ('"GL_COLOR">6144', 4) if self.reads_colour(m) else ('"GL_DEPTH">6145', 1)
-            values = f'<float typename="float" width="4">{value}</float>' * channels
-            return {chunk: text + CLEAR.format(framebuffer=bound, buffer=buffer, values=values)}, 1
-        start, mark, values = text.rpartition('<array name="pClearValues">')
-        if mark:  # Vulkan's is a union: each of its members is written, one over the other, so all are set alike
-            values = INTEGER.sub(r'\g<1>' + ('1065353216' if value == 1 else '0'), values)
-        return {chunk: start + mark + FLOAT.sub(rf'\g<1>{value}', values)}, 0
+        return mine[-1]
 
     def replay(self, lit=(), dark=(), value=None):
         """The pictures with some maps empty, and with others cleared to a value (None: the nearest depth)."""
-        edits, shift = {}, 0
+        path, source, made = os.path.join(self.options.scratch, 'copy.rdc'), rd.OpenCaptureFile(), rd.OpenCaptureFile()
+        source.OpenFile(self.options.capture, '', None)
+        data = source.GetStructuredData()
+        calls = data.chunks
         for draw in (d for m in (*lit, *dark) for d in m.draws):  # which stay and draw nothing, so the numbers of events stay
-            edits[draw.chunk], changed = COUNTS.subn(r'\g<1>0', self.chunks[draw.chunk])
-            if not changed:
-                raise Refusal(f'draw {draw.event} takes its vertices from {self._call(draw.chunk)}, which cannot be emptied')
-        for m in dark:
-            clear, more = self._cleared(m, int(m.reversed) if value is None else value)
-            shift += 0 if set(clear) & set(edits) else more
-            edits |= clear
-        with open(self._file('copy.zip.xml'), 'w', encoding='utf-8', errors='surrogateescape') as f:
-            f.writelines((self.head, *(edits.get(i, c) for i, c in enumerate(self.chunks)), self.tail))
-        if not os.path.exists(self._file('copy.zip')):
-            os.link(self._file('base.zip'), self._file('copy.zip'))
-        self._convert(self._file('copy.zip.xml'), 'copy.rdc', 'rdc')
-        copy = Capture(self._file('copy.rdc'))
+            counts = [c for c in map(calls[draw.chunk].FindChildRecursively, COUNTS) if c and c.type.basetype in INTEGERS]
+            if not counts:
+                raise Refusal(f'draw {draw.event} takes its vertices from {calls[draw.chunk].name}, which cannot be emptied')
+            for count in counts:
+                count.data.basic.u = 0
+        cleared = {self._cleared_at(m, calls): m for m in dark}
+        shift = sum(clear(calls, at, int(cleared[at].reversed) if value is None else value, self.reads_colour(cleared[at]))
+                    for at in sorted(cleared, reverse=True))
+        made.SetMetadata(source.DriverName(), 0, rd.FileType.JPG, 0, 0, b'', 0, 1.0)
+        made.SetStructuredData(data)
+        result = made.Convert(path, 'rdc', None, None)
+        if result.code != rd.ResultCode.Succeeded:
+            raise Refusal(f'RenderDoc writes no copy of it: {result.Message()}')
+        copy = Capture(path)
         images = self._read(copy, shift)
         copy.close()
+        made.Shutdown()
+        source.Shutdown()
         return images
 
     def _reads_after(self, event):
