@@ -18,16 +18,11 @@ import struct
 import sys
 import tempfile
 
+PACKAGES = {'python3-renderdoc': 'renderdoc', 'python3-numpy': 'numpy'}  # of Debian, and their modules
 MEMORY, SECONDS = 16 << 30, 1200
 CLONE_NEWUSER, CLONE_NEWNET, PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS = 0x10000000, 0x40000000, 1, 38
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
 WRITES = 0x1ff2 | 1 << 14  # all that changes files, and truncation; reading stays free
-
-
-def missing():
-    """Debian's packages that are not here."""
-    needed = {'python3-renderdoc': 'renderdoc', 'python3-numpy': 'numpy'}
-    return [package for package, module in needed.items() if not importlib.util.find_spec(module)]
 
 
 
@@ -68,8 +63,9 @@ def replay(options):
 
 
 def main():
-    if missing():
-        print(f'noonmark: captures need these packages of Debian: {" ".join(missing())}; install them with apt', file=sys.stderr)
+    missing = [package for package, module in PACKAGES.items() if not importlib.util.find_spec(module)]
+    if missing:
+        print(f'noonmark: captures need these packages of Debian: {" ".join(missing)}; install them with apt', file=sys.stderr)
         return 4
     parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
     parser.add_argument('capture', type=os.path.abspath)

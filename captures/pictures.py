@@ -21,11 +21,6 @@ GL_COLOR, GL_DEPTH, GL_READ_FRAMEBUFFER = 0x1800, 0x1801, 0x8ca8
 CLEAR_BUFFER = 1696  # RenderDoc's number of the call glClearBufferfv
 
 
-def crop(image, viewport):
-    x, y, w, h = (int(v) for v in viewport)
-    return image[y:y + h, x:x + w]
-
-
 def divided(part, span):
     """The share of the span that the part is, by least squares over the channels; NaN without a span."""
     with np.errstate(invalid='ignore'):
@@ -76,7 +71,7 @@ class Pictures:
         for target, event in self.targets.items():
             own = (capture.same(target[0], self.capture), *target[1:])
             try:
-                images[target] = crop(capture.image(own, event + shift), self.camera.viewport)[..., :3].astype('f8')
+                images[target] = capture.image(own, event + shift, self.camera.viewport)[..., :3].astype('f8')
             except Refusal as why:
                 if capture is self.capture:
                     print(why)

@@ -9,7 +9,7 @@ import lookup
 import matrix
 import scene
 import solve
-from pictures import FEWEST_PIXELS, Pictures, crop
+from pictures import FEWEST_PIXELS, Pictures
 from replay import Capture, Refusal
 
 SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's and OpenGL's standard places; others: the centre
@@ -34,11 +34,11 @@ class Reader:
         self.camera, self.maps = solve.camera_and_maps(self.capture, self.passes)
         self.lights, cam = solve.lights_of(self.maps), self.camera
         self.describe()
-        depth = self.image(cam.depth, cam) if cam.depth else np.zeros(1)
+        depth = self.capture.image(cam.depth, cam.last, cam.viewport)[..., 0] if cam.depth else np.zeros(1)
         if np.ptp(depth) == 0:
             raise Refusal('the picture has no depth buffer, or it reads as one value (OpenGL ES cannot read some); nothing can be judged')
         for m in self.maps:
-            m.depths = self.image(m.target, m)
+            m.depths = self.capture.image(m.target, m.last, m.viewport)[..., 0]
         self.parts = scene.casters(cam, self.maps, self.capture)
         scene.write_glb(self.path('scene.glb'), self.parts, self.capture)
         self.place, self.normal = lookup.receivers(depth, cam)
@@ -56,9 +56,6 @@ class Reader:
         """The top row first."""
         np.save(self.path(name), np.ascontiguousarray(image[::-1], '<f4'))
         return {'file': name}
-
-    def image(self, target, p):
-        return crop(self.capture.image(target, p.last), p.viewport)[..., 0]
 
     def describe(self):
         c, cam = self.capture, self.camera
@@ -79,7 +76,7 @@ class Reader:
                 'viewport') if alone and w * h < t.width * t.height else ''
 
     def light(self, name, group):
-        """Writes the frames of a light: of all its maps together, and where it has several of each that explains its pixels. Returns notes."""
+        """Writes the frames of a light: of all its maps together, and of each of several that explains its pixels. Returns notes."""
         v, lit, dark, target, notes = self.pictures.visibility(group)
         light, surface = solve.light_of(group), self.surface
         facing = (self.normal * lookup.to_light(light, self.place)).sum(-1) > 0
@@ -102,7 +99,7 @@ class Reader:
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(missing)}')
         readers = [d for d in self.draws if target in d.outputs and group[-1].textures & d.reads]
-        moved, astray = matrix.of_lookup(self.capture, group[-1], self.camera, light, readers, [f.wrong if f else None for *_, f in lookups])
+        moved, astray = matrix.of_lookup(self.capture, group[-1], self.camera, light, readers, [f and f.wrong for *_, f in lookups])
         notes += astray
         if moved:
             light, lookups = light | moved, [(m, mine, None) for m, mine, _ in lookups]
@@ -122,7 +119,8 @@ class Reader:
             factor, units = (-n if m.reversed else n for n in m.draws[0].polygon_offset)
             if factor or units:
                 technique |= {'bias.polygon_factor': repr(factor), 'bias.polygon_units': repr(units)}
-            told['map'] = self.save(f'{stem}-depths.npy', m.depths[::-1]) | space(m.clip, m) | {'first_row': 'bottom', 'technique': technique}
+            told['map'] = self.save(f'{stem}-depths.npy', m.depths[::-1]) | space(m.clip, m)
+            told['map'] |= {'first_row': 'bottom', 'technique': technique}
         told['visibility'] = self.save(f'{stem}.npy', marks) | {'normalised': True}
         with open(self.path(stem + '.json'), 'w') as f:
             json.dump(told, f, indent=1)

@@ -136,7 +136,8 @@ class Capture:
             mesh = self.control.GetPostVSData(instance, 0, draw.stage)
             if mesh.vertexResourceId == NULL or mesh.numIndices == 0:
                 continue
-            rows, index = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0), np.arange(mesh.numIndices)
+            index = np.arange(mesh.numIndices)
+            rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
             if mesh.indexResourceId != NULL and mesh.indexByteStride:
                 index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.numIndices, mesh.baseVertex)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
@@ -200,14 +201,16 @@ class Capture:
         """The texture of this opening that `texture` is in `other`: a window's are numbered anew, in their order."""
         return sorted(self.textures, key=int)[sorted(other.textures, key=int).index(texture)]
 
-    def image(self, target, event):
-        """float32 height x width x channels of (texture, slice, mip) after the event; of sample 0."""
+    def image(self, target, event, viewport=None):
+        """float32 height x width x channels of (texture, slice, mip) after the event, or of a part of it; of sample 0."""
         self.at(event)
         texture, part, mip = target
         t = self.textures[texture]
         raw = self.control.GetTextureData(texture, rd.Subresource(mip, part, 0))
         pixels = decode(raw, t.format, max(1, t.width >> mip), max(1, t.height >> mip), self.gl)
-        return pixels if self.gl else np.ascontiguousarray(pixels[::-1])
+        pixels = pixels if self.gl else np.ascontiguousarray(pixels[::-1])
+        x, y, w, h = map(int, viewport or (0, 0, *pixels.shape[1::-1]))
+        return pixels[y:y + h, x:x + w]
 
     def describe(self, target):
         t = self.textures[target[0]]

@@ -194,5 +194,5 @@ def write_glb(path, parts, capture):
     text = json.dumps(gltf).encode()
     text += b' ' * (-len(text) % 4)
     with open(path, 'wb') as f:
-        f.write(struct.pack('<4sII', b'glTF', 2, 28 + len(text) + len(blob)))
-        f.write(struct.pack('<I4s', len(text), b'JSON') + text + struct.pack('<I4s', len(blob), b'BIN\0') + blob)
+        f.write(struct.pack('<4sIII4s', b'glTF', 2, 28 + len(text) + len(blob), len(text), b'JSON') + text)
+        f.write(struct.pack('<I4s', len(blob), b'BIN\0') + blob)
