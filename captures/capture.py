@@ -2,8 +2,8 @@
 """capture.py FRAME.rdc OUT: a capture of RenderDoc as frames for `noonmark judge`.
 
 Exit codes: 0 frames are written, 2 the command or its file, 3 the capture cannot be judged, 4 a package is missing.
-A replay runs the captured calls in this machine's driver. So it runs in a child without a network, which writes only into
-OUT, with a limit of memory and time; display and child end with this process.
+A replay runs the captured calls in this machine's driver. So it runs in a child without a network or a display, which writes
+only into OUT, with a limit of memory and time, and ends with this process.
 """
 import argparse
 import ctypes
@@ -15,75 +15,57 @@ import resource
 import shutil
 import signal
 import struct
-import subprocess
 import sys
 import tempfile
 
-CRASHES = (-signal.SIGSEGV, -signal.SIGABRT, -signal.SIGBUS, -signal.SIGILL)
+PACKAGES = {'python3-renderdoc': 'renderdoc', 'python3-numpy': 'numpy'}  # of Debian, and their modules
 MEMORY, SECONDS = 16 << 30, 1200
 CLONE_NEWUSER, CLONE_NEWNET, PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS = 0x10000000, 0x40000000, 1, 38
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
 WRITES = 0x1ff2 | 1 << 14  # all that changes files, and truncation; reading stays free
 
 
-def missing():
-    """Debian's packages that are not here."""
-    needed = {'python3-renderdoc': importlib.util.find_spec('renderdoc'), 'python3-numpy': importlib.util.find_spec('numpy'),
-              'renderdoc': shutil.which('renderdoccmd'), 'xvfb': os.environ.get('DISPLAY') or shutil.which('Xvfb')}
-    return [package for package, here in needed.items() if not here]
-
-
-def end_with_parent():
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-
 
 def confine(folder):
-    """What the kernel offers of it; runs in the child before the replay starts."""
+    """What the kernel offers of it."""
     libc = ctypes.CDLL(None, use_errno=True)
+    libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    for limit, most in ((resource.RLIMIT_AS, MEMORY), (resource.RLIMIT_CPU, SECONDS), (resource.RLIMIT_CORE, 0)):
+        resource.setrlimit(limit, (most, most))
     if libc.unshare(CLONE_NEWNET) != 0:
         libc.unshare(CLONE_NEWUSER | CLONE_NEWNET)
     version = libc.syscall(LANDLOCK_CREATE, None, 0, 1)
-    if version <= 0:
-        return
-    writes = WRITES if version >= 3 else WRITES & 0x1fff
-    rules = libc.syscall(LANDLOCK_CREATE, struct.pack('Q', writes), 8, 0)
-    for place in (folder, '/dev'):
-        opened = os.open(place, os.O_PATH)
-        libc.syscall(LANDLOCK_ADD, rules, 1, struct.pack('=Qi', writes, opened), 0)
-        os.close(opened)
-    libc.syscall(LANDLOCK_RESTRICT, rules, 0)
-
-
-def start_display():
-    """(its name, process), because RenderDoc's replay of OpenGL needs one."""
-    read, write = os.pipe()
-    server = subprocess.Popen(['Xvfb', '-displayfd', str(write), '-screen', '0', '64x64x24', '-nolisten', 'tcp'], pass_fds=[write],
-                              preexec_fn=end_with_parent, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(write)
-    number = os.read(read, 16).decode().strip()
-    if not number:
-        sys.exit('noonmark: Xvfb does not start, and RenderDoc replays OpenGL on a display only')
-    return ':' + number, server
+    if version > 0:
+        writes = WRITES if version >= 3 else WRITES & 0x1fff
+        rules = libc.syscall(LANDLOCK_CREATE, struct.pack('Q', writes), 8, 0)
+        for place in (folder, '/dev'):
+            libc.syscall(LANDLOCK_ADD, rules, 1, struct.pack('=Qi', writes, os.open(place, os.O_PATH | os.O_CLOEXEC)), 0)
+        libc.syscall(LANDLOCK_RESTRICT, rules, 0)
 
 
 def replay(options):
-    """In the child."""
+    """In the child. It ends without Python's ending, nor RenderDoc's, which can wait for ever."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    end_with_parent()
     confine(options.out)
+    sys.stdout.reconfigure(line_buffering=True)
+    os.environ.pop('DISPLAY', None)  # RenderDoc replays OpenGL through EGL then
     places = ('HOME', 'TMPDIR', 'XDG_RUNTIME_DIR', 'XDG_CACHE_HOME')
     os.environ.update({'LIBGL_ALWAYS_SOFTWARE': '1', 'LP_NUM_THREADS': '2'} | os.environ | dict.fromkeys(places, options.scratch))
+    os.environ['EGL_PLATFORM'] = 'surfaceless'
     import read_capture
-    read_capture.main(options)
+    try:
+        read_capture.read(options)
+        os._exit(0)
+    except read_capture.Refusal as why:
+        print(f'noonmark: {options.capture}: {why}', file=sys.stderr)
+        os._exit(3)
 
 
 def main():
-    if missing():
-        print(f'noonmark: captures need these packages of Debian: {" ".join(missing())}; install them with apt', file=sys.stderr)
+    missing = [package for package, module in PACKAGES.items() if not importlib.util.find_spec(module)]
+    if missing:
+        print(f'noonmark: captures need these packages of Debian: {" ".join(missing)}; install them with apt', file=sys.stderr)
         return 4
     parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
     parser.add_argument('capture', type=os.path.abspath)
@@ -100,29 +82,18 @@ def main():
     except OSError as why:
         print(f'noonmark: {options.capture}: {why.strerror or why}', file=sys.stderr)
         return 2
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that display and scratch folder end with this process
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that the scratch folder ends with this process
     for old in glob.glob(os.path.join(glob.escape(options.out), '.noonmark-scratch-*')):
         shutil.rmtree(old, ignore_errors=True)  # of a run that was killed
-    server = None
     options.scratch = tempfile.mkdtemp(prefix='.noonmark-scratch-', dir=options.out)
+    child = multiprocessing.get_context('fork').Process(target=replay, args=[options])
+    child.start()
     try:
-        if not os.environ.get('DISPLAY'):
-            os.environ['DISPLAY'], server = start_display()
-        for tried in (1, 2):
-            child = multiprocessing.get_context('fork').Process(target=replay, args=[options])
-            child.start()
-            child.join(2 * SECONDS)
-            if child.exitcode not in CRASHES or tried == 2:
-                break
-            print(f'the replay crashed (signal {-child.exitcode}); it is tried once more', flush=True)  # one of 130 did, in the driver
-    finally:
-        for running in multiprocessing.active_children():  # after its time, or when this process is ended
-            running.kill()
-            running.join()
+        child.join(2 * SECONDS)
+    finally:  # after its time, too, and when this process is ended
+        child.kill()
+        child.join()
         shutil.rmtree(options.scratch, ignore_errors=True)
-        if server:
-            server.terminate()
-            server.wait()
     if child.exitcode < 0:
         print(f'noonmark: {options.capture}: the replay ended by signal {-child.exitcode} (the driver, or its limits of {MEMORY >> 30} GiB '
               f'and {SECONDS} s)', file=sys.stderr)

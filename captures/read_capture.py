@@ -1,43 +1,53 @@
 """A capture -> frame.json and its files for each light. Runs confined, as the child of capture.py."""
 import json
 import os
-import sys
 
 import numpy as np
 import renderdoc as rd
 
-import copies
 import lookup
+import matrix
 import scene
 import solve
-import visibility
+from pictures import FEWEST_PIXELS, Pictures
 from replay import Capture, Refusal
 
 SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's and OpenGL's standard places; others: the centre
-
+NO_SURFACE, NOT_JUDGED = -1.0, -2.0  # marks of frame.json
 MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
 EMPTY = 0.3  # of the receivers that read an empty texel, before the ground is taken for no caster of the map
-UNEXPLAINED = 0.01  # of the receivers: a tenth of that is left where the lookup is one of those that are known
-DIFFER = 'MAP AND LOOKUP DIFFER: '
 
 
-def space(clip, drawn):
+def space(clip, p):
     """A clip space as frame.json has it."""
-    return {'clip_from_world': clip.flatten().tolist(), 'order': 'row', 'depth_range': '0..1' if drawn.zero_to_one else '-1..1',
-            'reversed': drawn.reversed}
+    return {'clip_from_world': clip.flatten().tolist(), 'order': 'row', 'depth_range': '0..1' if p.zero_to_one else '-1..1',
+            'reversed': p.reversed}
 
 
 class Reader:
+    """What all lights share, which its making writes."""
+
     def __init__(self, options):
-        self.options = options
-        self.capture = Capture(options.capture, self.say)
+        self.options, self.capture = options, Capture(options.capture)
         self.draws = self.capture.draws()
         self.passes = solve.passes_of(self.draws)
         self.camera, self.maps = solve.camera_and_maps(self.capture, self.passes)
-        self.lights = solve.lights_of(self.maps)
-
-    def say(self, text):
-        print(text, flush=True)
+        self.lights, cam = solve.lights_of(self.maps), self.camera
+        self.describe()
+        depth = self.capture.image(cam.depth, cam.last, cam.viewport)[..., 0] if cam.depth else np.zeros(1)
+        if np.ptp(depth) == 0:
+            raise Refusal('the picture has no depth buffer, or it reads as one value (OpenGL ES cannot read some); nothing can be judged')
+        for m in self.maps:
+            m.depths = self.capture.image(m.target, m.last, m.viewport)[..., 0]
+        self.parts = scene.casters(cam, self.maps, self.capture)
+        scene.write_glb(self.path('scene.glb'), self.parts, self.capture)
+        self.place, self.normal = lookup.receivers(depth, cam)
+        self.surface = depth != (0.0 if cam.reversed else 1.0)
+        jitter = np.eye(4)  # through the place of sample 0
+        jitter[:2, 3] = (1 - 2 * np.array(SAMPLE_0.get(cam.draws[0].samples, (0.5, 0.5)))) / cam.viewport[2:]
+        self.base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'depth': self.save('depth.npy', depth) | {'measure': 'window'},
+                     'camera': space(jitter @ cam.clip, cam)}
+        self.pictures = Pictures(options, self.capture, self.draws, self.passes, cam, self.maps)
 
     def path(self, name):
         return os.path.join(self.options.out, name)
@@ -47,120 +57,87 @@ class Reader:
         np.save(self.path(name), np.ascontiguousarray(image[::-1], '<f4'))
         return {'file': name}
 
-    def image(self, target, drawn):
-        return visibility.crop(self.capture.image(target, drawn.last), drawn.viewport)[..., 0]
-
     def describe(self):
         c, cam = self.capture, self.camera
-        self.say(f'{c.driver}, {len(self.draws)} draws; the picture: {cam.name}, {cam.viewport[2]:.0f} x {cam.viewport[3]:.0f}, '
-                 f'{"orthographic" if cam.orthographic else "perspective"} camera')
-        for n, group in enumerate(self.lights, 1):
-            for m in group:
-                f, u = m.drawn.draws[0].polygon_offset
-                self.say(f'light {n}, {solve.light_of(group)["kind"]}: map {c.describe(m.drawn.target)} '
-                         f'"{c.names.get(m.drawn.target[0], "")}", {m.drawn.name}, {len(m.pairs)} of {len(m.drawn.draws)} draws are in the '
-                         f'picture too, residual {m.residual:.1e}' + (f', polygon offset {f:g} / {u:g}' if f or u else '')
-                         + ('' if m.cull == 'none' else f', without {m.cull} faces by their winding') + self.unfilled(m))
+        print(f'{c.file.DriverName()}, {len(self.draws)} draws; the picture: {cam.name}, {cam.viewport[2]:.0f} x {cam.viewport[3]:.0f}, '
+              f'{"orthographic" if cam.orthographic else "perspective"} camera')
+        for n, m in ((n, m) for n, group in enumerate(self.lights, 1) for m in group):
+            f, u = m.draws[0].polygon_offset
+            print(f'light {n}, {solve.light_of(self.lights[n - 1])["kind"]}: map {c.describe(m.target)} "{c.names.get(m.target[0], "")}", '
+                  f'{m.name}, {len(m.pairs)} of {len(m.draws)} draws are in the picture too, residual {m.residual:.1e}'
+                  + (f', polygon offset {f:g} / {u:g}' if f or u else '')
+                  + ('' if m.cull == 'none' else f', without {m.cull} faces by their winding') + self.unfilled(m))
 
     def unfilled(self, m):
         """Of a map that is drawn into a part of a texture into which nothing else is drawn."""
-        t, (_, _, w, h) = self.capture.textures[m.drawn.target[0]], m.drawn.viewport
-        alone = all(p is m.drawn or m.drawn.target not in (p.depth, *p.outputs) for p in self.passes)
-        if not alone or w * h >= t.width * t.height:
-            return ''
+        t, (_, _, w, h) = self.capture.textures[m.target[0]], m.viewport
+        alone = all(p.first == m.first or m.target not in (p.depth, *p.outputs) for p in self.passes)
         return (f'; its viewport {w:.0f} x {h:.0f} fills a part of the texture, and nothing fills the rest: an atlas, or a forgotten '
-                'viewport')
+                'viewport') if alone and w * h < t.width * t.height else ''
 
-    def run(self):
-        """Writes what all lights share, and then the frames of each."""
-        self.describe()
-        cam = self.camera
-        if not cam.depth:
-            raise Refusal('the picture is drawn without a depth buffer')
-        depth = self.image(cam.depth, cam)
-        if np.ptp(depth) == 0:
-            raise Refusal('the depth buffer of the picture reads as one value (OpenGL ES cannot read some depths); nothing can be judged')
-        for m in self.maps:
-            m.depths = self.image(m.drawn.target, m.drawn)
-        self.parts = scene.casters(cam, self.maps, self.capture)
-        scene.write_glb(self.path('scene.glb'), self.parts, self.capture)
-        first = cam.draws[0]
-        self.place, self.normal = lookup.receivers(depth, cam, first.zero_to_one)
-        self.surface = depth != (0.0 if first.reversed else 1.0)
-        jitter = np.eye(4)  # through the place of sample 0
-        jitter[:2, 3] = (1 - 2 * np.array(SAMPLE_0.get(first.samples, (0.5, 0.5)))) / cam.viewport[2:]
-        self.base = {'noonmark_frame': 1, 'scene': 'scene.glb', 'depth': self.save('depth.npy', depth) | {'measure': 'window'},
-                     'camera': space(jitter @ cam.clip, first)}
-        edited = copies.Copies(self.options.capture, self.options.scratch)
-        self.pictures = visibility.Pictures(self, edited)
-        wanted = [n for n in range(1, len(self.lights) + 1) if self.options.light in (0, n)]
-        refused = [] if wanted else [f'there is no light {self.options.light}: it has {len(self.lights)}']
-        for n in wanted:
-            try:
-                self.light(f'light-{n}', self.lights[n - 1], lambda note: self.say(f'light {n}: {note}'))
-            except Refusal as why:
-                self.say(f'light {n}: refused: {why}')
-                refused.append(str(why))
-        if len(refused) >= max(1, len(wanted)):
-            raise Refusal('no light of this capture can be judged: ' + '; '.join(sorted(set(refused))))
-
-    def light(self, name, group, say):
-        """Writes the frames of a light: of all its maps together, and where it has several of each that explains its pixels."""
-        v, lit, dark, target, notes = visibility.measure(self.pictures, group)
+    def light(self, name, group):
+        """Writes the frames of a light: of all its maps together, and of each of several that explains its pixels. Returns notes."""
+        v, lit, dark, target, notes = self.pictures.visibility(group)
         light, surface = solve.light_of(group), self.surface
         facing = (self.normal * lookup.to_light(light, self.place)).sum(-1) > 0
         reacts = np.isfinite(v)
         use, mute = surface & reacts & facing, surface & ~reacts & facing
-        if use.sum() < visibility.FEWEST_PIXELS:
-            raise Refusal(f'only {use.sum()} pixels that face the light react to the map of {group[0].drawn.name}')
+        if use.sum() < FEWEST_PIXELS:
+            raise Refusal(f'only {use.sum()} pixels that face the light react to the map of {group[0].name}')
         if mute.any():
             notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
-        marks = np.where(surface, np.where(reacts, v, np.where(facing, visibility.NOT_JUDGED, 0)), visibility.NO_SURFACE)
-        shares = visibility.shares(self.pictures, group, target, lit, dark)
-        missing, lookups = sorted(set(self.not_in(group))), []
-        for k, m in enumerate(group):
-            mine = use & (shares[k] > 0.99 if shares else self.first_inside(group, m))
+        marks = np.where(surface, np.where(reacts, v, np.where(facing, NOT_JUDGED, 0)), NO_SURFACE)
+        shares = self.pictures.shares(group, target, lit, dark)
+        missing, lookups = sorted(self.not_in(group)), []
+        for m, decides in zip(group, [s > 0.99 for s in shares] if shares else self.first_inside(group)):
+            mine = use & decides
             why = self.why_unknown(m, mine, bool(missing))
             found = None if why else lookup.explain(m, self.place[mine], self.normal[mine], v[mine], self.options.filter, self.options.bias)
             lookups.append((m, mine, found))
-            notes.append(f'map {self.capture.describe(m.drawn.target)}, {m.drawn.name}: {self.words(found, why)}')
+            notes.append(f'map {self.capture.describe(m.target)}, {m.name}: '
+                         + str(found or (why or 'too few receivers for its lookup') + '; judged by place'))
         if missing:
             notes.append(f'not in the map although in the picture: {", ".join(missing)}')
-        moved, astray = self.lookup_matrix(group[-1], light, target, [f.wrong if f else None for *_, f in lookups])
+        readers = [d for d in self.draws if target in d.outputs and group[-1].textures & d.reads]
+        moved, astray = matrix.of_lookup(self.capture, group[-1], self.camera, light, readers, [f and f.wrong for *_, f in lookups])
         notes += astray
         if moved:
-            light = light | moved
-            lookups = [(m, mine, None) for m, mine, _ in lookups]
-        base = self.base | {'light': light, 'notes': notes} | ({'not_in_map': missing} if missing else {})
-
-        def write(stem, marks, more):
-            with open(self.path(stem + '.json'), 'w') as f:
-                json.dump(base | more | {'visibility': self.save(f'{stem}.npy', marks) | {'normalised': True}}, f, indent=1)
-        write(name, marks, self.map(name, group[0], lookups[0][2]) if len(group) == 1 else {})
+            light, lookups = light | moved, [(m, mine, None) for m, mine, _ in lookups]
+        told = {'light': light, 'notes': notes} | ({'not_in_map': missing} if missing else {})
+        self.write(name, marks, told, group[0], lookups[0][2] if len(group) == 1 else None)
         for k, (m, mine, found) in enumerate(lookups, 1):
             if len(group) > 1 and found:
-                stem = f'{name}-map-{k}'
-                only = np.where(mine | ~surface | ~facing, marks, visibility.NOT_JUDGED)
-                write(stem, only, {'light': m.light} | self.map(stem, m, found))
-        for note in notes:
-            say(note)
+                only = np.where(mine | ~surface | ~facing, marks, NOT_JUDGED)
+                self.write(f'{name}-map-{k}', only, told | {'light': m.light}, m, found)
+        return notes
 
-    def first_inside(self, group, m):
-        """Where this map of a light is that with the smallest texels that holds the receiver."""
-        def holds(one):
-            u, v, z = one.window(self.place.reshape(-1, 3))
-            return ((u > 0) & (u < 1) & (v > 0) & (v < 1) & (z > 0) & (z < 1)).reshape(self.surface.shape)
-        size = lambda one: np.linalg.norm(one.clip[0, :3])
-        return holds(m) & ~np.any([holds(o) for o in group if size(o) > size(m)], axis=0)
+    def write(self, stem, marks, told, m, found):
+        """A frame, with the map where its lookup is known."""
+        told = self.base | told
+        if found and found.constant >= 0:
+            technique = found.technique() | {'map.cull': m.cull}
+            factor, units = (-n if m.reversed else n for n in m.draws[0].polygon_offset)
+            if factor or units:
+                technique |= {'bias.polygon_factor': repr(factor), 'bias.polygon_units': repr(units)}
+            told['map'] = self.save(f'{stem}-depths.npy', m.depths[::-1]) | space(m.clip, m)
+            told['map'] |= {'first_row': 'bottom', 'technique': technique}
+        told['visibility'] = self.save(f'{stem}.npy', marks) | {'normalised': True}
+        with open(self.path(stem + '.json'), 'w') as f:
+            json.dump(told, f, indent=1)
+
+    def first_inside(self, group):
+        """For each map of a light where it is that with the smallest texels that holds the receiver."""
+        holds = [lookup.Taps(m, self.place.reshape(-1, 3)).inside.reshape(self.surface.shape) for m in group]
+        size = [np.linalg.norm(m.clip[0, :3]) for m in group]
+        return [mine & ~np.any([h for h, s in zip(holds, size) if s > own], axis=0) for mine, own in zip(holds, size)]
 
     def why_unknown(self, m, mine, is_missed):
         """Why the lookup of this map cannot be known; '' where it can."""
         taps = lookup.Taps(m, self.place[mine])
         empty = np.mean(taps.read('none')[0][0][taps.inside] <= taps.z[taps.inside] - 1) if taps.inside.any() else 1.0
-        low, _, high = np.array(m.depth_off) / 2
         reasons = {
-            f'its shader moves the casters by {low:.2g} to {high:.2g} of window depth (a bias that grows with the slope)':
-                np.abs(m.depth_off).max() > MOVED,
+            f'its shader moves the casters by {m.depth_off[0] / 2:.2g} to {m.depth_off[2] / 2:.2g} of window depth (a bias that grows with '
+            'the slope)': np.abs(m.depth_off).max() > MOVED,
             'it holds moments or packed depths, whose lookup is not known': self.pictures.reads_colour(m),
             'its depths read as one value': np.ptp(m.depths) == 0,
             f'only {mine.sum()} pixels look it up': mine.sum() < lookup.FEWEST_RECEIVERS,
@@ -168,87 +145,31 @@ class Reader:
             f'it holds nothing under {100 * empty:.0f}% of the receivers, which are no casters in it': is_missed and empty > EMPTY}
         return next((why for why, is_so in reasons.items() if is_so), '')
 
-    def words(self, found, why):
-        if not found:
-            return (why or 'too few receivers for its lookup') + '; judged by place'
-        low, high = found.between
-        said = (f'filter {found.filter}, bias {found.constant:.4g} of window depth (from {low:.3g} to {high:.3g} alike)'
-                + (f' and {found.tan:.3g} tan' if found.tan else '') + f', which leaves {100 * found.misses:.2f}% unexplained')
-        if found.wrong > UNEXPLAINED:
-            said += f', AND {100 * found.wrong:.2f}% ARE WRONG: they do not follow from the map at their own places'
-        return said + ('; A BIAS BELOW 0: its sign is wrong, or another value is compared; judged by place' if found.constant < 0 else '')
-
     def not_in(self, group):
         """Names of the draws of the picture that no map's pass draws, and whose places lie behind nothing in the maps that see them."""
-        drawn = [d for m in group for d in m.pairs.values()]
-        seeds = np.random.default_rng(0)
+        drawn, seeds = [d for m in group for d in m.pairs.values()], np.random.default_rng(0)
         for part in self.parts:
-            if part.role != 'camera' or part.draw in drawn:
-                continue
-            weights = seeds.dirichlet((1, 1, 1), max(8, 800 // len(part.triangles)))
-            places = np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3)
-            places = places[np.linspace(0, len(places) - 1, min(len(places), 2000)).astype(int)]
-            farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
-            # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
-            if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -lookup.AT_TEXEL:
-                yield part.name
-
-    def lookup_matrix(self, m, light, target, wrong):
-        """(what the lookup's own matrix says of the light, where the map's vertices are moved and the constants hold it; notes about this
-        and about a lookup with another matrix). wrong: what the lookup of each map does not explain, None where that is not known."""
-        lit, camera = [d for d in self.draws if target in d.outputs and m.drawn.textures & d.reads], self.camera
-        found = lookup.own_matrix(self.capture.matrices(lit[-1]), camera, m) if lit else []
-        if light['kind'] == 'spot' and found:
-            _, name, _, matrix = found[0]
-            centre = np.linalg.svd(matrix[[0, 1, 3]])[2][3]
-            centre = centre[:3] / centre[3]
-            way, axis = centre - light['position'], m.clip[3, :3]
-            moved = np.linalg.norm(way)
-            is_along = abs(way @ axis) > 0.999 * moved * np.linalg.norm(axis)  # aside it would be another light, or another frame's
-            if is_along and 1e-4 < moved / max(1, np.linalg.norm(centre)) < 0.1:
-                return {'position': centre.tolist()}, [f"the map's vertices are moved by {moved:.4g} along the light (a bias in the map's "
-                                                       f'shader); the truth is of the light that {name} looks up from']
-        is_wrong, is_unknown = any(x and x > UNEXPLAINED for x in wrong), None in wrong
-        t, (x, y, w, h) = self.capture.textures[m.drawn.target[0]], m.drawn.viewport
-        part = [w / t.width / 2, (x + w / 2) / t.width, h / t.height / 2, (y + h / 2) / t.height]
-        wanted = np.array([[1, 0, 1, 0], [0.5, 0.5, 0.5, 0.5], part])
-        exact = []  # [(how far the matrix is from one that reads the map, its scale alone, name, rows)]
-        for rest, name, (x, y), _ in found:
-            off = np.abs(wanted - [x[0], x[1], abs(y[0]), y[1]])
-            exact += [(off.max(1).min(), off[:, [0, 2]].max(1).min(), name, x, y)] if rest < 1e-3 else []
-        # Of many constants some look alike by chance, moved by a draw's own place: that is a finding only where the lookup does not
-        # follow from the map, and where that is not known, another scale is.
-        if exact and (is_wrong and min(e[0] for e in exact) > 1e-2 or is_unknown and min(e[1] for e in exact) > 1e-2):
-            *_, name, x, y = min(exact, key=lambda e: e[0])
-            return {}, [f'{DIFFER}the matrix {name} reads x = {x[0]:.4f} X + {x[1]:.4f}, y = {y[0]:.4f} Y + {y[1]:.4f}, where X and Y are '
-                        'those of the map as it is drawn']
-        if found and not exact and is_wrong and not camera.orthographic:  # its scale is not known, nor so what leads to the world
-            rest, name, *_ = found[0]
-            return {}, [f'{DIFFER}the matrix {name} is not that of the map, but off by {100 * rest:.2g}% (of another frame or another '
-                        'light?), and no constant of the lit draw is nearer']
-        astray = lookup.without_model(self.capture, m, m.clip @ np.linalg.inv(camera.clip), lit) if is_wrong or is_unknown else []
-        return {}, [f'{DIFFER}{", ".join(f"draw {d.event}" for d, _ in astray)}: {astray[0][1]} times their own vertices is not where the '
-                    'map has them: the lookup lacks their model matrix'] if astray else []
-
-    def map(self, name, m, found):
-        if not found or found.constant < 0:
-            return {}
-        technique = found.technique | {'map.cull': m.cull}
-        factor, units = (-n if m.reversed else n for n in m.drawn.draws[0].polygon_offset)
-        if factor or units:
-            technique |= {'bias.polygon_factor': repr(factor), 'bias.polygon_units': repr(units)}
-        return {'map': self.save(f'{name}-depths.npy', m.depths[::-1]) | space(m.clip, m) | {
-            'first_row': 'bottom', 'technique': technique}}
+            if part.drawn is self.camera and part.draw not in drawn:
+                weights = seeds.dirichlet((1, 1, 1), max(8, 800 // len(part.triangles)))
+                places = solve.few(np.einsum('sk,tkc->tsc', weights, part.triangles).reshape(-1, 3), 2000)
+                farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
+                # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
+                if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -lookup.AT_TEXEL:
+                    yield part.name
 
 
-def main(options):
+def read(options):
     rd.InitialiseReplay(rd.GlobalEnvironment(), [])
-    try:
-        Reader(options).run()
-        code = 0
-    except Refusal as why:
-        print(f'noonmark: {options.capture}: {why}', file=sys.stderr)
-        code = 3
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(code)  # RenderDoc's own ending can wait for a display that is gone
+    reader, refused = Reader(options), []
+    wanted = [(n, group) for n, group in enumerate(reader.lights, 1) if options.light in (0, n)]
+    if not wanted:
+        raise Refusal(f'there is no light {options.light}: it has {len(reader.lights)}')
+    for n, group in wanted:
+        try:
+            for note in reader.light(f'light-{n}', group):
+                print(f'light {n}: {note}')
+        except Refusal as why:
+            print(f'light {n}: refused: {why}')
+            refused.append(str(why))
+    if len(refused) == len(wanted):
+        raise Refusal('no light of this capture can be judged: ' + '; '.join(sorted(set(refused))))

@@ -3,7 +3,6 @@
 Everything that this package knows of RenderDoc's state stands here. Conventions, for every API:
 rows of an image start at the bottom, y of clip space grows upwards, matrices multiply column vectors.
 """
-import dataclasses
 import functools
 
 import numpy as np
@@ -11,44 +10,71 @@ import renderdoc as rd
 
 NULL = rd.ResourceId.Null()
 MOST_INSTANCES = 4096  # of one draw; GetPostVSData is one call for each
-WINDOW_ID = 10 ** 18  # RenderDoc numbers the textures of a window from here, anew at each opening
 STAGES = (rd.ShaderStage.Vertex, rd.ShaderStage.Pixel)
-INDEX_TYPES = {1: 'u1', 2: '<u2', 4: '<u4'}
 
 
 class Refusal(Exception):
     """The capture cannot be judged; the text says why and what to do."""
 
 
-@dataclasses.dataclass(eq=False)
 class Draw:
-    event: int
-    chunk: int  # of the capture's list of calls
-    action: rd.ActionDescription
-    count: int
-    instances: int
-    topology: rd.Topology
-    geometry: tuple  # what vertices it draws; equal in every pass that draws the same mesh
-    depth: tuple  # (texture, slice, mip), or ()
-    outputs: tuple  # of the same
-    viewport: tuple  # x, y, width, height in pixels, from the bottom
-    reads: set  # the textures that its shaders use
-    has_geometry_shader: bool
-    zero_to_one: bool  # depths of clip space
-    reversed: bool
-    y_down: bool
-    writes_depth: bool
-    culls: str  # 'none', or the turn on the screen of the triangles that are not drawn: 'ccw', 'cw'
-    polygon_offset: tuple  # factor, units
-    discards: bool  # its fragment shader can drop fragments
-    samples: int
+    """A draw call, and the state that it is made in."""
+
+    def __init__(self, action, state, capture):
+        self.event, self.action, self.count, self.topology = action.eventId, action, action.numIndices, state.GetPrimitiveTopology()
+        chunk = action
+        while chunk.parent and chunk.parent.flags & rd.ActionFlags.MultiAction:
+            chunk = chunk.parent  # of a draw out of a call for several RenderDoc counts on from the call's own place
+        self.chunk = chunk.events[-1].chunkIndex  # of the capture's list of calls
+        has_geometry_shader, instances = state.GetShader(rd.ShaderStage.Geometry) != NULL, max(1, action.numInstances)
+        self.stage = rd.MeshDataStage.GSOut if has_geometry_shader else rd.MeshDataStage.VSOut
+        self.instances = 1 if has_geometry_shader else instances  # that are read one by one: a geometry shader's output holds all
+        self.geometry = (*_mesh(action, state), self.count, instances)  # equal in every pass that draws the same mesh
+        self.depth, self.outputs = (  # (texture, slice, mip), or (); and such of colours
+            [(t.resourceId, max(0, t.firstSlice), max(0, t.firstMip)) for t in targets if t.resourceId != NULL]
+            for targets in ([state.GetDepthTarget()], state.GetOutputTargets()))
+        self.depth, self.outputs = tuple(*self.depth), tuple(self.outputs)
+        self.reads = set()  # textures, only those that its shaders use: OpenGL's others are bound by chance
+        place = lambda point: (point.bindset, point.bind)
+        for stage in STAGES:
+            used = {place(point) for point in state.GetBindpointMapping(stage).readOnlyResources if point.used}
+            self.reads |= {r.resourceId for b in state.GetReadOnlyResources(stage) if place(b.bindPoint) in used for r in b.resources}
+        self.reads.discard(NULL)
+        own, view = capture.control.GetGLPipelineState() if capture.gl else capture.control.GetVulkanPipelineState(), state.GetViewport(0)
+        if capture.gl:
+            raster, test, bottom = own.rasterizer.state, own.depthState, view.y
+            self.writes_depth = test.depthEnable and test.depthWrites
+        else:
+            raster, test, bottom = own.rasterizer, own.depthStencil, -max(view.y, view.y + view.height)
+            self.writes_depth = test.depthTestEnable and test.depthWriteEnable
+        self.zero_to_one = not (capture.gl and own.vertexProcessing.clipNegativeOneToOne)  # depths of clip space
+        self.y_down = not capture.gl and view.height > 0
+        self.samples = 1
+        for texture, _, mip in (*self.outputs, *filter(None, [self.depth]))[:1]:
+            self.samples = max(1, capture.textures[texture].msSamp)
+            bottom += 0 if capture.gl else capture.textures[texture].height >> mip
+        self.viewport = (view.x, bottom, view.width, abs(view.height))  # pixels, from the bottom
+        self.reversed = test.depthFunction in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual)
+        self.polygon_offset = raster.slopeScaledDepthBias, raster.depthBias  # factor, units
+        self.culls = 'none'  # or the turn on the screen of the triangles that are not drawn
+        if raster.cullMode in (rd.CullMode.Front, rd.CullMode.Back):
+            self.culls = 'ccw' if (raster.cullMode == rd.CullMode.Front) == bool(raster.frontCCW) else 'cw'
+        self.discards = discards(state.GetShaderReflection(rd.ShaderStage.Pixel))
+
+
+def _mesh(action, state):
+    if action.flags & rd.ActionFlags.Indexed:
+        buffer = state.GetIBuffer()
+        return int(buffer.resourceId), buffer.byteOffset + action.indexOffset * buffer.byteStride, action.baseVertex
+    buffers, inputs = state.GetVBuffers(), state.GetVertexInputs()
+    first = [(int(b.resourceId), b.byteOffset) for b in buffers[inputs[0].vertexBuffer:][:1]] if len(inputs) else []
+    return *first, action.vertexOffset
 
 
 class Capture:
     """An open capture. Close it: RenderDoc replays one at a time well, several badly."""
 
-    def __init__(self, path, say=print):
-        self.say = say
+    def __init__(self, path):
         self.file = rd.OpenCaptureFile()
         result = self.file.OpenFile(path, '', None)
         if result.code != rd.ResultCode.Succeeded:
@@ -57,7 +83,6 @@ class Capture:
         if self.control is None:
             raise Refusal(f'RenderDoc cannot replay it on this machine: {result.Message()}')
         self.gl = self.control.GetAPIProperties().pipelineType == rd.GraphicsAPI.OpenGL
-        self.driver = self.file.DriverName()
         self.textures = {t.resourceId: t for t in self.control.GetTextures()}
         self.names = {r.resourceId: r.name for r in self.control.GetResources()}
         self.event = None
@@ -74,153 +99,84 @@ class Capture:
         return self.control.GetPipelineState()
 
     # ---- draws and their state
-    def actions(self):
+    def actions(self, flags):
         def walk(actions):
             for action in actions:
-                yield action
+                yield from [action] if action.flags & flags else []
                 yield from walk(action.children)
-        return list(walk(self.control.GetRootActions()))
+        return walk(self.control.GetRootActions())
 
     def clears(self):
         """[(chunk, depth texture, colour textures)] that are cleared, or whose pass begins."""
-        return [(a.events[-1].chunkIndex, a.depthOut, list(a.outputs)) for a in self.actions()
-                if a.flags & (rd.ActionFlags.Clear | rd.ActionFlags.PassBoundary)]
+        return [(a.events[-1].chunkIndex, a.depthOut, a.outputs) for a in self.actions(rd.ActionFlags.Clear | rd.ActionFlags.PassBoundary)]
 
     def draws(self):
-        return [self._draw(a) for a in self.actions() if a.flags & rd.ActionFlags.Drawcall]
+        return [Draw(a, self.at(a.eventId), self) for a in self.actions(rd.ActionFlags.Drawcall)]
 
-    def _draw(self, action):
-        state = self.at(action.eventId)
-        target = lambda t: (t.resourceId, max(0, t.firstSlice), max(0, t.firstMip))
-        depth = state.GetDepthTarget()
-        depth = () if depth.resourceId == NULL else target(depth)
-        outputs = tuple(target(o) for o in state.GetOutputTargets() if o.resourceId != NULL)
-        main = self.textures[(outputs[0] if outputs else depth)[0]] if outputs or depth else None
-        view = state.GetViewport(0)
-        if self.gl:
-            own = self.control.GetGLPipelineState()
-            raster, test, bottom = own.rasterizer.state, own.depthState, view.y
-            zero_to_one, writes_depth = not own.vertexProcessing.clipNegativeOneToOne, test.depthEnable and test.depthWrites
-        else:
-            own = self.control.GetVulkanPipelineState()
-            raster, test = own.rasterizer, own.depthStencil
-            rows = main.height >> (outputs[0] if outputs else depth)[2] if main else 0
-            bottom = rows - max(view.y, view.y + view.height)
-            zero_to_one, writes_depth = True, test.depthTestEnable and test.depthWriteEnable
-        culls = 'none'
-        if raster.cullMode in (rd.CullMode.Front, rd.CullMode.Back):
-            culls = 'ccw' if (raster.cullMode == rd.CullMode.Front) == bool(raster.frontCCW) else 'cw'
-        chunk = action
-        while chunk.parent and chunk.parent.flags & rd.ActionFlags.MultiAction:
-            chunk = chunk.parent  # of a draw out of a call for several RenderDoc counts on from the call's own place
-        instances = max(1, action.numInstances)
-        return Draw(
-            event=action.eventId, chunk=chunk.events[-1].chunkIndex, action=action, count=action.numIndices, instances=instances,
-            topology=state.GetPrimitiveTopology(), geometry=(*self._geometry(action, state), action.numIndices, instances),
-            depth=depth, outputs=outputs, viewport=(view.x, bottom, view.width, abs(view.height)), reads=self._reads(state),
-            has_geometry_shader=state.GetShader(rd.ShaderStage.Geometry) != NULL, zero_to_one=zero_to_one,
-            reversed=test.depthFunction in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual),
-            y_down=not self.gl and view.height > 0, writes_depth=writes_depth, culls=culls,
-            polygon_offset=(raster.slopeScaledDepthBias, raster.depthBias),
-            discards=discards(state.GetShaderReflection(rd.ShaderStage.Pixel)), samples=max(1, main.msSamp) if main else 1)
-
-    def _geometry(self, action, state):
-        if action.flags & rd.ActionFlags.Indexed:
-            buffer = state.GetIBuffer()
-            return int(buffer.resourceId), buffer.byteOffset + action.indexOffset * buffer.byteStride, action.baseVertex
-        buffers, inputs = list(state.GetVBuffers()), list(state.GetVertexInputs())
-        first = [(int(b.resourceId), b.byteOffset) for b in buffers[inputs[0].vertexBuffer:][:1]] if inputs else []
-        return *first, action.vertexOffset
-
-    def _reads(self, state):
-        """Of OpenGL's textures a shader declares and uses only some; all others are bound by chance."""
-        found = set()
-        for stage in STAGES:
-            reflection = state.GetShaderReflection(stage)
-            if not reflection:
-                continue
-            points = state.GetBindpointMapping(stage).readOnlyResources
-            bound = {(b.bindPoint.bindset, b.bindPoint.bind): b.resources for b in state.GetReadOnlyResources(stage)}
-            for resource in reflection.readOnlyResources:
-                point = points[resource.bindPoint]  # an index into the mapping, and not the place itself
-                found |= {r.resourceId for r in bound.get((point.bindset, point.bind), []) if point.used}
-        return found - {NULL}
-
-    def entry(self, draw):
-        """The names of the draw's shaders, as the debugger shows them."""
+    def fragment_shader(self, draw):
+        """As the debugger shows it."""
         state = self.at(draw.event)
-        return [f'{self.names.get(state.GetShader(s), "")} {state.GetShaderEntryPoint(s)}()'
-                for s in STAGES if state.GetShader(s) != NULL]
+        return f'{self.names.get(state.GetShader(STAGES[1]), "")} {state.GetShaderEntryPoint(STAGES[1])}()'
 
     # ---- vertices
     def _rows(self, kind, columns, *buffer):
         return rows_of(self.control.GetBufferData(*buffer), kind, columns)
 
+    def _indices(self, buffer, offset, width, count, base):
+        return self._rows(f'<u{width}', 1, buffer, offset, count * width)[:, 0].astype('i8') + base
+
     @functools.cache
     def after_vertex_shader(self, draw):
-        """(clip positions, all that the shader writes behind them), a row for each index of each instance; None if they are not read."""
+        """(clip positions, all that the shader writes behind them), a row for each index of each instance that is read."""
         self.at(draw.event)
-        if draw.topology == rd.Topology.PatchList_1CPs or draw.instances > MOST_INSTANCES:
-            self.say(f'draw {draw.event} has patches, or {draw.instances} instances where {MOST_INSTANCES} are read; this draw is left out')
-            return None
-        stage, found = rd.MeshDataStage.GSOut if draw.has_geometry_shader else rd.MeshDataStage.VSOut, []
-        for instance in range(1 if draw.has_geometry_shader else draw.instances):  # the output of a geometry shader holds all
-            mesh = self.control.GetPostVSData(instance, 0, stage)
+        is_read, found = draw.topology != rd.Topology.PatchList_1CPs and draw.instances <= MOST_INSTANCES, []
+        if not is_read:
+            print(f'draw {draw.event} has patches, or {draw.instances} instances where {MOST_INSTANCES} are read; this draw is left out')
+        for instance in range(draw.instances if is_read else 0):
+            mesh = self.control.GetPostVSData(instance, 0, draw.stage)
             if mesh.vertexResourceId == NULL or mesh.numIndices == 0:
                 continue
-            rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
             index = np.arange(mesh.numIndices)
+            rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
             if mesh.indexResourceId != NULL and mesh.indexByteStride:
-                index = self._rows(INDEX_TYPES[mesh.indexByteStride], 1, mesh.indexResourceId, mesh.indexByteOffset,
-                                   mesh.numIndices * mesh.indexByteStride)[:, 0].astype('i8') + mesh.baseVertex
+                index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.numIndices, mesh.baseVertex)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
-        if not found:
-            return None
-        rows = np.concatenate(found)
-        clip = rows[:, :4].astype('f8')
-        if draw.y_down:
-            clip[:, 1] *= -1
-        return clip, rows[:, 4:]
+        rows = np.concatenate(found) if found else np.zeros((0, 4))
+        return rows[:, :4] * np.array([1, -1 if draw.y_down else 1, 1, 1.0]), rows[:, 4:]
 
     def clip(self, draw):
-        found = self.after_vertex_shader(draw)
-        return None if found is None else found[0]
+        return self.after_vertex_shader(draw)[0]
 
-    def texture_coordinate(self, draw):
-        """Where the first output of two floats stands behind the position, a mask's texture coordinate; None if there is none."""
+    def coordinates(self, draw):
+        """The first output of two floats, a mask's texture coordinate, a row for each index; None if there is none."""
         reflection, at = self.at(draw.event).GetShaderReflection(rd.ShaderStage.Vertex), 0
         for output in reflection.outputSignature if reflection else []:
-            if output.systemValue == rd.ShaderBuiltin.Position:
-                continue
             if output.compCount == 2 and output.systemValue == rd.ShaderBuiltin.Undefined:
-                return at
-            at += output.compCount
+                found = self.after_vertex_shader(draw)[1][:, at:at + 2]
+                return found if found.shape[1] == 2 else None
+            at += 0 if output.systemValue == rd.ShaderBuiltin.Position else output.compCount
         return None
 
     def vertex_inputs(self, draw):
         """Each attribute of two or three floats, a row for each index. Which one is the place is found by a fit."""
-        state, action = self.at(draw.event), draw.action
-        buffers, found = state.GetVBuffers(), []
-        index = np.arange(draw.count) + action.vertexOffset
+        state, action, found = self.at(draw.event), draw.action, []
+        index, buffers = np.arange(draw.count) + action.vertexOffset, state.GetVBuffers()
         if action.flags & rd.ActionFlags.Indexed:
             ib = state.GetIBuffer()
-            index = self._rows(INDEX_TYPES[ib.byteStride], 1, ib.resourceId, ib.byteOffset + action.indexOffset * ib.byteStride,
-                               draw.count * ib.byteStride)[:, 0].astype('i8') + action.baseVertex
+            index = self._indices(ib.resourceId, ib.byteOffset + action.indexOffset * ib.byteStride, ib.byteStride,
+                                  draw.count, action.baseVertex)
         for attribute in state.GetVertexInputs():
-            form = attribute.format
+            form, size = attribute.format, attribute.format.compByteWidth
             if (attribute.vertexBuffer >= len(buffers) or attribute.perInstance or form.compType != rd.CompType.Float
-                    or form.compCount < 2 or form.compByteWidth not in (2, 4) or buffers[attribute.vertexBuffer].resourceId == NULL):
+                    or form.compCount < 2 or size not in (2, 4) or buffers[attribute.vertexBuffer].resourceId == NULL):
                 continue
-            buffer, width = buffers[attribute.vertexBuffer], form.compByteWidth * form.compCount
+            buffer = buffers[attribute.vertexBuffer]
             raw = self.control.GetBufferData(buffer.resourceId, buffer.byteOffset + attribute.byteOffset, 0)
-            stride = buffer.byteStride or width
-            n = (len(raw) - width) // stride + 1
-            if n <= 0 or index.max() >= n or index.min() < 0:
-                continue
-            rows = np.ndarray((n, form.compCount), {4: '<f4', 2: '<f2'}[form.compByteWidth], raw, strides=(stride, form.compByteWidth))
-            place = np.zeros((len(index), 3))
-            place[:, :min(3, form.compCount)] = rows[index, :3]
-            found.append(place)
+            stride = buffer.byteStride or size * form.compCount
+            n = (len(raw) - size * form.compCount) // stride + 1
+            if n > index.max() >= index.min() >= 0:
+                rows = np.ndarray((n, min(3, form.compCount)), f'<f{size}', raw, strides=(stride, size))[index]
+                found.append(np.pad(rows.astype('f8'), ((0, 0), (0, 3 - rows.shape[1]))))
         return found
 
     # ---- constants
@@ -237,31 +193,28 @@ class Capture:
                     continue
                 variables = self.control.GetCBufferVariableContents(
                     state.GetGraphicsPipelineObject(), reflection.resourceId, stage, reflection.entryPoint, i, buffer.resourceId, 0, 0)
-                found += [(v.name, np.array(list(v.value.f32v)[:16], 'f8').reshape(4, 4)) for v in flat(variables)
-                          if v.rows == 4 and v.columns == 4]
+                found += [(v.name, np.array(v.value.f32v[:16], 'f8').reshape(4, 4)) for v in flat(variables) if v.rows == 4 == v.columns]
         return [(n, m) for n, m in found if np.isfinite(m).all() and 0 < np.abs(m).max() < 1e7]
 
     # ---- textures
     def same(self, texture, other):
-        """The texture of this opening that `texture` is in the opening `other`."""
-        if texture in self.textures:
-            return texture
-        window = lambda c: sorted((r for r in c.textures if int(r) >= WINDOW_ID), key=int)
-        return window(self)[window(other).index(texture)]
+        """The texture of this opening that `texture` is in `other`: a window's are numbered anew, in their order."""
+        return sorted(self.textures, key=int)[sorted(other.textures, key=int).index(texture)]
 
-    def image(self, target, event):
-        """float32 height x width x channels of (texture, slice, mip) after the event; of sample 0."""
+    def image(self, target, event, viewport=None):
+        """float32 height x width x channels of (texture, slice, mip) after the event, or of a part of it; of sample 0."""
         self.at(event)
         texture, part, mip = target
         t = self.textures[texture]
         raw = self.control.GetTextureData(texture, rd.Subresource(mip, part, 0))
         pixels = decode(raw, t.format, max(1, t.width >> mip), max(1, t.height >> mip), self.gl)
-        return pixels if self.gl else np.ascontiguousarray(pixels[::-1])
+        pixels = pixels if self.gl else np.ascontiguousarray(pixels[::-1])
+        x, y, w, h = map(int, viewport or (0, 0, *pixels.shape[1::-1]))
+        return pixels[y:y + h, x:x + w]
 
     def describe(self, target):
         t = self.textures[target[0]]
-        what = f'{t.width} x {t.height} {t.format.Name()}'
-        return what + (f', slice {target[1]} of {t.arraysize}' if t.arraysize > 1 else '')
+        return f'{t.width} x {t.height} {t.format.Name()}' + (f', slice {target[1]} of {t.arraysize}' if t.arraysize > 1 else '')
 
 
 def rows_of(raw, kind, columns):
@@ -283,60 +236,44 @@ def discards(reflection):
 
 
 # ---- the formats of textures
-def unorm(at, bits):
-    return lambda v: (v >> at & 2 ** bits - 1) / (2.0 ** bits - 1)
+def small_float(v, mantissa):
+    """A half float without its sign and its last bits."""
+    return ((v & 2 ** (5 + mantissa) - 1) << 10 - mantissa).astype('<u2').view('<f2')
 
 
-def small_float(at, mantissa):
-    """Without a sign, with five bits of exponent."""
-    def value(v):
-        exponent, rest = v >> at + mantissa & 31, v >> at & 2 ** mantissa - 1
-        return np.where(exponent == 0, rest * 2.0 ** (-14 - mantissa),
-                        (1 + rest / 2.0 ** mantissa) * 2.0 ** (exponent.astype('f8') - 15))
-    return value
-
-
-def float_or_unorm(v):
+def float_or_unorm(v, _):
     """GL_DEPTH_COMPONENT32 has the same name as the depth of floats."""
     x = v.view('<f4')
-    return x if np.isfinite(x).all() and x.min() >= 0 and x.max() <= 1 else unorm(0, 32)(v)
+    return x if np.isfinite(x).all() and x.min() >= 0 and x.max() <= 1 else v / (2.0 ** 32 - 1)
 
 
-# (the type of a texel, how its channels are read, how far two values near 1 lie apart), by the beginning of the format's name.
-PACKED = {'D16': ('<u2', [unorm(0, 16)], 2 ** -16),
-          'D24': ('<u4', [unorm(0, 32)], 2 ** -24),  # spread over 32 bits
-          'GL D24S8': ('<u4', [unorm(8, 24)], 2 ** -24),
-          'D24S8': ('<u4', [unorm(0, 24)], 2 ** -24),  # Vulkan's has the stencil behind all depths
-          'GL D32S8': ('<u8', [lambda v: v.astype('<u4').view('<f4')], 2 ** -23),
-          'D32S8': ('<f4', [np.copy], 2 ** -23),
-          'D32': ('<u4', [float_or_unorm], 2 ** -23),
-          'R10G10B10A2': ('<u4', [unorm(0, 10), unorm(10, 10), unorm(20, 10)], 1 / 1023),
-          'R11G11B10': ('<u4', [small_float(0, 6), small_float(11, 6), small_float(22, 5)], 2 ** -6)}
-# (the type of a channel, the number that is 1, how far two values near 1 lie apart), by type and bytes of a channel.
-PLAIN = {(rd.CompType.UNorm, 1): ('u1', 255, 1 / 255), (rd.CompType.UNormSRGB, 1): ('u1', 255, 1 / 255),
-         (rd.CompType.UNorm, 2): ('<u2', 65535, 1 / 65535), (rd.CompType.Float, 2): ('<f2', 1, 2 ** -11),
-         (rd.CompType.Float, 4): ('<f4', 1, 2 ** -23)}
+# How the first 32 bits of a texel are read, by the beginning of the format's name; the others have numbers in a row.
+PACKED = {'D24': lambda v, gl: v / (2.0 ** 32 - 1),  # spread over 32 bits
+          'D24S8': lambda v, gl: (v >> 8 if gl else v & 2 ** 24 - 1) / (2.0 ** 24 - 1),  # Vulkan's has the stencil behind all depths
+          'D32': float_or_unorm, 'D32S8': float_or_unorm,
+          'R10G10B10A2': lambda v, gl: np.stack([(v >> at & 1023) / 1023 for at in (0, 10, 20)], -1),
+          'R11G11B10': lambda v, gl: np.stack([small_float(v, 6), small_float(v >> 11, 6), small_float(v >> 22, 5)], -1)}
+KINDS = {rd.CompType.UNorm: 'u', rd.CompType.UNormSRGB: 'u', rd.CompType.Depth: 'u', rd.CompType.Float: 'f'}
 
 
-def format_of(form, gl=False):
-    """The row of PACKED or PLAIN."""
-    name = form.Name().split('_')[0]
-    row = PACKED.get('GL ' + name if gl else name) or PACKED.get(name) or PLAIN.get((form.compType, form.compByteWidth))
-    if row is None:
-        raise Refusal(f'a texture of the format {form.Name()} is not read')
-    return row
+def step_of(form):
+    """How far two values near 1 lie apart."""
+    packed = {'R10G10B10A2': 1 / 1023, 'R11G11B10': 2 ** -6}.get(form.Name().split('_')[0])
+    kind = 'f4' if packed else f'{KINDS[form.compType]}{form.compByteWidth}'
+    return packed or (1 / np.iinfo(kind).max if kind[0] == 'u' else np.finfo(kind).epsneg)
 
 
 def decode(raw, form, width, height, gl):
     """The values of a texture's bytes, as float32; sRGB formats are decoded."""
-    kind, channels, _ = format_of(form, gl)
-    is_packed = isinstance(channels, list)
-    texels = rows_of(raw, kind, 1 if is_packed else form.compCount)[:width * height]
-    if len(texels) < width * height:  # compressed
+    name, pixels, v = form.Name().split('_')[0], width * height, ()
+    if name in PACKED:
+        v = PACKED[name](rows_of(raw, '<u4', max(1, len(raw) // 4 // pixels))[:pixels, 0], gl)
+    elif form.compType in KINDS:
+        v = rows_of(raw, f'<{KINDS[form.compType]}{form.compByteWidth}', form.compCount)[:pixels]
+        v = v / np.iinfo(v.dtype).max if v.dtype.kind == 'u' else v
+    if len(v) < pixels:  # compressed, too
         raise Refusal(f'a texture of the format {form.Name()} is not read')
-    if is_packed:
-        return np.stack([read(texels[:, 0]) for read in channels], -1).astype('f4').reshape(height, width, -1)
-    v = texels.reshape(height, width, -1).astype('f4') / np.float32(channels)
+    v = v.astype('f4').reshape(height, width, -1)
     if form.compType == rd.CompType.UNormSRGB:
         v[..., :3] = np.where(v[..., :3] <= 0.04045, v[..., :3] / 12.92, ((v[..., :3] + 0.055) / 1.055) ** 2.4)
     return v[..., [2, 1, 0, 3][:form.compCount]] if form.BGRAOrder() else v

@@ -1,4 +1,5 @@
 """The casters and receivers of the frame as triangles in the camera's axes, written as a GLB: one node a draw."""
+import collections
 import dataclasses
 import itertools
 import json
@@ -19,7 +20,7 @@ SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through 
 @dataclasses.dataclass
 class Part:
     draw: object
-    role: str  # 'camera', or 'map': drawn into a map alone
+    drawn: object  # the pass of the picture, or that of a map for what only that draws
     triangles: np.ndarray  # n x 3 x 3, of all instances
     coordinates: np.ndarray  # n x 3 x 2, of a mask; None if the draw has none
     mask: tuple = None  # (texture, channel, cutoff)
@@ -37,23 +38,19 @@ def triangle_rows(topology, count):
             rd.Topology.TriangleFan: np.stack([0 * i, i + 1, i + 2], 1)}.get(topology, np.zeros((0, 3), int))
 
 
-def parts_of(draw, role, to_camera, capture):
-    """[the part], or [] if nothing of the draw can be read."""
-    clip, written = capture.after_vertex_shader(draw) or (np.zeros((0, 4)), None)
-    instances = 1 if draw.has_geometry_shader else draw.instances
-    count = len(clip) // instances
-    rows = (triangle_rows(draw.topology, count) + count * np.arange(instances)[:, None, None]).reshape(-1, 3)
+def part_of(draw, drawn, to_camera, capture):
+    clip = capture.clip(draw)
+    count = len(clip) // draw.instances
+    rows = (triangle_rows(draw.topology, count) + count * np.arange(draw.instances)[:, None, None]).reshape(-1, 3)
     places = clip @ to_camera.T
     good = usable(clip) & (np.abs(places[:, 3]) > 1e-12)
     places = places[:, :3] / np.where(good, places[:, 3], 1)[:, None]
-    rows = rows[good[rows].all(1)]
-    at = capture.texture_coordinate(draw)
-    coordinates = written[:, at:at + 2][rows] if len(rows) and at is not None and written.shape[1] >= at + 2 else None
-    return [Part(draw, role, places[rows], coordinates)] if len(rows) else []
+    rows, coordinates = rows[good[rows].all(1)], capture.coordinates(draw)
+    return Part(draw, drawn, places[rows], None if coordinates is None else coordinates[rows])
 
 
-def mask_of(part, m, draw, capture):
-    """((texture, channel, cutoff) that explain best where the captured map holds the part, or None; whether it has holes there).
+def find_mask(part, m, draw, capture):
+    """Sets the part's mask, if one explains where the captured map holds it; otherwise returns whether it has holes there.
 
     The shader's text tells nothing: a `discard` may stand under a constant that is 0.
     """
@@ -64,9 +61,9 @@ def mask_of(part, m, draw, capture):
     farther = taps.farther()
     told = farther < AT_TEXEL  # elsewhere something nearer hides it
     if part.coordinates is None or told.sum() < ENOUGH:
-        return None, part.coordinates is None
+        return part.coordinates is None
     there, uv = (farther > -AT_TEXEL)[told], (part.coordinates[pick] * weight).sum(1)[taps.inside][told] % 1
-    best, agreement = None, max(there.mean(), 1 - there.mean())
+    agreement = max(there.mean(), 1 - there.mean())
     for texture in draw.reads:
         try:
             image = mask_image(texture, draw, capture)
@@ -78,8 +75,11 @@ def mask_of(part, m, draw, capture):
         for channel, cut in itertools.product(range(image.shape[2]), cuts):
             agrees = ((values[:, channel] >= cut) == there).mean()
             if agrees > agreement + 0.01:
-                best, agreement = (texture, channel, float(cut)), agrees
-    return best, there.mean() < 0.95
+                part.mask, agreement = (texture, channel, float(cut)), agrees
+    if part.mask:
+        texture, channel, cut = part.mask
+        print(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
+    return not part.mask and there.mean() < 0.95
 
 
 def mask_image(texture, draw, capture):
@@ -98,67 +98,55 @@ def among(rows, known, near):
     return found
 
 
-def once(parts, passes):
+def once(parts):
     """The parts without the triangles that an earlier pass has, by centre and radius."""
     size = np.linalg.norm(np.ptp(np.concatenate([p.triangles.reshape(-1, 3) for p in parts]), axis=0))
     known, kept = np.zeros((0, 4)), []
-    for drawn in passes:
-        mine = [p for p in parts if p.draw in drawn.draws]
-        if not mine:
-            continue
-        triangles = np.concatenate([p.triangles for p in mine])
-        centre = triangles.mean(1)
-        rows = np.c_[centre, np.linalg.norm(triangles - centre[:, None], axis=2).max(1)]
-        new = ~among(rows, known, SAME_PLACE * size)
-        known = np.concatenate([known, rows])
-        for part, keep in zip(mine, np.split(new, np.cumsum([len(p.triangles) for p in mine])[:-1])):
-            coordinates = None if part.coordinates is None else part.coordinates[keep]
-            kept += [dataclasses.replace(part, triangles=part.triangles[keep], coordinates=coordinates)] if keep.any() else []
+    for _, mine in itertools.groupby(parts, lambda p: id(p.drawn)):
+        rows = []
+        for part in mine:
+            centre = part.triangles.mean(1)
+            rows.append(np.c_[centre, np.linalg.norm(part.triangles - centre[:, None], axis=2).max(1)])
+            new = ~among(rows[-1], known, SAME_PLACE * size)
+            coordinates = None if part.coordinates is None else part.coordinates[new]
+            kept += [dataclasses.replace(part, triangles=part.triangles[new], coordinates=coordinates)] if new.any() else []
+        known = np.concatenate([known, *rows])
     return kept
 
 
 def is_on_depths(draw, camera, capture):
     """Whether it is drawn by the camera: not a sky, nor a full screen."""
     clip = capture.clip(draw)
-    if camera.orthographic or clip is None:
-        return True
     good = clip[usable(clip)]
-    off = np.abs(good[:, 2] + camera.clip[2, 2] * good[:, 3] - camera.clip[2, 3]) / np.abs(good[:, 3])  # see camera_of
-    return not len(good) or np.median(off) <= 1e-3
+    if camera.orthographic or not len(good):
+        return True
+    return np.median(np.abs(good[:, 2] + camera.clip[2, 2] * good[:, 3] - camera.clip[2, 3]) / np.abs(good[:, 3])) <= 1e-3
 
 
 def casters(camera, maps, capture):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
-    to_camera, parts, masked = np.linalg.inv(camera.clip), [], {}
+    parts, masked = [], {}
     for draw in camera.draws:
         if draw.writes_depth and is_on_depths(draw, camera, capture):
-            parts += parts_of(draw, 'camera', to_camera, capture)
+            parts.append(part_of(draw, camera, np.linalg.inv(camera.clip), capture))
         elif draw.writes_depth:
-            capture.say(f'draw {draw.event} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
+            print(f'draw {draw.event} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
     for m in maps:
-        for draw in m.drawn.draws:
-            if draw.discards and draw.reads:  # a shader with "discard" in a branch that reads nothing drops nothing
-                masked[draw.geometry] = (m, draw)
-            if draw.event not in m.pairs:
-                parts += parts_of(draw, 'map', np.linalg.inv(m.clip), capture)
+        masked |= {d.geometry: (m, d) for d in m.draws if d.discards and d.reads}  # what reads nothing drops nothing
+        parts += [part_of(d, m, np.linalg.inv(m.clip), capture) for d in m.draws if d.event not in m.pairs]
+    parts = [p for p in parts if len(p.triangles)]
     if not parts:
         raise Refusal('the frame has no triangles that cast shadows')
-    kept, holed = once(parts, [camera, *(m.drawn for m in maps)]), []
+    kept, holed = once(parts), []
     count = lambda parts: sum(len(p.triangles) for p in parts)
-    capture.say(f'{count(kept)} triangles of {len(kept)} draws; {count(p for p in kept if p.role == "map")} of them only in the maps; '
-                f'{count(parts) - count(kept)} are drawn again in other passes')
+    print(f'{count(kept)} triangles of {len(kept)} draws; {count(p for p in kept if p.drawn is not camera)} of them only in the maps; '
+          f'{count(parts) - count(kept)} are drawn again in other passes')
     for part in kept:
-        if part.draw.geometry in masked:
-            m, draw = masked[part.draw.geometry]
-            part.mask, has_holes = mask_of(part, m, draw, capture)
-            if part.mask:
-                texture, channel, cut = part.mask
-                capture.say(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
-            elif has_holes:
-                holed.append(draw.event)
+        m, draw = masked.get(part.draw.geometry, (None, None))
+        holed += [str(draw.event)] if m and find_mask(part, m, draw, capture) else []
     if holed:
-        capture.say(f'these draws may drop fragments, and no texture explains which: {", ".join(map(str, dict.fromkeys(holed)))}; they are '
-                    'solid casters here, so the shadows through their holes are not to be trusted')
+        print(f'these draws may drop fragments, and no texture explains which: {", ".join(dict.fromkeys(holed))}; they are '
+              'solid casters here, so the shadows through their holes are not to be trusted')
     return kept
 
 
@@ -174,40 +162,37 @@ def png(alpha):
 
 def write_glb(path, parts, capture):
     """One node a draw, named as the debugger numbers it."""
-    blob = bytearray()
-    gltf = {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(parts)))}], 'nodes': [], 'meshes': [],
-            'materials': [], 'accessors': [], 'bufferViews': [], 'images': [], 'textures': []}
+    blob, gltf = bytearray(), collections.defaultdict(list)
 
-    def add(kind, item):
+    def add(kind, **item):
         gltf[kind].append(item)
         return len(gltf[kind]) - 1
 
     def view(data):
-        number = add('bufferViews', {'buffer': 0, 'byteOffset': len(blob), 'byteLength': len(data)})
+        number = add('bufferViews', buffer=0, byteOffset=len(blob), byteLength=len(data))
         blob.extend(data + b'\0' * (-len(data) % 4))
         return number
 
-    def accessor(rows):
-        rows = np.ascontiguousarray(rows.reshape(-1, rows.shape[-1]), '<f4')
-        return add('accessors', {'bufferView': view(rows.tobytes()), 'componentType': 5126, 'count': len(rows),
-                                 'type': f'VEC{rows.shape[1]}', 'min': rows.min(0).tolist(), 'max': rows.max(0).tolist()})
-
-    materials = {None: add('materials', {'doubleSided': True})}
+    materials = {None: add('materials', doubleSided=True)}
     for part in sorted(parts, key=lambda p: p.draw.event):
-        attributes = {'POSITION': accessor(part.triangles)}
-        if part.mask:
-            attributes['TEXCOORD_0'] = accessor(part.coordinates)
+        attributes = {}
+        for name, rows in {'POSITION': part.triangles, 'TEXCOORD_0': part.coordinates if part.mask else None}.items():
+            if rows is not None:
+                rows = np.ascontiguousarray(rows.reshape(-1, rows.shape[-1]), '<f4')
+                attributes[name] = add('accessors', bufferView=view(rows.tobytes()), componentType=5126, count=len(rows),
+                                       type=f'VEC{rows.shape[1]}', min=rows.min(0).tolist(), max=rows.max(0).tolist())
         if part.mask not in materials:
             texture, channel, cut = part.mask
-            image = add('images', {'bufferView': view(png(mask_image(texture, part.draw, capture)[..., channel])), 'mimeType': 'image/png'})
-            materials[part.mask] = add('materials', {
-                'doubleSided': True, 'alphaMode': 'MASK', 'alphaCutoff': cut,
-                'pbrMetallicRoughness': {'baseColorTexture': {'index': add('textures', {'source': image})}}})
-        mesh = add('meshes', {'name': part.name, 'primitives': [{'attributes': attributes, 'material': materials[part.mask]}]})
-        add('nodes', {'mesh': mesh, 'name': part.name})
-    gltf['buffers'] = [{'byteLength': len(blob)}]
-    text = json.dumps({k: v for k, v in gltf.items() if v != []}).encode()
+            alpha = mask_image(texture, part.draw, capture)[..., channel]
+            texture = add('textures', source=add('images', bufferView=view(png(alpha)), mimeType='image/png'))
+            materials[part.mask] = add('materials', doubleSided=True, alphaMode='MASK', alphaCutoff=cut,
+                                       pbrMetallicRoughness={'baseColorTexture': {'index': texture}})
+        mesh = add('meshes', name=part.name, primitives=[{'attributes': attributes, 'material': materials[part.mask]}])
+        add('nodes', mesh=mesh, name=part.name)
+    gltf |= {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(parts)))}],
+             'buffers': [{'byteLength': len(blob)}]}
+    text = json.dumps(gltf).encode()
     text += b' ' * (-len(text) % 4)
     with open(path, 'wb') as f:
-        f.write(struct.pack('<4sII', b'glTF', 2, 28 + len(text) + len(blob)))
-        f.write(struct.pack('<I4s', len(text), b'JSON') + text + struct.pack('<I4s', len(blob), b'BIN\0') + blob)
+        f.write(struct.pack('<4sIII4s', b'glTF', 2, 28 + len(text) + len(blob), len(text), b'JSON') + text)
+        f.write(struct.pack('<I4s', len(blob), b'BIN\0') + blob)

@@ -18,63 +18,57 @@ SQUARE = 0.05  # cosine between the axes of a map
 
 @dataclasses.dataclass
 class Pass:
+    """Of a picture or of a map. As a map it is a copy, whose clip space is the light's."""
     draws: list
     depth: tuple
     outputs: tuple
     viewport: tuple
-    clip: np.ndarray = None  # 4 x 4: clip from the camera's axes; None if the pass does not tell a camera
+    clip: np.ndarray = None  # 4 x 4: clip space from the camera's axes; None where the pass tells no camera
     orthographic: bool = False
-
-    def __post_init__(self):
-        self.first, self.last = self.draws[0].event, self.draws[-1].event
-        self.target = self.depth or self.outputs[0]
-        self.textures = {t[0] for t in (self.depth, *self.outputs) if t}
-        self.name = f'pass {self.first}-{self.last}' if self.last > self.first else f'draw {self.first}'
-
-
-@dataclasses.dataclass
-class Map:
-    drawn: Pass
-    clip: np.ndarray  # 4 x 4: the light's clip space from the camera's axes
-    light: dict  # frame.json's light
-    pairs: dict  # event of the map's draw -> draw of the camera's pass
-    residual: float  # 99 in 100 vertices are nearer to the matrix, in clip units
-    depth_off: list  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
-    is_square: bool  # its axes are at right angles
+    # Of a map:
+    light: dict = None  # frame.json's light
+    pairs: dict = None  # event of the map's draw -> draw of the camera's pass
+    residual: float = None  # 99 in 100 vertices are nearer to the matrix, in clip units
+    depth_off: np.ndarray = None  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
     depths: np.ndarray = None  # as captured; rows start at the bottom
 
     def __post_init__(self):
-        self.zero_to_one, self.reversed = self.drawn.draws[0].zero_to_one, self.drawn.draws[0].reversed
+        self.first, self.last = self.draws[0].event, self.draws[-1].event
+        self.zero_to_one, self.reversed = self.draws[0].zero_to_one, self.draws[0].reversed
+        self.target = self.depth or self.outputs[0]
+        self.textures = {t[0] for t in (self.depth, *self.outputs) if t}
+        self.name = f'pass {self.first}-{self.last}' if self.last > self.first else f'draw {self.first}'
+        self.meshes = collections.defaultdict(list)
+        for draw in self.draws:
+            self.meshes[draw.geometry].append(draw)
+
+    def window(self, place):
+        """(u, v, depth) of places, 0 to 1."""
+        q = with_one(place) @ self.clip.T
+        q = q[:, :3] / np.where(np.abs(q[:, 3:]) > 1e-12, q[:, 3:], 1)
+        return q[:, 0] / 2 + 0.5, q[:, 1] / 2 + 0.5, q[:, 2] if self.zero_to_one else q[:, 2] / 2 + 0.5
+
+    def place(self, u, v, depth):
+        """The reverse of window()."""
+        with np.errstate(all='ignore'):
+            q = with_one(np.c_[2 * u - 1, 2 * v - 1, depth if self.zero_to_one else 2 * depth - 1]) @ np.linalg.inv(self.clip).T
+            return q[:, :3] / q[:, 3:]
+
+    def texel(self, place):
+        """The width of a map's texel at places, in units of length."""
+        axis = self.clip[3, :3]
+        across = self.clip[0, :3] - (self.clip[0, :3] @ axis) * axis / (axis @ axis or 1)
+        return 2 * (with_one(place) @ self.clip[3]) / np.linalg.norm(across) / self.depths.shape[1]
 
     @property
     def cull(self):
         """map.cull: the side of the triangles that most of the map's draws leave out."""
         turns = collections.Counter()
-        for draw in self.drawn.draws:
+        for draw in self.draws:
             turns[draw.culls] += draw.count
-        turn = turns.most_common(1)[0][0]
+        (turn, _), *_ = turns.most_common()
         mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.reversed
         return turn if turn == 'none' else 'front' if (turn == 'ccw') != mirrored else 'back'
-
-    def window(self, place):
-        """(u, v, depth) of places in the map, 0 to 1, near = 0."""
-        q = np.c_[place, np.ones(len(place))] @ self.clip.T
-        q = q[:, :3] / np.where(np.abs(q[:, 3:]) > 1e-12, q[:, 3:], 1)
-        z = q[:, 2] if self.zero_to_one else q[:, 2] / 2 + 0.5
-        return q[:, 0] / 2 + 0.5, q[:, 1] / 2 + 0.5, 1 - z if self.reversed else z
-
-    def place(self, u, v, depth):
-        """The reverse of window()."""
-        z = 1 - depth if self.reversed else depth
-        q = np.c_[2 * u - 1, 2 * v - 1, z if self.zero_to_one else 2 * z - 1, np.ones(len(z))] @ np.linalg.inv(self.clip).T
-        return q[:, :3] / q[:, 3:]
-
-    def texel(self, place):
-        """The width of a texel at places, in units of length."""
-        axis = self.clip[3, :3]
-        across = self.clip[0, :3] - (self.clip[0, :3] @ axis) * axis / (axis @ axis or 1)
-        w = np.c_[place, np.ones(len(place))] @ self.clip[3]
-        return 2 * w / np.linalg.norm(across) / self.depths.shape[1]
 
 
 def passes_of(draws):
@@ -83,6 +77,11 @@ def passes_of(draws):
         if draw.count >= 3 and (draw.depth or draw.outputs):
             found[draw.depth, draw.outputs, draw.viewport].append(draw)
     return [Pass(d, *key) for key, d in found.items()]
+
+
+# ---- numbers
+def with_one(places):
+    return np.c_[places, np.ones(len(places))]
 
 
 def usable(clip):
@@ -106,68 +105,65 @@ def off(matrix, source, image):
     return np.abs(source @ matrix.T - image)[:, (0, 1, 3)].max(1) / np.maximum(1e-9, np.abs(image[:, 3]))
 
 
-def robust_line(t, y, rounds=6):
+def robust_line(t, y):
     """(slope, height) of y over t, without what does not lie on it."""
     keep = np.ones(len(t), bool)
-    for _ in range(rounds):
-        k, b = np.linalg.lstsq(np.c_[t[keep], np.ones(keep.sum())], y[keep], rcond=None)[0]
+    for _ in range(6):
+        k, b = np.linalg.lstsq(with_one(t[keep]), y[keep], rcond=None)[0]
         e = np.abs(y - k * t - b)
         keep = e <= max(1e-7, 2 * np.median(e[keep]))
     return k, b
+
+
+def centre_of(clip):
+    """Where a perspective clip matrix looks from."""
+    centre = np.linalg.svd(clip[[0, 1, 3]])[2][3]
+    return centre[:3] / centre[3]
 
 
 # ---- the camera of a pass
 def field_of(g, orthographic):
     """(fx, fy, cx, cy) of the camera that draws an object by clip = g object, if the object's axes stay at right angles; else None."""
     x, y, along = g[0, :3], g[1, :3], g[2 if orthographic else 3, :3]
-    s = np.linalg.norm(along)
-    if s == 0:
+    if not along.any():
         return None
-    cx, cy = (0, 0) if orthographic else (x @ along / s ** 2, y @ along / s ** 2)
-    hx, hy = x - cx * along, y - cy * along
-    lx, ly = np.linalg.norm(hx), np.linalg.norm(hy)
-    skew = max(abs(hx @ hy) / (lx * ly), abs(hx @ along) / (lx * s), abs(hy @ along) / (ly * s))
-    return (lx / s, ly / s, cx, cy) if skew < 1e-3 else None
+    cx, cy = (0, 0) if orthographic else (x @ along / (along @ along), y @ along / (along @ along))
+    axes = np.array([x - cx * along, y - cy * along, along])
+    length = np.linalg.norm(axes, axis=1)
+    is_right = np.abs(axes @ axes.T - np.diag(length ** 2)).max() < 1e-3 * length.min() * length.max()
+    return (length[0] / length[2], length[1] / length[2], cx, cy) if is_right else None
 
 
-def camera_of(drawn, capture):
-    """(clip from the camera's axes, whether it is orthographic); (None, False) if the pass does not tell.
-
-    Depth row from all vertices; field of view from rigid draws, whose three axes are of one length.
-    """
-    clips = [c[usable(c)] for c in map(capture.clip, drawn.draws) if c is not None]
-    if not any(map(len, clips)):
-        return None, False
-    clip = np.concatenate([few(c) for c in clips])
-    orthographic = np.ptp(clip[:, 3]) < 1e-5 * np.abs(clip[:, 3]).max()
-    if not orthographic:
+def find_camera(drawn, capture):
+    """Depth row from all vertices; field of view from rigid draws, whose three axes are of one length."""
+    clips = [few(c[usable(c)]) for c in map(capture.clip, drawn.draws)]
+    clip = np.concatenate(clips)
+    if not len(clip):
+        return
+    drawn.orthographic = np.ptp(clip[:, 3]) < 1e-5 * np.abs(clip[:, 3]).max()
+    if not drawn.orthographic:
         a, b = robust_line(clip[:, 3], clip[:, 2])
         if (np.abs(clip[:, 2] - a * clip[:, 3] - b) < 1e-4 * np.abs(clip[:, 3])).mean() < ON_LINE:
-            return None, False
+            return
     found = []
     for draw in sorted(drawn.draws, key=lambda d: -d.count)[:60]:
         c = capture.clip(draw)
-        for place in capture.vertex_inputs(draw) if c is not None and draw.instances == 1 else []:
-            if len(place) != len(c) or not np.isfinite(place).all():
-                continue
-            source = np.c_[place, np.ones(len(place))]
-            g, rank, _ = fit(source, c)
-            if rank == 4 and np.abs(source @ g.T - c).max() <= 1e-4 * np.abs(c).max():
-                found.append(field_of(g, orthographic))
+        for place in capture.vertex_inputs(draw) if draw.instances == 1 else []:
+            if len(place) == len(c) > 0 and np.isfinite(place).all():
+                g, rank, _ = fit(with_one(place), c)
+                if rank == 4 and np.abs(with_one(place) @ g.T - c).max() <= 1e-4 * np.abs(c).max():
+                    found.append(field_of(g, drawn.orthographic))
     found = np.array([f for f in found if f]).reshape(-1, 4)
-    aspect = drawn.viewport[3] / drawn.viewport[2]
-    square = found[np.abs(found[:, 0] / found[:, 1] / aspect - 1) < 5e-3]  # a draw scaled along one axis is not
-    found = square if len(square) else found
+    square = found[np.abs(found[:, 0] / found[:, 1] / (drawn.viewport[3] / drawn.viewport[2]) - 1) < 5e-3]
+    found = square if len(square) else found  # a draw scaled along one axis is not
     agree = found[np.abs(found[:, 0] / np.median(found[:, 0]) - 1) < 1e-3] if len(found) else found
     if not len(agree):  # each draw is scaled along one axis, in its own way
-        return None, False
+        return
     fx, fy, cx, cy = np.median(agree, axis=0)
     cx, cy = (0.0 if abs(v) < 1e-6 else v for v in (cx, cy))
-    if orthographic:
-        # Lengths are in units of the depth: one unit of window depth is one unit, so the scale is free; the axes are not.
-        away = 1.0 if drawn.draws[0].reversed else -1.0
-        return np.diag([fx, fy, away, 1.0]), True
-    return np.array([[fx, 0, -cx, 0], [0, fy, -cy, 0], [0, 0, -a, b], [0, 0, -1.0, 0]]), False
+    # An orthographic camera's lengths are in units of the depth: one unit of window depth is one unit, so the scale is free.
+    drawn.clip = (np.diag([fx, fy, 1.0 if drawn.reversed else -1.0, 1.0]) if drawn.orthographic else
+                  np.array([[fx, 0, -cx, 0], [0, fy, -cy, 0], [0, 0, -a, b], [0, 0, -1.0, 0]]))
 
 
 # ---- one pass against another
@@ -181,24 +177,15 @@ def on_depth_line(clip, camera):
     return np.c_[clip[:, :2], np.where(near, z, clip[:, 2]), clip[:, 3]]
 
 
-def by_geometry(draws):
-    found = collections.defaultdict(list)
-    for draw in draws:
-        found[draw.geometry].append(draw)
-    return found
-
-
 def matrix_between(light, camera, capture):
     """(M, pairs, clip of the camera, clip of the light) with light = M camera over draws of both; None if none fits."""
-    theirs, mine = by_geometry(camera.draws), by_geometry(light.draws)
+    theirs, mine = camera.meshes, light.meshes
     candidates = [(a, b, len(mine[k]) == 1 == len(theirs[k])) for k in mine for a in mine[k][:6] for b in theirs.get(k, [])[:6]]
     candidates.sort(key=lambda t: (not t[2], -t[0].count))
     data = []
     for a, b, sure in candidates[:400]:
         l, c = capture.clip(a), capture.clip(b)
-        if l is None or c is None or len(l) != len(c):
-            continue
-        keep = usable(l) & usable(c)
+        keep = usable(l) & usable(c) if len(l) == len(c) else np.zeros(0)
         if keep.sum() >= 3:
             data.append((a, b, sure, few(on_depth_line(c[keep], camera)), few(l[keep])))
         if len(data) > 120:
@@ -207,11 +194,9 @@ def matrix_between(light, camera, capture):
     best = []
     for seed in filter(None, seeds):
         m, rank, singular = fit(np.concatenate([x[3] for x in seed]), np.concatenate([x[4] for x in seed]))
-        if rank < 4 or singular[-1] < 1e-7 * singular[0]:
-            continue  # flat geometry alone tells no matrix
-        agree = [x for x in data if np.percentile(off(m, x[3], x[4]), 90) < ON_MATRIX]
-        if len({x[0].event for x in agree}) > len({x[0].event for x in best}):
-            best = agree
+        if rank == 4 and singular[-1] >= 1e-7 * singular[0]:  # flat geometry alone tells no matrix
+            agree = [x for x in data if np.percentile(off(m, x[3], x[4]), 90) < ON_MATRIX]
+            best = max(best, agree, key=lambda of: len({x[0].event for x in of}))
     if not best:
         return None
     c, l = (np.concatenate([x[i] for x in best]) for i in (3, 4))
@@ -223,20 +208,16 @@ def matrix_between(light, camera, capture):
     return m, {x[0].event: x[1] for x in best}, c[keep], l[keep]
 
 
-def same_eye(m):
-    """A prepass, a G-buffer, a picture of half the size: x stays x, y stays y."""
-    mixed = np.abs(m[:2, 2:]).max() + abs(m[0, 1]) + abs(m[1, 0]) + np.abs(m[3, :2]).max() + np.abs(m[2, :2]).max()
-    return mixed < 1e-4 * np.abs(m).max()
-
-
 def map_of(light, camera, capture):
     """The pass as a map of the camera's pass, or None."""
     solved = matrix_between(light, camera, capture)
-    if solved is None or same_eye(solved[0]):
+    if not solved:
         return None
     m, pairs, c, l = solved
+    mixed = np.abs(m[:2, 2:]).max() + abs(m[0, 1]) + abs(m[1, 0]) + np.abs(m[3, :2]).max() + np.abs(m[2, :2]).max()
+    if mixed < 1e-4 * np.abs(m).max():
+        return None  # x stays x, y stays y: a prepass, a G-buffer, a picture of half the size
     clip = m @ camera.clip
-    residual = float(np.percentile(off(m, c, l), 99))
     parallel = np.abs(clip[3, :3]).max() < 1e-4 * abs(clip[3, 3]) * np.linalg.norm(clip[0, :3])
     # The depth row has two numbers only: a bias in the vertex shader of the map bends a free fit.
     if parallel:
@@ -250,35 +231,31 @@ def map_of(light, camera, capture):
         row, t, z, unit = clip[3], l[:, 3], l[:, 2], l[:, 3]
     k, b = robust_line(t, z)
     clip[2] = k * row + (0, 0, 0, b)
-    if parallel:
-        along = row[:3] if (k > 0) != light.draws[0].reversed else -row[:3]
-        found = {'kind': 'directional', 'direction': along.tolist()}
-    else:
-        centre, along = np.linalg.svd(clip[[0, 1, 3]])[2][3], clip[3, :3]
-        found = {'kind': 'spot', 'position': (centre[:3] / centre[3]).tolist(), 'direction': along.tolist(), 'cone_deg': 170.0}
+    along = (row if not parallel or (k > 0) != light.reversed else -row)[:3]
     axes = np.array([v / np.linalg.norm(v) for v in (clip[0, :3], clip[1, :3], along)])
-    return Map(light, clip, found, pairs, residual, np.percentile((z - k * t - b) / unit, [1, 50, 99]).tolist(),
-               np.abs(axes @ axes.T - np.eye(3)).max() < SQUARE)
+    if np.abs(axes @ axes.T - np.eye(3)).max() > SQUARE:
+        print(f'{light.name} draws with axes that are not at right angles (a warped map?): its light cannot be told')
+        return None
+    found = {'kind': 'directional', 'direction': along.tolist()} if parallel else {
+        'kind': 'spot', 'position': centre_of(clip).tolist(), 'direction': along.tolist(), 'cone_deg': 170.0}
+    return dataclasses.replace(light, clip=clip, light=found, pairs=pairs, residual=float(np.percentile(off(m, c, l), 99)),
+                               depth_off=np.percentile((z - k * t - b) / unit, [1, 50, 99]))
 
 
 def camera_and_maps(capture, passes):
     """The pass of the picture, and the passes that draw its meshes from other eyes."""
     for drawn in passes:
-        drawn.clip, drawn.orthographic = camera_of(drawn, capture) if drawn.outputs else (None, False)
+        if drawn.outputs:
+            find_camera(drawn, capture)
     cameras = [p for p in passes if p.clip is not None]
     if not cameras:
         raise Refusal('no pass of this frame tells a camera: its meshes are flat, or placed on the GPU without a linear '
                       'place for each vertex')
-    warped = []
     for camera in sorted(cameras, key=lambda p: (-p.viewport[2] * p.viewport[3], -p.last)):
         maps = [map_of(p, camera, capture) for p in passes
                 if p is not camera and p.first < camera.last and not (p.viewport == camera.viewport and p.depth == camera.depth)]
-        if any(m and m.is_square for m in maps):
-            return camera, [m for m in maps if m and m.is_square]
-        warped += filter(None, maps)
-    if warped:
-        raise Refusal(f'the map of {warped[0].drawn.name} has axes that are not at right angles (a warped map, as light-space perspective '
-                      'shadow maps are): its light cannot be told')
+        if any(maps):
+            return camera, list(filter(None, maps))
     raise Refusal('no pass draws the meshes of the picture from another eye: this frame draws no shadow map. Where a map is '
                   'kept over frames, move the light a little while the frame is captured')
 
@@ -290,11 +267,9 @@ def lights_of(maps):
         key = 'direction' if a['kind'] == 'directional' else 'position'
         return a['kind'] == b['kind'] and np.allclose(a[key], b[key], rtol=0, atol=SAME_LIGHT * max(1, np.abs(a[key]).max()))
     groups = []
-    for m in maps:
-        group = next((g for g in groups if is_same(g[0].light, m.light)), None)
-        if group is None:
-            groups.append(group := [])
-        group.append(m)
+    while maps:
+        groups.append([m for m in maps if is_same(maps[0].light, m.light)])
+        maps = [m for m in maps if not is_same(maps[0].light, m.light)]
     return groups
 
 

@@ -48,7 +48,7 @@ if(NOT opened)
   message(FATAL_ERROR "scripts/packages.txt has no packages in a section 'run time'; the package needs their names")
 endif()
 list(JOIN opened ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-renderdoc, python3-numpy, renderdoc, xvfb")  # to read captures
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-renderdoc, python3-numpy, renderdoc")  # to read captures
 
 # Whom to ask about the package: as in Debian's own tools, who builds it; otherwise the author of the commit.
 set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")

@@ -31,6 +31,8 @@ VISIBILITY = 1e-5
 HALF = 1 / 8
 # The least squares over float positions leave 1e-6 of clip space (a residual that the reader prints); the scene has 10 m.
 DIRECTION, PLACE_M, CAMERA = 2e-6, 5e-5, 1e-5
+# How far programs move the place that they look up along the normal, and how fine the reader's steps are, in texels.
+OFFSETS, STEP = {"normal-offset": 1.75}, 0.125
 # Of a hundred: a receiver here is 0.012 points, and the depths of both frames differ by their rounding.
 POINTS = 0.05
 
@@ -39,7 +41,7 @@ FEATURES = {"sun": [1], "spot": [1], "point": [6], "cascades-atlas": [3], "casca
             "depth24": [1], "moments": [1], "exponential": [1], "compare": [1], "indexed instanced": [1], "indexed skinned": [1], "masked": [1],
             "msaa": [1], "outside": [1], "prepass indexed": [1], "two": [1, 1], "deferred": [1], "deferred cascades-array": [3], "shaded": [1],
             "shaded two prepass": [1, 1], "srgb": [1], "temporal": [1], "polygon-offset": [1], "vertex-bias": [1], "orthographic": [1],
-            "fragment-lookup": [1], "multidraw": "[Ii]ndirect"}
+            "fragment-lookup": [1], "normal-offset": [1], "multidraw": "[Ii]ndirect"}
 # The fault, and what reader or verdict say of it, which they must not say of any program without one.
 FAULTS = {"no-model": "the lookup lacks their model matrix", "stale": "MAP AND LOOKUP DIFFER.*another frame", "half": "128 x 128 fills a part",
           "culled": "not in the map although in the picture: draw \\d+$", "sides": "without front faces", "gequal": "light and shadow are exchanged",
@@ -184,6 +186,11 @@ def check(name, maps, cause):
         wrong.append(f"maps {counts}, not {maps}")
     if not cause:
         wrong += differences(known, out, told)
+        techniques = [frame["map"]["technique"] for frame in told if "map" in frame]
+        if name in OFFSETS and not techniques:
+            wrong.append("its lookup is not known")
+        wrong += [f"an offset of {found['bias.normal_offset']} texels along the normal" for found in techniques
+                  if abs(float(found["bias.normal_offset"]) - OFFSETS.get(name, 0)) > STEP]
     words, verdicts, errors = [], "", []
     for i, path in enumerate(frames):
         text, numbers = judge(path)

@@ -39,7 +39,11 @@ void main() {
 #ifdef NO_MODEL
   for (int i = 0; i < LIGHTS; i++) in_light[i] = lookup[i * MAPS] * vec4(position, 1);
 #else
-  for (int i = 0; i < LIGHTS; i++) in_light[i] = lookup[i * MAPS] * at;
+  vec4 looked_up = at;
+#ifdef NORMAL_OFFSET
+  looked_up.xyz += normalize(facing) * bias[0]; // in metres, and no bias of the depth
+#endif
+  for (int i = 0; i < LIGHTS; i++) in_light[i] = lookup[i * MAPS] * looked_up;
 #endif
   gl_Position = clip_from_world * at;
 }
@@ -89,6 +93,8 @@ float read_map(int light, int map, vec3 at) { // at: place in the map and depth,
   return clamp(stored.x * exp(-80.0 * (at.z - bias[light])), 0.0, 1.0);
 #elif defined(REVERSED)
   return at.z + bias[light] >= stored.x ? 1.0 : 0.0;
+#elif defined(NORMAL_OFFSET)
+  return at.z <= stored.x ? 1.0 : 0.0;
 #elif defined(GEQUAL)
   return at.z - bias[light] >= stored.x ? 1.0 : 0.0;
 #elif defined(COMPONENT)

@@ -116,7 +116,7 @@ static void place_light(struct light* l, const char* kind, int frame) {
     const vec eye = {7 * l->way.x, 7 * l->way.y, 7 * l->way.z};
     const mat view = looking(eye, (vec){0, 0, 0}, (vec){0, 1, 0});
     l->maps = any("cascades-atlas", "cascades-array") ? 3 : 1;
-    l->bias = has("small") ? .0003f : has("large") ? .04f : .005f;
+    l->bias = has("small") ? .0003f : has("large") ? .04f : has("normal-offset") ? 1.75f * 10 / MAP : .005f;
     for (int k = 0; k < l->maps; k++) {
       const float e = l->maps == 1 ? 5 : (float[]){1.5f, 2.8f, 5.5f}[k],
                   z = l->maps == 1 ? 0 : (float[]){1.6f, .8f, 0}[k];
