@@ -271,11 +271,14 @@ void print_ladder(const Measurement& m, const char* clock) {
 struct RenderOptions {
   std::string experiment;  // empty: the default settings
   long point = -1;         // of the experiment's sweep; -1: the sweep must have one point only
+  bool times = false;      // also without a wish of the experiment
   ExperimentArguments arguments;
 };
 
 int render_point(const RenderOptions& options) {
-  const auto& [path, point, arguments] = options;
+  const std::string& path = options.experiment;
+  const long point = options.point;
+  const ExperimentArguments& arguments = options.arguments;
   const VerbOutputs outputs = outputs_of("render", path, arguments.out);
   OutputFolder folder(outputs);
   const Experiment experiment = scene_or_experiment(path, arguments);
@@ -289,7 +292,8 @@ int render_point(const RenderOptions& options) {
   const MemoryEstimate memory =
       at_point(experiment, std::max(point, 0L), [&] { return bench.memory(settings, curve, true); });
   require_memory(memory, bench.memory_of_program(true), "this point");
-  TimeMetrics times = time_passes(bench, settings);
+  TimeMetrics times;
+  if (options.times || times_measured(experiment)) times = time_passes(bench, settings);
   Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt);
   m.record.metrics.merge(times);
   write_pictures(m, out, ".", "point");
@@ -316,6 +320,8 @@ RunVerb add_render(CLI::App& verb) {
   add_sets(verb, arguments);
   add_parts(verb, arguments);
   add_threads(verb, arguments);
+  verb.add_flag("--times", options->times,
+                "Measure times too; an experiment that names one, or says times = true, has them without it");
   add_out(verb, arguments, "Folder for the files", outputs_of("render", "", "").folder);
   return [options](const std::string& command) {
     options->arguments.command = command;
