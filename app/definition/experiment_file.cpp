@@ -203,10 +203,10 @@ class Reader : private SettingsReader {
 
   void read_frames(const toml::table& root, const toml::node& node) {
     for (const Item& item : items(root))
-      if (item.key != "title" && item.key != "pictures" && item.key != "plot" && item.key != "frame" &&
-          item.key != "bound")
+      if (item.key != "title" && item.key != "pictures" && item.key != "exr" && item.key != "plot" &&
+          item.key != "frame" && item.key != "bound")
         fail(*item.node,
-             fmt::format("a file with frames has title, pictures, plot and bounds beside them, and no {}; each "
+             fmt::format("a file with frames has title, pictures, exr, plot and bounds beside them, and no {}; each "
                          "frame.json says scene, camera and light",
                          item.key));
     if (!node.is_array() || !node.is_array_of_tables()) fail(node, "frames are written as [[frame]], one for each");

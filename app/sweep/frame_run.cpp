@@ -26,6 +26,7 @@
 #include "base/file.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "compare/judge/bounds.h"
 #include "compare/judge/conditions.h"
 #include "compare/report/junit.h"
 #include "compare/results/metrics.h"
@@ -298,14 +299,27 @@ class FrameRun {
           frame_pixel_pictures(verdict, frame, climbed ? &*climbed : nullptr, record.worst_of);
       for (size_t i = 0; i < crops.size(); ++i) crops_[{record.id, record.worst_of[i].metric}] = std::move(crops[i]);
     }
-    if (experiment_.pictures != "none") {
+    if (gets_pictures(record)) {
       make_folder_in(folder_.path(), "images");
       const std::string stem = fmt::format("p{:04}", record.id);
       const Ladder* const ladder = climbed ? &*climbed : nullptr;
       record.pictures = write_frame_pictures(verdict, frame, ladder, folder_.path() + "/images", "images", stem);
       const std::string exr = fmt::format("images/{}-frame.exr", stem);
-      record.images.push_back(write_frame_exr(verdict, frame, ladder, folder_.path() + "/" + exr, exr));
+      if (experiment_.exr)
+        record.images.push_back(write_frame_exr(verdict, frame, ladder, folder_.path() + "/" + exr, exr));
     }
+  }
+
+  // By the key `pictures`: a frame that is refused or breaks a bound by itself, with "first" also the first one; with "none" none, with any
+  // other word all.
+  bool gets_pictures(const PointRecord& record) const {
+    const std::string& word = experiment_.pictures;
+    if (word != "first" && word != "broken") return word != "none";
+    if ((word == "first" && record.id == 0) || !record.delivery.refused.empty()) return true;
+    const std::vector<BoundResult> bounds =
+        evaluate_bounds({&record, 1}, experiment_.bounds, [](const PointRecord&) { return ""; });
+    return std::any_of(bounds.begin(), bounds.end(),
+                       [](const BoundResult& one) { return one.points > 0 && !one.held; });
   }
 
   const Experiment& experiment_;

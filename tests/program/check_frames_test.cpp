@@ -112,6 +112,27 @@ TEST_F(CheckFrames, TheWorstPixelOfABrokenBoundHasAPicture) {
   EXPECT_FALSE(fs::exists(folder_ / "out" / picture)) << "a picture of the run before";
 }
 
+// By default of the frames that break a bound, with `exr` also as OpenEXR.
+TEST_F(CheckFrames, PicturesAreThoseThatAreAskedFor) {
+  frames_with_stripe_in(1);
+  const std::string experiment = text("checks/frames.toml");
+  const auto images = [&](const std::string& key) {
+    fs::remove_all(folder_ / "out");
+    write("checks/frames.toml", key + experiment);
+    EXPECT_EQ(run({"check", "checks/frames.toml", "--out", "out"}), 1) << output_;
+    std::set<std::string> stems, endings;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/images")) {
+      stems.insert(entry.path().filename().string().substr(0, 5));
+      endings.insert(entry.path().extension().string());
+    }
+    return std::pair(stems, endings);
+  };
+  using Set = std::set<std::string>;
+  EXPECT_EQ(images(""), std::pair(Set{"p0001"}, Set{".png"}));
+  EXPECT_EQ(images("pictures = \"first\"\nexr = true\n"), std::pair(Set({"p0000", "p0001"}), Set({".exr", ".png"})));
+  EXPECT_EQ(images("pictures = \"all\"\n"), std::pair(Set({"p0000", "p0001", "p0002"}), Set{".png"}));
+}
+
 // A frame that is refused, or not there, hides nothing of the others: their bounds stand in every file.
 TEST_F(CheckFrames, ARefusedFrameHidesNothingOfTheOthers) {
   frames_with_stripe_in(2);
