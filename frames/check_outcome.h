@@ -34,7 +34,7 @@ Outcome check_inverted(const CheckEvidence&, const FrameStatistics& s);
 Outcome check_shaded(const CheckEvidence&, const FrameStatistics& s);
 Outcome check_intensity(const CheckEvidence& e, const FrameStatistics& s);
 Outcome check_match(const CheckEvidence& e, const FrameStatistics& s);
-Outcome check_encoding(const CheckEvidence& e, const FrameStatistics&);
+Outcome check_encoding(const CheckEvidence&, const FrameStatistics& s);
 Outcome check_levels(const CheckEvidence& e, const FrameStatistics&);
 
 Outcome check_samples(const CheckEvidence& e, const FrameStatistics&);

@@ -7,8 +7,6 @@
 #include <limits>
 #include <unordered_map>
 
-#include "frames/value_curve.h"
-
 namespace noonmark {
 namespace {
 
@@ -62,6 +60,7 @@ Region region_of(std::vector<double> values) {
 struct LitPixel {
   glm::dvec4 by{0};
   double value = 0;
+  bool of_taps = false;  // a filter's taps make this value, so it is no evidence of shading
 };
 
 // A shadow only darkens: what shading makes of a lit pixel is the most that it can be. So the fit is one of the upper quarter
@@ -90,7 +89,7 @@ glm::dvec4 upper_fit(const std::vector<LitPixel>& pixels, glm::dvec4 used) {
 // How many of the pixels are as bright as the fit says; 0 if the fit is not evidence of shading.
 size_t explained_by(const std::vector<LitPixel>& pixels, glm::dvec4 used, bool roughly) {
   constexpr double step = 1 / 255.0;
-  constexpr int bins = 64;
+  constexpr size_t bin_count = 64;
   constexpr size_t least = 4;  // pixels of a bin
   const glm::dvec4 fit = upper_fit(pixels, used);
   double within = step;
@@ -102,32 +101,39 @@ size_t explained_by(const std::vector<LitPixel>& pixels, glm::dvec4 used, bool r
     within = range / 16;
   }
   struct Bin {
-    size_t count = 0;
+    size_t count = 0, explained = 0;
     double fit = 0;
   };
-  std::vector<Bin> by_cosine(bins + 1);
+  std::vector<Bin> bins(bin_count + 2), by_cosine;
   size_t explained = 0, above = 0;
   for (const LitPixel& pixel : pixels) {
     const double fitted = glm::dot(fit, used * pixel.by), off = pixel.value - fitted;
-    above += off > within;
-    if (std::abs(off) > within) continue;
-    ++explained;
-    Bin& bin = by_cosine[static_cast<size_t>(std::clamp(pixel.by[1], 0.0, 1.0) * bins)];
+    Bin& bin = bins[static_cast<size_t>(std::clamp(pixel.by[1], 0.0, 1.0) * bin_count)];
     ++bin.count;
+    above += off > within;
+    if (std::abs(off) > within || pixel.of_taps) continue;
+    ++explained;
+    ++bin.explained;
     bin.fit = fitted;
   }
-  int cosines = 0;
   double low = 1, high = 0;
-  for (int i = 0; i <= bins; ++i) {
-    const Bin& bin = by_cosine[static_cast<size_t>(i)];
-    if (bin.count < least) continue;
-    ++cosines;
-    low = std::min(low, bin.fit), high = std::max(high, bin.fit);
-    ++i;  // a plane may lie in two bins
+  for (size_t i = 0; i <= bin_count; ++i) {
+    if (bins[i].explained < least) continue;
+    low = std::min(low, bins[i].fit), high = std::max(high, bins[i].fit);
+    // A plane may lie in two bins.
+    by_cosine.push_back({bins[i].count + bins[i + 1].count, bins[i].explained + bins[i + 1].explained});
+    ++i;
   }
-  const int more = roughly ? 8 : 1;  // values of N.L than numbers that were chosen for them
-  const bool is_evidence = cosines >= static_cast<int>(glm::dot(used, used)) + more && high - low >= 4 * step &&
-                           explained * 5 >= pixels.size() * 2 && (roughly || above * 20 <= pixels.size());
+  const auto numbers = static_cast<size_t>(glm::dot(used, used));
+  const size_t more = roughly ? 8 : 1;  // values of N.L than numbers that were chosen for them
+  if (by_cosine.size() < numbers + more || high - low < 4 * step) return 0;
+  std::partial_sort(by_cosine.begin(), by_cosine.begin() + static_cast<std::ptrdiff_t>(numbers), by_cosine.end(),
+                    [](const Bin& a, const Bin& b) { return a.explained > b.explained; });
+  Bin others{pixels.size(), explained};
+  for (size_t i = 0; i < numbers; ++i) others.count -= by_cosine[i].count, others.explained -= by_cosine[i].explained;
+  // Of the others a quarter must be as bright, which is what the fit is made for.
+  const bool is_evidence = explained * 5 >= pixels.size() * 2 && others.explained * 4 >= others.count &&
+                           (roughly || above * 20 <= pixels.size());
   return is_evidence ? explained : 0;
 }
 
@@ -156,17 +162,26 @@ std::vector<uint32_t> parts_of(const Scene& scene) {
   return part;
 }
 
-// Whether this share of a filter's taps can be lit, as far as the picture's rounding tells. Filters whose taps lie many texels
-// apart, and which so can have one value on a whole plane, have at most 64.
+// Whether a whole number of this many taps makes the value, as far as the picture's rounding tells.
+bool is_of_taps(int taps, double value, double rounding) {
+  return std::abs(value * taps - std::round(value * taps)) <= taps * rounding;
+}
+
+// Whether those of some filter do. Filters whose taps lie many texels apart, and which so can have one value on a whole plane,
+// have at most 64.
 bool is_share_of_taps(double value, double rounding) {
   for (int taps = 1; taps <= 64; ++taps)
-    if (std::abs(value * taps - std::round(value * taps)) <= taps * rounding) return true;
+    if (is_of_taps(taps, value, rounding)) return true;
   return false;
 }
 
-Shading shading_of(const CheckEvidence& e, const Image<uint8_t>& deep, const Region& lit) {
+Shading shading_of(const CheckEvidence& e, const FrameStatistics& s) {
+  const Image<uint8_t>& deep = s.deep;
+  const Region& lit = s.deep_lit;
   constexpr size_t least = 32;         // pixels of a part
   constexpr double one_value = 0.002;  // half a step of 8 bits
+  const double rounding = rounding_of(e.frame.visibility);
+  const int taps = s.curve.by_levels() == value_curves.data() ? s.curve.fits[0].taps : 0;
   const std::vector<uint32_t> part = parts_of(e.scene);
   const bool of_lamp = e.light.kind != LightKind::directional;
   std::vector<LitPixel> all;
@@ -184,7 +199,7 @@ Shading shading_of(const CheckEvidence& e, const Image<uint8_t>& deep, const Reg
       fall = unit / glm::dot(way, way);
     }
     const double value = e.frame.visibility[i];
-    all.push_back({{1, n, n * n, n * fall}, value});
+    all.push_back({{1, n, n * n, n * fall}, value, taps > 0 && is_of_taps(taps, value, rounding)});
     parts[part[e.receivers.primitive[i]]].push_back(all.back());
     at += std::abs(value - lit.median) <= one_value;
     above += value > lit.median + one_value;
@@ -196,8 +211,8 @@ Shading shading_of(const CheckEvidence& e, const Image<uint8_t>& deep, const Reg
     if (pixels.size() >= least) by_parts += explained_by_shading(pixels, of_lamp);
   const auto share = [&](size_t count) { return static_cast<double>(count) / static_cast<double>(all.size()); };
   found.explained = share(std::max(by_parts, explained_by_shading(all, of_lamp)));
-  found.is_one_value = lit.median > 0.02 && share(at) >= 0.9 && share(above) <= 0.005 &&
-                       !is_share_of_taps(lit.median, rounding_of(e.frame.visibility));
+  found.is_one_value =
+      lit.median > 0.02 && share(at) >= 0.9 && share(above) <= 0.005 && !is_share_of_taps(lit.median, rounding);
   return found;
 }
 
@@ -299,8 +314,8 @@ FrameStatistics frame_statistics(const CheckEvidence& e) {
   }
   found.deep_dark = region_of(deep[0]);
   found.deep_lit = region_of(deep[1]);
-  if (found.deep_lit.count > 0 && found.deep_lit.median < 0.95)
-    found.shading = shading_of(e, found.deep, found.deep_lit);
+  found.curve = curve_evidence(e);
+  if (found.deep_lit.count > 0 && found.deep_lit.median < 0.95) found.shading = shading_of(e, found);
   return found;
 }
 

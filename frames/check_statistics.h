@@ -8,6 +8,7 @@
 #include "base/image.h"
 #include "frames/checks.h"
 #include "frames/frame.h"
+#include "frames/value_curve.h"
 #include "raytrace/tracer.h"
 
 namespace noonmark {
@@ -41,8 +42,9 @@ struct Region {
 // What shading leaves in the values deep in true light, of the whole picture or part by part (each triangle where the scene has
 // no parts).
 struct Shading {
-  // The share of the pixels that are as bright as a function of N.L says, of more values of N.L than the function has numbers,
-  // where hardly a pixel is brighter. 0 without such a function.
+  // The share of the pixels that are as bright as a function of N.L says, where hardly a pixel is brighter. As many values of N.L
+  // as the function has numbers can be met by choice; it must say the others, too. What a filter's taps make tells nothing. 0
+  // without such a function.
   double explained = 0;
   bool is_one_value = false;  // nearly all have one value, between 0 and 1, which is no share of a filter's taps
 };
@@ -53,6 +55,7 @@ struct FrameStatistics {
   static constexpr int deep_px(int height) { return height >= 360 ? 6 : height >= 120 ? height / 60 : 2; }
   Image<uint8_t> deep;  // 1: deep in true shadow, 2: deep in true light, 0: neither
   Region deep_lit, deep_dark;
+  CurveEvidence curve;
   Shading shading;  // of the values deep in true light
   // Pixels deep in true light about which the frame is darker than one half at all pixels within `deep_px`: the inside of a
   // shadow that is not the truth's.

@@ -85,6 +85,42 @@ Steps steps_of(const Image<float>& v, bool along_rows) {
   return found;
 }
 
+// A smaller size whose pixels are repeated changes its values at every second (third, fourth) boundary of pixels alone. A right
+// picture has changes at all of them.
+struct Repeats {
+  size_t changes = 0;
+  size_t times = 1;  // as often each pixel stands there
+};
+
+Repeats repeats_of(const CheckEvidence& e, bool along_rows) {
+  // By chance 40 changes lie at one kind of boundary in one picture of 2^39.
+  constexpr size_t told = 40, most_times = 4;
+  const Image<float>& v = e.frame.visibility;
+  const int length = along_rows ? v.width : v.height, lines = along_rows ? v.height : v.width;
+  std::array<size_t, 12> at_boundary{};  // by its number modulo 12, which 2, 3 and 4 divide
+  Repeats found;
+  for (int k = 0; k + 1 < length; ++k) {
+    // An edge along the boundary is one change, however long it is.
+    bool is_edge = false;
+    for (int line = 0; line < lines; ++line) {
+      const size_t i = along_rows ? v.index(k, line) : v.index(line, k);
+      const size_t j = along_rows ? v.index(k + 1, line) : v.index(line, k + 1);
+      // What has no light in the frame's own shader may be masked in the full size.
+      const bool changes = e.counted[i] && e.counted[j] && v[i] != v[j];
+      if (changes && !is_edge) ++found.changes, ++at_boundary[static_cast<size_t>(k) % at_boundary.size()];
+      is_edge = changes;
+    }
+  }
+  if (found.changes < told) return found;
+  for (size_t times = 2; times <= most_times; ++times)
+    for (size_t first = 0; first < times; ++first) {
+      size_t there = 0;
+      for (size_t k = first; k < at_boundary.size(); k += times) there += at_boundary[k];
+      if (there == found.changes) found.times = times;
+    }
+  return found;
+}
+
 // ---- a picture of another time mixed in
 
 // A part of one other picture that lies a few pixels away. Where both pictures show light or shadow alone, the value is off by
@@ -159,6 +195,13 @@ Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
           "along {} every second step from pixel to pixel is the mean of its neighbours ({} of {}, "
           "and {} of {}): the picture had half the size and was enlarged; {}",
           along_rows ? "rows" : "columns", steps.mean[0], steps.count[0], steps.mean[1], steps.count[1], instead));
+  for (const bool along_rows : {true, false})
+    if (const Repeats repeats = repeats_of(e, along_rows); repeats.times > 1)
+      return failed(fmt::format(
+          "along {} all {} changes of a value lie at every {} boundary of pixels, and none between: the picture had {} "
+          "the size, and its pixels are repeated; {}",
+          along_rows ? "rows" : "columns", repeats.changes, std::array{"second", "third", "fourth"}[repeats.times - 2],
+          std::array{"half", "a third of", "a quarter of"}[repeats.times - 2], instead));
   if (const Ghost ghost = ghost_of(e); ghost.is_seen())
     return failed(fmt::format(
         "{} values are off 0 and 1 by {:.3f}, and {:.0f}% of them lie where the picture moved by "

@@ -237,8 +237,8 @@ Outcome check_match(const CheckEvidence& e, const FrameStatistics& s) {
                   deep_text(s), s.shadow_elsewhere));
 }
 
-Outcome check_encoding(const CheckEvidence& e, const FrameStatistics&) {
-  const CurveEvidence found = curve_evidence(e);
+Outcome check_encoding(const CheckEvidence&, const FrameStatistics& s) {
+  const CurveEvidence& found = s.curve;
   const auto of_curve = [&](const ValueCurve* curve) { return static_cast<size_t>(curve - value_curves.data()); };
   const auto wrong = [](const ValueCurve& curve) {
     return fmt::format("the values are encoded with {}; write them linear, or declare the encoding", curve.name);

@@ -43,6 +43,19 @@ constexpr double normal_step = 1.0 / 127;
 // As of the checks of a delivery: with fewer receivers there is too little to go on.
 constexpr double enough_receivers = 100;
 
+// Of the handed map, over the texels of the exact one. unmoved: the exact map without the offset that is in `exact`. What the
+// offset moves to the end of the map it says nothing of, and that is far off. The technique must outlive the distance.
+MapDistance map_distance(const GivenPoint& point, const Technique& technique, const MapDepths& exact,
+                         const MapDepths& unmoved) {
+  MapDistance apart(technique.frame, technique.settings.map.format);
+  for (int y = 0; y < point.depth.height; ++y)
+    exact.texels->each_in_row(y, [&](int x, size_t index) {
+      const bool says_nothing = exact[index] >= 1 && unmoved.at({x, y}) < 1;
+      apart.add({x, y}, exact[index], says_nothing ? MapDepths::unknown : point.depth.at(x, y));
+    });
+  return apart;
+}
+
 // Whether the vertices of a triangle have normals of their own.
 bool is_smooth(const Scene& scene, uint32_t triangle) {
   const glm::uvec3 t = scene.triangles[triangle];
@@ -137,6 +150,7 @@ void GivenLookup::Impl::explain_by_offset(const GivenPoint& point, const ViewSta
     with.bias["polygon_units"] += offset.constant / unit;
     const Technique declaring(with, technique.frame);
     const LookupStage again = stages.prepare_lookup(renderer, tracer, view, truth, declaring);
+    if (map_distance(point, declaring, again.exact_depth, exact_depth).excess() > 1) continue;
     const gl::ShadowMap moved = renderer.upload_map(again.exact_depth, with.map);
     const Image<float> r4 = mixed_results(stages.look_up(renderer, moved, {&declaring, 1}), only_map);
     double differ = 0, counted = 0;
@@ -170,11 +184,7 @@ GivenClimb GivenLookup::climb(const GivenPoint& point) {
   Climbed climbed =
       impl_->stages.climb_strips(renderer, lookup, view, truth, shown, technique, curve_part(technique.settings));
   GivenClimb made;
-  MapDistance apart(technique.frame, technique.settings.map.format);
-  for (int y = 0; y < point.depth.height; ++y)
-    lookup.exact_depth.texels->each_in_row(y, [&](int x, size_t index) {
-      apart.add({x, y}, lookup.exact_depth[index], shown.stored[index]);
-    });
+  const MapDistance apart = map_distance(point, technique, lookup.exact_depth, lookup.exact_depth);
   if (climbed.counts) {
     const BiasScale scale = bias_scale(technique.frame, view.receivers, truth.receivers, technique.settings.bias.unit);
     made.curve = summarise(*climbed.counts, scale, {});

@@ -57,7 +57,7 @@ struct GivenClimb {
   // are left.
   double beyond_rounding = 0, interpolated = 0;
   // What the map holds beside the offset that the technique declares, and the mean |R5 - R4| over the counted receivers if
-  // the exact map had it too. Without one the latter is maps_differ.
+  // the exact map had it too. Without one with which the map is the scene's the latter is maps_differ.
   MapOffset offset;
   double precision_with_offset = 0;
   double offset_unit = 0;  // window depth of one unit of a polygon offset; 0 where no offset is in the map

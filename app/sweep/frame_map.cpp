@@ -55,31 +55,35 @@ glm::dvec3 eye_of(const ViewMatrix& view, int width, int height) {
   return view.pixel_ray(width / 2, height / 2, width, height).origin;
 }
 
+std::string apart_text(const GivenClimb& climbed) {
+  return fmt::format("an exact map gives a picture that is {:.4f}% off the handed map's", 100 * climbed.maps_differ);
+}
+
 // A bias that the map holds and that is not declared makes two causes that cancel: the exact map lacks it, so R4 is off by it,
-// and R5 is off by as much the other way. So does any other difference of the two maps that is larger than the frame's whole
-// error. Then no cause says anything of the frame. Empty: the map is as declared.
-std::string undeclared_text(const GivenClimb& climbed, const Settings& declared, double frame_error) {
-  const std::string apart =
-      fmt::format("an exact map gives a picture that is {:.4f}% off the handed map's", 100 * climbed.maps_differ);
+// and R5 is off by as much the other way. A large one makes the map look like another one. Empty: no such bias explains how the
+// maps differ.
+std::string undeclared_text(const GivenClimb& climbed, const Settings& declared) {
   const MapOffset& offset = climbed.offset;
+  if (!offset.in_map() || !(climbed.precision_with_offset < climbed.maps_differ / 2)) return "";
   Settings with = declared;
   with.map.format = offset.format;
-  if (offset.in_map() && climbed.precision_with_offset < climbed.maps_differ / 2) {
-    return fmt::format(
-        "the map holds a bias that is not declared: {}, but {:.4f}% with a polygon offset in it; add to 'technique' "
-        "{{\"bias.polygon_factor\": {:.4g}, \"bias.polygon_units\": {:.4g}, \"map.format\": \"{}\"}} (below 0: towards "
-        "the light), or what the renderer moves its casters by (bias.caster_*)",
-        apart, 100 * climbed.precision_with_offset, declared.bias["polygon_factor"] + offset.factor,
-        declared.bias["polygon_units"] + offset.constant / climbed.offset_unit, find_setting("map.format").get(with));
-  }
-  if (climbed.maps_differ > frame_error)
-    return fmt::format(
-        "{}, which is more than the frame's whole error of {:.4f}%: causes cancel, so they say nothing of the frame; "
-        "the "
-        "casters are drawn otherwise than declared: check map.cull, a bias in the map (bias.polygon_*, bias.caster_*), "
-        "near and far of the matrix",
-        apart, 100 * frame_error);
-  return "";
+  return fmt::format(
+      "the map holds a bias that is not declared: {}, but {:.4f}% with a polygon offset in it; add to 'technique' "
+      "{{\"bias.polygon_factor\": {:.4g}, \"bias.polygon_units\": {:.4g}, \"map.format\": \"{}\"}} (below 0: towards "
+      "the light), or what the renderer moves its casters by (bias.caster_*)",
+      apart_text(climbed), 100 * climbed.precision_with_offset, declared.bias["polygon_factor"] + offset.factor,
+      declared.bias["polygon_units"] + offset.constant / climbed.offset_unit, find_setting("map.format").get(with));
+}
+
+// So does any other difference of the two maps that is larger than the frame's whole error. Then no cause says anything of the
+// frame. Empty: there is none.
+std::string cancelling_text(const GivenClimb& climbed, double frame_error) {
+  if (!(climbed.maps_differ > frame_error)) return "";
+  return fmt::format(
+      "{}, which is more than the frame's whole error of {:.4f}%: causes cancel, so they say nothing of the frame; the "
+      "casters are drawn otherwise than declared: check map.cull, a bias in the map (bias.polygon_*, bias.caster_*), "
+      "near and far of the matrix",
+      apart_text(climbed), 100 * frame_error);
 }
 
 // "bias.constant is 0.0011 depth; from 0.0019 to 0.0042 acne and Peter Panning are below 0.1% each"
@@ -156,6 +160,8 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
                                       .missing = std::move(missing),
                                       .moved_m = std::move(moved_m)});
   CheckResult check = check_given_map(climbed.map_off_m, climbed.depth_spread_m, climbed.is_scenes_map);
+  const std::string undeclared = undeclared_text(climbed, technique.settings);
+  if (check.state == CheckState::failed && !undeclared.empty()) check.says = undeclared;
   check.accepted = accepted;
   // A lookup that is not the frame's has causes of its own, which say nothing of the frame.
   // Where normals are interpolated and the bias reads them, it may be the frame's all the same, if it is nearer to it than the
@@ -172,7 +178,7 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
         100 * unexplained, 100 * error, 100 * climbed.beyond_rounding);
   }
   if (check.state == CheckState::passed)
-    if (const std::string why = undeclared_text(climbed, technique.settings, error); !why.empty()) {
+    if (const std::string why = undeclared.empty() ? cancelling_text(climbed, error) : undeclared; !why.empty()) {
       check.state = CheckState::failed;
       check.says = why;
     }

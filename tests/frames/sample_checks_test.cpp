@@ -78,6 +78,43 @@ TEST(Samples, HalfTheSizeAndBackIsNamed) {
   expect_named(with(processed(good().frame.visibility, half_size_and_back)), "samples", "half the size");
 }
 
+// The means of n x n pixels, each n x n times.
+Image<float> smaller_and_repeated(const Image<float>& v, int n) {
+  Image<float> result = v;
+  for (int top = 0; top + n <= v.height; top += n)
+    for (int left = 0; left + n <= v.width; left += n) {
+      float sum = 0;
+      for (int y = top; y < top + n; ++y)
+        for (int x = left; x < left + n; ++x) sum += v.at(x, y);
+      for (int y = top; y < top + n; ++y)
+        for (int x = left; x < left + n; ++x) result.at(x, y) = sum / static_cast<float>(n * n);
+    }
+  return result;
+}
+
+TEST(Samples, ASmallerSizeThatIsRepeatedIsNamed) {
+  struct Case {
+    int n;
+    const char* says;
+  };
+  for (const Case& one : {Case{2, "half the size"}, Case{3, "a third of the size"}}) {
+    const auto made = [&](const Image<float>& v) { return smaller_and_repeated(v, one.n); };
+    for (const int blur : {0, 1})
+      expect_named(with(processed(good_frame("cube-room", width, height, blur).frame.visibility, made)), "samples",
+                   one.says);
+  }
+}
+
+// A fence that stands straight before the camera: its bars are 24 pixels wide, and each edge is one change.
+TEST(Samples, LongEdgesAreOneChangeEach) {
+  Image<float> v = good().frame.visibility;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (!std::isnan(v.at(x, y))) v.at(x, y) = static_cast<float>(x / 24 % 2);
+  const CheckResult found = check_named(judge_frame(*good().scene, *good().tracer, with(v), {}), "samples");
+  EXPECT_NE(found.state, CheckState::failed) << found.says;
+}
+
 TEST(Samples, AnotherFrameMixedInIsNamed) {
   const auto ghost = [](const Image<float>& v) {
     Image<float> result = v;

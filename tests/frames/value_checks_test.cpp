@@ -184,6 +184,37 @@ TEST(Shaded, OneValueThatALookupCanHaveIsNot) {
   }
 }
 
+// The floor has one value, as a filter's acne has there. Whatever a function of N.L makes of it, the other surfaces do not follow.
+TEST(Shaded, OneFlatSurfaceIsNoEvidence) {
+  Image<float> v = good().frame.visibility;
+  size_t floor = 0, other = 0;
+  for (size_t i = 0; i < v.size(); ++i) {
+    if (std::isnan(v[i]) || !good().truth.lit[i]) continue;
+    const bool is_floor = good().receivers.normal[i].y > 0.9f;
+    ++(is_floor ? floor : other);
+    v[i] *= is_floor ? 0.6037f : 0.3f + 0.3f * static_cast<float>(i * 7919 % 1009) / 1009;
+  }
+  ASSERT_GT(3 * floor, 2 * other) << "or the floor explains less than is needed";
+  const CheckResult found = check_named(verdict_of(good(), v), "shaded");
+  EXPECT_EQ(found.state, CheckState::not_checked) << found.says;
+}
+
+// The acne of 144 taps, of which by chance six of ten pixels of each surface are as dark as N.L would make them.
+TEST(Shaded, TheTapsOfAFilterAreNoEvidence) {
+  constexpr int taps = 144;
+  const LightFrame light = good().judged().light;
+  Image<float> v = good().frame.visibility;
+  for (size_t i = 0; i < v.size(); ++i) {
+    if (std::isnan(v[i]) || !(v[i] > 0)) continue;
+    const double by_cosine = 0.9 * taps * cosine_at(good(), light, i);
+    v[i] = static_cast<float>(std::round(i % 10 < 6 ? by_cosine : by_cosine * static_cast<double>(i % 31) / 31) / taps);
+  }
+  const FrameVerdict verdict = verdict_of(good(), v);
+  EXPECT_EQ(check_named(verdict, "encoding").state, CheckState::passed) << check_named(verdict, "encoding").says;
+  EXPECT_EQ(check_named(verdict, "shaded").state, CheckState::not_checked) << check_named(verdict, "shaded").says;
+  EXPECT_FALSE(verdict.refused());
+}
+
 // The acne of a wide filter follows N.L on a plane below a lamp, but not all of it, and nothing keeps the rest below.
 TEST(Shaded, AcneThatFollowsNLIsNot) {
   const Delivered from = good_frame("spot-room", width, height);

@@ -351,13 +351,14 @@ TEST_F(JudgeWithMap, ALookupThatIsNotTheFramesIsNamed) {
   judged(frame, 3);
 }
 
-// A polygon offset lies in the map that is handed over. Not declared, R4 and R5 have two causes that cancel.
+// A polygon offset lies in the map that is handed over. Not declared, R4 and R5 have two causes that cancel. The last
+// two are so large that the map looks like another one.
 TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamed) {
   struct Case {
     const char *factor, *units, *bias;
   };
   for (const Case& one : {Case{"4", "10", "0"}, Case{"0", "20000", "0"}, Case{"1.1", "4", "0"}, Case{"-1", "-1", "0"},
-                          Case{"0", "-20000", "0.001"}}) {
+                          Case{"0", "-20000", "0.001"}, Case{"8", "0", "0"}, Case{"0", "1000000", "0"}}) {
     SCOPED_TRACE(fmt::format("{} {}", one.factor, one.units));
     measure({{"bias.polygon_factor", one.factor},
              {"bias.polygon_units", one.units},

@@ -1,4 +1,4 @@
-"""Runs the commands of README, the how-tos and the tutorial as they stand there, in their order.
+"""Runs the commands of README, the how-tos, the tutorial and the reference of frames as they stand there, in their order.
    commands_test.py NOONMARK SOURCE WORK [PAGE...]      a page: docs/how-to/ci.md; none: all
 A command stands in a block `sh`, after `$ ` in a block `text`, or as `noonmark VERB ...` in a line. Each page has a folder of its
 own, with the files that its readers have: a model under each name that the page gives one, and the page's own experiment. There
@@ -44,7 +44,10 @@ NOT_RUN = {
     "export NODE_MODULES": "engine_frames.are_judged has the adapters",
     "noonmark recommend cube-room --engine": "engine_advice.works_typed_in tries the engines",
     "node shoot.mjs": "engine_frames.are_judged does, where node and Chromium are",
-    "noonmark judge": "engine_frames.are_judged has frames of an engine",
+    "noonmark judge shots/": "engine_frames.are_judged has frames of an engine",
+    "noonmark judge frame.json": "engine_frames.are_judged has frames of an engine",
+    "noonmark judge FRAME.rdc": "picture.Capture does, with a reader of its own",
+    "noonmark judge out/": "picture.Capture does, with a reader of its own",
     "noonmark capture": "picture.Capture does, with a reader of its own",
     "AFTER_S=": "it needs RenderDoc and a program to capture",
     "cc -shared": "it needs a header of RenderDoc's",
@@ -69,13 +72,16 @@ MADE = {"README.md": ["noonmark init MODEL.glb && mv MODEL.toml FILE.toml"],
         "docs/how-to/live-page.md": ["cp experiments/cube-room.toml experiment.toml"],
         "docs/how-to/many-machines.md": ["cp experiments/cube-room.toml shadows.toml",
                                          "for i in `seq 2 8`; do noonmark run shadows.toml --shard $i/8 || exit; done"],
-        "docs/how-to/other-engines.md": ["noonmark init helmet.glb"]}
+        "docs/how-to/other-engines.md": ["noonmark init helmet.glb"],
+        # A picture is read by its content, whatever its name: NPY of 96 x 54 floats, all lit.
+        "docs/reference/frame.md": ["""{ printf '\\x93NUMPY\\x01\\x00v\\x00%-117s\\n' "{'descr': '<f4', 'fortran_order': False, 'shape': (54, 96), }"
+                                    for i in `seq 5184`; do printf '\\x00\\x00\\x80\\x3f'; done; } > engine.exr"""]}
 wrong, used = [], set()
 
 
 def commands_of(text):
     """The commands of a page in its order, with the options that stand alone among them."""
-    for block in re.finditer(r"^ *```([\w-]*)\n(.*?)^ *```|`((?:noonmark|--)[^`]*)`", text, re.S | re.M):
+    for block in re.finditer(r"^ *```([\w-]*)\n(.*?)^ *```|`((?:noonmark(?=[\s`])|--)[^`]*)`", text, re.S | re.M):
         language, lines, inline = block.groups()
         if inline:
             yield " ".join(inline.split())
@@ -140,7 +146,8 @@ def main():
     verbs = re.findall(r"^  ([a-z]+)  ", subprocess.run([program, "--help"], capture_output=True, text=True).stdout, re.M)
     helps = "".join(subprocess.run([program, verb, "--help"], capture_output=True, text=True).stdout for verb in verbs)
     known = set(re.findall(r"--[a-z][\w-]*", helps))
-    pages = [source / "README.md", *sorted((source / "docs/how-to").glob("*.md")), source / "docs/tutorial/own-model.md"]
+    pages = [source / "README.md", *sorted((source / "docs/how-to").glob("*.md")), source / "docs/tutorial/own-model.md",
+             source / "docs/reference/frame.md"]
     if chosen := sys.argv[4:]:
         pages = [source / page for page in chosen]
     ran = 0
