@@ -12,6 +12,7 @@
 #include "compare/results/quantities.h"
 #include "frames/alignment.h"
 #include "frames/map_frame.h"
+#include "technique/depth_format.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -62,17 +63,27 @@ std::string apart_text(const GivenClimb& climbed) {
 // A bias that the map holds and that is not declared makes two causes that cancel: the exact map lacks it, so R4 is off by it,
 // and R5 is off by as much the other way. A large one makes the map look like another one. Empty: no such bias explains how the
 // maps differ.
-std::string undeclared_text(const GivenClimb& climbed, const Settings& declared) {
+std::string undeclared_text(const GivenClimb& climbed, const Settings& declared, const GivenMap& given,
+                            const LightFrame& frame) {
   const MapOffset& offset = climbed.offset;
   if (!offset.in_map() || !(climbed.precision_with_offset < climbed.maps_differ / 2)) return "";
   Settings with = declared;
   with.map.format = offset.format;
+  std::string constant = fmt::format("\"bias.polygon_units\": {:.4g}, \"map.format\": \"{}\"",
+                                     declared.bias["polygon_units"] + offset.constant / climbed.offset_unit,
+                                     find_setting("map.format").get(with));
+  // Units have this one size in a format that the depths contradict: the casters are moved along the light.
+  if (frame.kind == LightKind::directional && offset.constant > 0 && !are_held_by(offset.format, given.depth.pixels)) {
+    const double moved_m = offset.constant * (frame.far_m - frame.near_m),
+                 unit_m = declared.bias.offset_unit == OffsetUnit::m ? 1 : frame.texel_m(frame.origin_m);
+    constant = fmt::format("\"bias.caster_offset\": {:.4g}", declared.bias["caster_offset"] + moved_m / unit_m);
+  }
   return fmt::format(
       "the map holds a bias that is not declared: {}, but {:.4f}% with a polygon offset in it; add to 'technique' "
-      "{{\"bias.polygon_factor\": {:.4g}, \"bias.polygon_units\": {:.4g}, \"map.format\": \"{}\"}} (below 0: towards "
-      "the light), or what the renderer moves its casters by (bias.caster_*)",
+      "{{\"bias.polygon_factor\": {:.4g}, {}}} (below 0: towards the light), or what the renderer moves its casters by "
+      "(bias.caster_*)",
       apart_text(climbed), 100 * climbed.precision_with_offset, declared.bias["polygon_factor"] + offset.factor,
-      declared.bias["polygon_units"] + offset.constant / climbed.offset_unit, find_setting("map.format").get(with));
+      constant);
 }
 
 // So does any other difference of the two maps that is larger than the frame's whole error. Then no cause says anything of the
@@ -160,7 +171,7 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
                                       .missing = std::move(missing),
                                       .moved_m = std::move(moved_m)});
   CheckResult check = check_given_map(climbed.map_off_m, climbed.depth_spread_m, climbed.is_scenes_map);
-  const std::string undeclared = undeclared_text(climbed, technique.settings);
+  const std::string undeclared = undeclared_text(climbed, technique.settings, given, map.frame);
   if (check.state == CheckState::failed && !undeclared.empty()) check.says = undeclared;
   check.accepted = accepted;
   // A lookup that is not the frame's has causes of its own, which say nothing of the frame.

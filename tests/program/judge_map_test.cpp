@@ -389,6 +389,25 @@ TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamed) {
   }
 }
 
+// Depths of floats have no unit of one size, so a constant is said as casters that are moved.
+TEST_F(JudgeWithMap, AConstantOffsetInAMapOfFloatsCanBeDeclared) {
+  measure({{"bias.caster_offset", "12"}, {"map.format", "32f"}});
+  nlohmann::json frame = deliver({});
+  nlohmann::json& technique = frame["map"]["technique"];
+  technique.erase("bias.caster_offset");
+  const nlohmann::json said = judged(frame, 3);
+  std::string says;
+  for (const auto& check : said["checks"])
+    if (check["name"] == "map") says = check["says"];
+  const size_t begin = says.find('{'), end = says.find('}');
+  ASSERT_NE(end, std::string::npos) << says;
+  const nlohmann::json add = nlohmann::json::parse(says.substr(begin, end + 1 - begin));
+  ASSERT_TRUE(add.contains("bias.caster_offset")) << says;
+  EXPECT_NEAR(add["bias.caster_offset"], 12, 0.125) << says;  // what the grid alone can do
+  technique.update(add);
+  judged(frame);
+}
+
 // Of depths that do not tell their format, where most of the map is empty: the floor's front is not drawn.
 TEST_F(JudgeWithMap, AnOffsetThatIsNotDeclaredIsNamedInItsOwnFormat) {
   measure({{"bias.polygon_units", "-20000"}, {"map.cull", "front"}, {"map.format", "24"}, {"filter.kind", "hardware"}});
