@@ -55,7 +55,7 @@ std::vector<Planted> defects() {
        all_but("contract_blur")});
   all.push_back({"MomentsOfAKernelThatSumsToMore",
                  with_moments(),
-                 {.shaders = patched(blur, "kernel[k] * moments_at", "1.001 * kernel[k] * moments_at")},
+                 {.shaders = patched(blur, "kernel[k] * texel_at", "1.001 * kernel[k] * texel_at")},
                  {{"contract_blur", 0, 0.9}},
                  all_but("contract_blur")});
   all.push_back({"MomentsHalvedToOneTexelOfFour",
@@ -104,7 +104,7 @@ std::vector<Planted> defects() {
                  all_but("contract_store")});
   all.push_back({"MomentsOfBabylonWithABiasOfTheirOwn",
                  with_moments({{"lookup.kind", "babylon_close_esm"}}),
-                 {.shaders = patched("technique/lookups/babylon_close_esm.glsl", "- moments.x", "- moments.x + 0.001")},
+                 {.shaders = patched("technique/lookups/babylon_close_esm.glsl", "- stored.x", "- stored.x + 0.001")},
                  {{"contract_lit", 0, 0.01}},
                  all_but("contract_lit")});
   const Settings three = with_moments({{"lookup.kind", "three_vsm"}, {"filter.kind", "none"}, {"lookup.radius", "3"}});
