@@ -182,7 +182,10 @@ json state_json(const Settings& settings) {
 json colours_json() {
   json all = json::array();
   for (const CauseColor& color : cause_colors) all.push_back({{"name", color.name}, {"label", color.label}});
-  for (const CauseColor& color : pixel_state_colors) all.push_back({{"name", color.name}, {"label", color.label}});
+  for (const CauseColor& color : pixel_state_colors)
+    all.push_back({{"name", color.name},
+                   // The program leaves them out, the page does not.
+                   {"label", std::string_view(color.name) == "ambiguous" ? "Ambiguous truth, counted" : color.label}});
   return all;
 }
 
