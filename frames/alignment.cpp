@@ -130,11 +130,13 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
     if (a < 0 || b < 0 || a >= width || b >= height) return;
     const size_t k = truth.lit.index(a, b);
     if (receivers.primitive[k] == no_primitive || std::isnan(frame.visibility[k]) || apart(i, k)) return;
-    const double darker = frame.visibility[k] - frame.visibility[i];
+    const float next = frame.visibility.at(x + (x - u), y + (y - v));
+    const double darker = frame.visibility[k] - frame.visibility[i],
+                 next_darker = std::isnan(next) ? 0 : frame.visibility[k] - next;
     if (truth.soft[i] == 1)
-      ++side.lit_inside, side.lit_pull += darker;
+      ++side.lit_inside, side.lit_pull += darker, side.lit_next += next_darker;
     else
-      ++side.dark_inside, side.dark_pull -= darker;
+      ++side.dark_inside, side.dark_pull -= darker, side.dark_next -= next_darker;
   };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -151,6 +153,8 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
     side->dark_wrong /= static_cast<double>(std::max<size_t>(1, side->dark));
     side->lit_pull /= static_cast<double>(std::max<size_t>(1, side->lit_inside));
     side->dark_pull /= static_cast<double>(std::max<size_t>(1, side->dark_inside));
+    side->lit_next /= static_cast<double>(std::max<size_t>(1, side->lit_inside));
+    side->dark_next /= static_cast<double>(std::max<size_t>(1, side->dark_inside));
   }
   return found;
 }
@@ -164,11 +168,15 @@ OutlineAlignment::Side OutlineAlignment::all() const {
     sum.lit_inside += side->lit_inside, sum.dark_inside += side->dark_inside;
     sum.lit_pull += side->lit_pull * static_cast<double>(side->lit_inside);
     sum.dark_pull += side->dark_pull * static_cast<double>(side->dark_inside);
+    sum.lit_next += side->lit_next * static_cast<double>(side->lit_inside);
+    sum.dark_next += side->dark_next * static_cast<double>(side->dark_inside);
   }
   sum.lit_wrong /= static_cast<double>(std::max<size_t>(1, sum.lit));
   sum.dark_wrong /= static_cast<double>(std::max<size_t>(1, sum.dark));
   sum.lit_pull /= static_cast<double>(std::max<size_t>(1, sum.lit_inside));
   sum.dark_pull /= static_cast<double>(std::max<size_t>(1, sum.dark_inside));
+  sum.lit_next /= static_cast<double>(std::max<size_t>(1, sum.lit_inside));
+  sum.dark_next /= static_cast<double>(std::max<size_t>(1, sum.dark_inside));
   return sum;
 }
 

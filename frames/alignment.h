@@ -67,6 +67,13 @@ struct OutlineAlignment {
     // `inside_px` behind them, and how much lighter the dark ones, in the mean.
     size_t lit_inside = 0, dark_inside = 0;
     double lit_pull = 0, dark_pull = 0;
+    // The same of the next pixel, one further from the outline. What mixes the samples of a pixel ends there; a map's filter over wide
+    // texels goes on.
+    double lit_next = 0, dark_next = 0;
+    // Whether both are pulled, by more than this, and the next pixels by less than half as much.
+    bool mixed(double least) const {
+      return lit_pull > least && dark_pull > least && lit_next < lit_pull / 2 && dark_next < dark_pull / 2;
+    }
     bool told() const { return lit >= enough && dark >= enough; }
     bool of_neighbour() const { return lit_wrong > mostly && dark_wrong > mostly; }
     bool of_itself() const { return lit_wrong < rarely && dark_wrong < rarely; }

@@ -215,7 +215,7 @@ Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
       "at the outlines of surfaces, lit pixels are {:.3f} darker and shadowed ones {:.3f} lighter than their own "
       "surface {} pixels further",
       outlines.lit_pull, outlines.dark_pull, OutlineAlignment::inside_px);
-  if (told && outlines.lit_pull > mixed && outlines.dark_pull > mixed)
+  if (told && outlines.mixed(mixed))
     return failed(fmt::format("{}: values of several pixels were mixed, by multisampling, resizing or a blur; {}",
                               at_outlines, instead));
   size_t deep = 0, between = 0;

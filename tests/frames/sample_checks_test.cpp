@@ -53,6 +53,37 @@ Image<float> through_jpeg(const Image<float>& v) {
 
 TEST(Samples, AJpegIsNamed) { expect_named(with(processed(good().frame.visibility, through_jpeg)), "samples", "JPEG"); }
 
+// How near to a pixel of the other truth in its row or column each pixel is, and its value as far off as `off` says of that distance.
+CheckResult samples_with_values_off(const std::function<float(int)>& off) {
+  constexpr int farthest = 8;
+  static const Delivered from = good_frame("street", 640, 360);
+  const Image<float>& truth = from.frame.visibility;  // the good frame has no error
+  Image<float> v = truth;
+  for (int y = 0; y < v.height; ++y)
+    for (int x = 0; x < v.width; ++x)
+      for (int k = 1; k <= farthest; ++k) {
+        const auto other = [&](int a, int b) {
+          return a >= 0 && b >= 0 && a < v.width && b < v.height && std::abs(truth.at(a, b) - truth.at(x, y)) > 0.5f;
+        };
+        if (!other(x - k, y) && !other(x + k, y) && !other(x, y - k) && !other(x, y + k)) continue;
+        v.at(x, y) = std::abs(v.at(x, y) - off(k));
+        break;
+      }
+  GivenFrame frame = from.frame;
+  frame.visibility = v;
+  return check_named(judge_frame(*from.scene, *from.tracer, frame, {}), "samples");
+}
+
+// What mixes samples ends at the next pixel. A filter over texels that are many pixels wide falls off slowly, and is no fault of the
+// delivery.
+TEST(Samples, AFilterOverWideTexelsIsNoMultisampling) {
+  const CheckResult mixed = samples_with_values_off([](int k) { return k == 1 ? 0.2f : 0.0f; }),
+                    wide = samples_with_values_off([](int k) { return 0.04f * static_cast<float>(9 - k); });
+  EXPECT_EQ(mixed.state, CheckState::failed) << mixed.says;
+  EXPECT_NE(mixed.says.find("multisampling"), std::string::npos) << mixed.says;
+  EXPECT_EQ(wide.state, CheckState::passed) << "not told at all, or refused: " << wide.says;
+}
+
 // The means of 2 x 2 pixels, and between them linearly.
 Image<float> half_size_and_back(const Image<float>& v) {
   Image<float> small(v.width / 2, v.height / 2, 0), result = v;
