@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -316,10 +317,11 @@ class FrameRun {
     const std::string& word = experiment_.pictures;
     if (word != "first" && word != "broken") return word != "none";
     if ((word == "first" && record.id == 0) || !record.delivery.refused.empty()) return true;
-    const std::vector<BoundResult> bounds =
-        evaluate_bounds({&record, 1}, experiment_.bounds, [](const PointRecord&) { return ""; });
-    return std::any_of(bounds.begin(), bounds.end(),
-                       [](const BoundResult& one) { return one.points > 0 && !one.held; });
+    std::vector<Bound> own;  // those of other frames can name causes that this one does not have
+    std::copy_if(experiment_.bounds.begin(), experiment_.bounds.end(), std::back_inserter(own),
+                 [&](const Bound& bound) { return matches(record, bound.where); });
+    const std::vector<BoundResult> bounds = evaluate_bounds({&record, 1}, own, [](const PointRecord&) { return ""; });
+    return std::any_of(bounds.begin(), bounds.end(), [](const BoundResult& one) { return !one.held; });
   }
 
   const Experiment& experiment_;
