@@ -121,6 +121,18 @@ Technique technique_of(const GivenMap& given, const Light& light, const Image<fl
   }
 }
 
+// The share of the counted receivers at which the frame and the declared lookup are on different sides of one half.
+double lookup_differs(const Ladder& ladder) {
+  const Image<float>& looked_up = ladder[Rung::shown];
+  double counted = 0, differ = 0;
+  for (size_t i = 0; i < looked_up.size(); ++i)
+    if (is_counted(ladder, i)) {
+      counted += 1;
+      differ += std::abs(ladder.shown()[i] - looked_up[i]) > 0.5f;
+    }
+  return differ / counted;
+}
+
 }  // namespace
 
 FrameMap::FrameMap(const Scene& scene, const raytrace::Tracer& tracer) try : lookup_(scene, tracer) {
@@ -204,14 +216,7 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
   record.metrics = verdict.metrics;
   verdict.bias = bias_text(climbed, technique.settings, record);
   verdict.metrics.try_emplace(std::string(frame_map), 0);
-  const Image<float>& looked_up = climbed.ladder[Rung::shown];
-  double counted = 0, differ = 0;
-  for (size_t i = 0; i < looked_up.size(); ++i)
-    if (is_counted(climbed.ladder, i)) {
-      counted += 1;
-      differ += std::abs(climbed.ladder.shown()[i] - looked_up[i]) > 0.5f;
-    }
-  verdict.metrics[std::string(frame_lookup_differs)] = differ / counted;
+  verdict.metrics[std::string(frame_lookup_differs)] = lookup_differs(climbed.ladder);
   return std::move(climbed.ladder);
 }
 
