@@ -89,7 +89,7 @@ Steps steps_of(const Image<float>& v, bool along_rows) {
 // picture has changes at all of them.
 struct Repeats {
   size_t changes = 0;
-  size_t times = 1;  // as often each pixel stands there
+  size_t times = 1;  // how many pixels beside each other have one value; 1: no repetition was found
 };
 
 Repeats repeats_of(const CheckEvidence& e, bool along_rows) {

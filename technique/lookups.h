@@ -74,9 +74,9 @@ int stored_bytes(const Settings& settings);
 // fetch blends.
 TapPattern tap_pattern(const Settings& settings);
 
-// The deviation of the depths that a blurred texel and its linear fetch hold of a plane, in texels by the tangent of the slope
-// (law 17). Of the weights of a blur; or of the blur of these settings, whose lookup compares no depths, in texels of the map also
-// where a level of it is blurred (lookup.level). In double.
+// The standard deviation of the depths of a plane that a blurred texel and its linear fetch hold, divided by the tangent of the slope,
+// in texels (law 17). In double. The first form takes the weights of a blur. The second takes the blur of these settings, for a lookup
+// that compares no depths; its texels are those of the map, also if a mip level is blurred (lookup.level).
 double blur_deviation_texels(std::span<const double> weights);
 double blur_deviation_texels(const Settings& settings);
 

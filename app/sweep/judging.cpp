@@ -24,7 +24,7 @@ namespace noonmark {
 
 namespace {
 
-// Of a law that no point matches: where its file gives it, and which --set took its points away.
+// What is said of a law that no point matches: its place in the file, and the --set that removed its points.
 std::string no_point_words(const Experiment& part, const std::string& name) {
   const auto law = std::find_if(part.laws.begin(), part.laws.end(), [&](const Law& one) { return one.name == name; });
   std::string text = fmt::format("no point is left that the law '{}' speaks of", printable(law->name));

@@ -1,7 +1,7 @@
 // Reads a point's own curve at any value of its free setting.
 //
-// The *free setting* of a point costs nothing to change, and the curve says what another value would give. Of a lookup that
-// compares depths it is a part of the bias (PointRecord::curve), of one in a filtered map the light-bleed reduction,
+// The *free setting* of a point costs nothing to change, and the curve says what another value would give. For a lookup
+// that compares depths it is a part of the bias (PointRecord::curve). For a filtered map it is the light-bleed reduction,
 // lookup.reduction (PointRecord::lookup_curve). The usable window is all of its values that keep the bounds on causes. A
 // `bias_depth` is a place on the axis of the curve: of a bias in window depth, of a reduction the reduction itself. The word
 // bias stands for both in names.

@@ -16,7 +16,7 @@ namespace {
 
 using enum Metric::Is;
 
-// What a row has also: "error_worst", of "error".
+// A metric that is made from a row: "error_worst" from the row "error".
 struct Statistic {
   Metric::Is of, kept;  // kept: what it has of its row beside moments and unbounded
   std::string_view name;

@@ -28,12 +28,12 @@ struct Metric {
     placed = 256,  // mean, worst and best over the placements of the texel grid
     timed = 512,   // low and high, the ends of the interval of its median (measure/pass_times.h)
     // Where `render` prints it; without one of these nowhere, or with words of its own.
-    share = 1024,         // among the shares of the counted receivers, or of a motion's points
-    value = 2048,         // below them, with its unit
-    above_1 = 4096,       // there too, but only above 1
-    one_receiver = 8192,  // as a share of the light of one receiver
-    made = 16384,         // of another's row, which is placed or timed
-    csv = 32768           // results.csv has it though nothing asks for it
+    share = 1024,         // in the list of shares (of the counted receivers, or of the points of a motion)
+    value = 2048,         // in the list of values below the shares, with its unit
+    above_1 = 4096,       // in the list of values, but only where it is above 1
+    one_receiver = 8192,  // in the list of shares of one receiver's full light
+    made = 16384,         // its row is made from another row, which is placed or timed
+    csv = 32768           // results.csv has it also where the experiment does not name it
   };
 
   std::string_view name;
@@ -49,7 +49,7 @@ struct Metric {
 std::span<const Metric> metric_rows();
 // All that a point can have: the rows, and what they have also.
 std::span<const Metric> metrics_table();
-// The names of what a row has also, as a reader may write them: "error@mean". Empty: nothing.
+// The names of the metrics that are made from a row, as a reader may write them: "error@mean". Empty: none are.
 std::vector<std::string> also_names(const Metric& row);
 // What follows the row's help where rows are listed: " Also error@mean, error@worst, error@best." or "".
 std::string also_text(const Metric& row);

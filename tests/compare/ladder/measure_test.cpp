@@ -339,7 +339,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   EXPECT_EQ(find_metric("tap_residual").unit, "");
 }
 
-// What a row has also is a metric of its own, and no other row's.
+// A metric that is made from a row ("error_worst" from "error") has a name that no other row makes.
 TEST(MetricsTable, ReadsWhatFollowsAnAt) {
   size_t made = 0;
   for (const Metric& row : metric_rows())
