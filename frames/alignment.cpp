@@ -130,6 +130,16 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
     if (a < 0 || b < 0 || a >= width || b >= height) return;
     const size_t k = truth.lit.index(a, b);
     if (receivers.primitive[k] == no_primitive || std::isnan(frame.visibility[k]) || apart(i, k)) return;
+    const int c = u + OutlineAlignment::inside_px * (u - x), d = v + OutlineAlignment::inside_px * (v - y);
+    if (truth.soft[i] == 1 && c >= 0 && d >= 0 && c < width && d < height) {
+      const size_t l = truth.lit.index(c, d);
+      const float step = frame.visibility[k] - frame.visibility[l];
+      if (receivers.primitive[l] != no_primitive && !apart(j, l) && step > 0.5f) {
+        ++side.steps;
+        const float off = frame.visibility[i] + frame.visibility[j] - frame.visibility[k] - frame.visibility[l];
+        side.ramps += frame.visibility[i] - frame.visibility[j] < step / 2 && std::abs(off) < step / 2;
+      }
+    }
     const float next = frame.visibility.at(x + (x - u), y + (y - v));
     const double darker = frame.visibility[k] - frame.visibility[i],
                  next_darker = std::isnan(next) ? 0 : frame.visibility[k] - next;
@@ -178,6 +188,12 @@ OutlineAlignment::Side OutlineAlignment::all() const {
   sum.lit_next /= static_cast<double>(std::max<size_t>(1, sum.lit_inside));
   sum.dark_next /= static_cast<double>(std::max<size_t>(1, sum.dark_inside));
   return sum;
+}
+
+OutlineAlignment::Ramps OutlineAlignment::ramps() const {
+  const Ramps along_x{left.steps + right.steps, left.ramps + right.ramps};
+  const Ramps along_y{above.steps + below.steps, above.ramps + below.ramps};
+  return along_y.of_blur() && (!along_x.of_blur() || along_y.ramps > along_x.ramps) ? along_y : along_x;
 }
 
 glm::ivec2 OutlineAlignment::shift() const {

@@ -74,6 +74,10 @@ struct OutlineAlignment {
     bool mixed(double least) const {
       return lit_pull > least && dark_pull > least && lit_next < lit_pull / 2 && dark_next < dark_pull / 2;
     }
+    // Outlines whose lit side is brighter than the dark one by more than a half, at `inside_px` behind both; and on how many of them
+    // the step at the outline itself is less than half of that, and the middle of its two values less than a quarter of that off.
+    // To a lookup, which knows nothing of the camera, the two sides are two places. A blur of the picture makes ramps.
+    size_t steps = 0, ramps = 0;
     bool told() const { return lit >= enough && dark >= enough; }
     bool of_neighbour() const { return lit_wrong > mostly && dark_wrong > mostly; }
     bool of_itself() const { return lit_wrong < rarely && dark_wrong < rarely; }
@@ -81,6 +85,14 @@ struct OutlineAlignment {
   Side left, right, above, below;
   bool told_x() const { return left.told() && right.told(); }
   bool told_y() const { return above.told() && below.told(); }
+  // The more blurred of left and right, and above and below. A blur by motion has one direction.
+  struct Ramps {
+    size_t steps = 0, ramps = 0;
+    // Filters of 1 to 25 taps over wide texels, and blurred moments, make ramps of a tenth at most; blurs of 5 pixels, of nearly all
+    // of them but where acne of single pixels is blurred, too.
+    bool of_blur() const { return steps >= enough && 2 * ramps >= steps; }
+  };
+  Ramps ramps() const;
   // All sides together.
   Side all() const;
   // x to the right, y down, of a pixel or a few; 0 along an axis that is not told.

@@ -209,15 +209,22 @@ Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
         "other way: another frame was mixed in, as by temporal antialiasing; {}",
         ghost.pixels, ghost.part, 100 * ghost.explained, -ghost.x, -ghost.y, 100 * ghost.opposite, instead));
   constexpr double mixed = 0.05;
-  const OutlineAlignment::Side outlines = outline_alignment(e.frame, e.receivers, e.truth, e.pixel_m).all();
+  const OutlineAlignment by_side = outline_alignment(e.frame, e.receivers, e.truth, e.pixel_m);
+  const OutlineAlignment::Side outlines = by_side.all();
+  if (const OutlineAlignment::Ramps found = by_side.ramps(); found.of_blur())
+    return failed(
+        fmt::format("at {} of {} outlines between a lit and a shadowed surface the values pass over from one to the "
+                    "other by less than half of their "
+                    "difference: the picture was blurred, as by motion; {}",
+                    found.ramps, found.steps, instead));
   const bool told = outlines.lit_inside >= OutlineAlignment::enough && outlines.dark_inside >= OutlineAlignment::enough;
   const std::string at_outlines = fmt::format(
       "at the outlines of surfaces, lit pixels are {:.3f} darker and shadowed ones {:.3f} lighter than their own "
       "surface {} pixels further",
       outlines.lit_pull, outlines.dark_pull, OutlineAlignment::inside_px);
   if (told && outlines.mixed(mixed))
-    return failed(fmt::format("{}: values of several pixels were mixed, by multisampling, resizing or a blur; {}",
-                              at_outlines, instead));
+    return failed(
+        fmt::format("{}: values of several pixels were mixed, by multisampling or resizing; {}", at_outlines, instead));
   size_t deep = 0, between = 0;
   for (size_t i = 0; i < s.deep.size(); ++i) {
     deep += s.deep[i] != 0;

@@ -84,6 +84,28 @@ TEST(Samples, AFilterOverWideTexelsIsNoMultisampling) {
   EXPECT_EQ(wide.state, CheckState::passed) << "not told at all, or refused: " << wide.says;
 }
 
+// A row's mean of five pixels, as of a picture that moves, over the truth and over soft edges.
+TEST(Samples, ABlurOfThePictureIsNamed) {
+  const auto blurred = [](const Image<float>& v) {
+    Image<float> result = v;
+    for (int y = 0; y < v.height; ++y)
+      for (int x = 0; x < v.width; ++x) {
+        float sum = 0;
+        for (int k = -2; k <= 2; ++k) sum += v.at(std::clamp(x + k, 0, v.width - 1), y);
+        result.at(x, y) = sum / 5;
+      }
+    return result;
+  };
+  for (const int softened : {0, 1}) {
+    const Delivered from = good_frame("street", 640, 360, softened);
+    GivenFrame frame = from.frame;
+    frame.visibility = processed(from.frame.visibility, blurred);
+    const CheckResult found = check_named(judge_frame(*from.scene, *from.tracer, frame, {}), "samples");
+    EXPECT_EQ(found.state, CheckState::failed) << found.says;
+    EXPECT_NE(found.says.find("blurred"), std::string::npos) << found.says;
+  }
+}
+
 // The means of 2 x 2 pixels, and between them linearly.
 Image<float> half_size_and_back(const Image<float>& v) {
   Image<float> small(v.width / 2, v.height / 2, 0), result = v;
