@@ -224,7 +224,9 @@ Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
       outlines.lit_pull, outlines.dark_pull, OutlineAlignment::inside_px);
   if (told && outlines.mixed(mixed))
     return failed(
-        fmt::format("{}: values of several pixels were mixed, by multisampling or resizing; {}", at_outlines, instead));
+        fmt::format("{}: values of several pixels were mixed, by multisampling or resizing, or the picture lies a "
+                    "pixel beside its receivers; {}",
+                    at_outlines, instead));
   size_t deep = 0, between = 0;
   for (size_t i = 0; i < s.deep.size(); ++i) {
     deep += s.deep[i] != 0;

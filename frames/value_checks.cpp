@@ -25,10 +25,12 @@ std::string deep_text(const FrameStatistics& s) {
                      s.deep_lit.median);
 }
 
-// What one mistake makes of the values is one failure: the checks below it are not made.
+// What one mistake makes of the values is one failure: the checks below it are not made. A wide filter over much acne leaves light and
+// shadow near a half, with either the brighter one.
 bool is_inverted(const FrameStatistics& s) {
+  constexpr double clearly = 0.25;
   return s.deep_dark.count >= enough && s.deep_lit.count >= enough && s.deep_dark.median > 0.5 &&
-         s.deep_lit.median < 0.5;
+         s.deep_lit.median < 0.5 && s.deep_dark.median - s.deep_lit.median > clearly;
 }
 constexpr const char* because_inverted = "light and shadow are exchanged";
 

@@ -84,6 +84,7 @@ void find_ramps(const CheckEvidence& e, double rounding, CurveEvidence& found) {
   const double tolerance = 2 * rounding + 1e-3;
   const Image<float>& v = e.frame.visibility;
   std::array<size_t, curve_count> straight{};
+  size_t by_chance = 0;
   const auto ask = [&](size_t i, size_t j, size_t k) {
     if (!e.counted[i] || !e.counted[j] || !e.counted[k]) return;
     if (e.receivers.primitive[i] != e.receivers.primitive[j] || e.receivers.primitive[j] != e.receivers.primitive[k])
@@ -95,11 +96,14 @@ void find_ramps(const CheckEvidence& e, double rounding, CurveEvidence& found) {
     const double whole = map_way(e.light, p, r);
     if (!(whole > 0)) return;
     const double share = map_way(e.light, p, q) / whole;
+    const auto off_by = [&](double (*linear)(double)) {
+      const double a = linear(v[i]), b = linear(v[j]), d = linear(v[k]);
+      return b - (a + (d - a) * share);
+    };
     std::array<double, curve_count> off{};
     double least = 1, most = -1;
     for (size_t c = 0; c < curve_count; ++c) {
-      const double a = value_curves[c].linear(v[i]), b = value_curves[c].linear(v[j]), d = value_curves[c].linear(v[k]);
-      off[c] = b - (a + (d - a) * share);
+      off[c] = off_by(value_curves[c].linear);
       if (c == 2) continue;  // sRGB and a power of 2.2 are too much alike to be told apart here
       least = std::min(least, off[c]);
       most = std::max(most, off[c]);
@@ -107,6 +111,7 @@ void find_ramps(const CheckEvidence& e, double rounding, CurveEvidence& found) {
     if (most - least < 4 * tolerance) return;
     ++found.ramps;
     for (size_t c = 0; c < curve_count; ++c) straight[c] += std::abs(off[c]) <= tolerance;
+    by_chance += std::abs(off_by([](double value) { return value * value * value; })) <= tolerance;
   };
   for (int y = 0; y < v.height; ++y)
     for (int x = 0; x < v.width; ++x) {
@@ -115,6 +120,7 @@ void find_ramps(const CheckEvidence& e, double rounding, CurveEvidence& found) {
     }
   for (size_t c = 0; c < curve_count; ++c)
     if (found.ramps > 0) found.straight[c] = static_cast<double>(straight[c]) / static_cast<double>(found.ramps);
+  if (found.ramps > 0) found.straight_by_chance = static_cast<double>(by_chance) / static_cast<double>(found.ramps);
 }
 
 }  // namespace
@@ -173,7 +179,7 @@ const ValueCurve* CurveEvidence::by_ramps() const {
   const size_t curve = straight[2] > straight[1] ? 2 : 1;
   const double here = straight[0], there = straight[curve];
   if (here >= mostly && here >= 3 * there) return &value_curves[0];
-  if (there >= mostly && there >= 3 * here) return &value_curves[curve];
+  if (there >= mostly && there >= 3 * std::max(here, straight_by_chance)) return &value_curves[curve];
   return nullptr;
 }
 

@@ -32,6 +32,7 @@ struct CurveEvidence {
   std::array<TapFit, curve_count> fits;
   size_t ramps = 0;                            // triples of pixels that tell a straight ramp from a curved one
   std::array<double, curve_count> straight{};  // the share of them that is straight, by curve
+  double straight_by_chance = 0;               // the same of a curve that nobody writes
   // The curve that the evidence names, or null where it names none.
   const ValueCurve* by_levels() const;
   const ValueCurve* by_ramps() const;

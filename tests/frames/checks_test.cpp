@@ -65,6 +65,14 @@ TEST(Checks, ExchangedLightAndShadowIsNamed) {
   expect_named(with(each_value(good().frame.visibility, [](float v) { return 1 - v; })), "inverted", "exchanged");
 }
 
+// Seven of sixteen taps are lit where all should be, and eight where none should: much acne, and much of the shadow lost.
+TEST(Checks, LightAndShadowNearAHalfAreNotExchanged) {
+  const GivenFrame frame =
+      with(each_value(good().frame.visibility, [](float v) { return v > 0.5f ? 0.4375f : 0.502f; }));
+  const CheckResult found = check_named(judge_frame(*good().scene, *good().tracer, frame, {}), "inverted");
+  EXPECT_NE(found.state, CheckState::failed) << found.says;
+}
+
 TEST(Checks, AShadedFrameIsNamed) {
   expect_named(with(each_value(good().frame.visibility, [](float v) { return 0.1f + 0.43f * v; })), "shaded",
                "shaded frame");

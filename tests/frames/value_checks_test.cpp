@@ -104,6 +104,19 @@ TEST(Encoding, TheRampsOfABlendTellIt) {
   }
 }
 
+// Wide soft edges in 8 bits: three neighbours are near a straight ramp whatever curve decodes them. The shares are those of a right frame
+// (a facade at 160 x 90 pixels, rounded) and of one that was encoded.
+TEST(Encoding, RampsThatEveryCurveStraightensTellNothing) {
+  CurveEvidence found;
+  found.ramps = 41;
+  found.straight = {0, 0.32, 0.2};
+  found.straight_by_chance = 0.76;
+  EXPECT_EQ(found.by_ramps(), nullptr);
+  found.straight_by_chance = 0.06;
+  ASSERT_NE(found.by_ramps(), nullptr);
+  EXPECT_STREQ(found.by_ramps()->name, "sRGB");
+}
+
 TEST(Encoding, WithoutAFilterNothingTellsIt) {
   const Delivered hard = good_frame("cube-room", width, height, 0);
   EXPECT_EQ(check_named(hard.judged(), "encoding").state, CheckState::not_checked);
