@@ -242,15 +242,6 @@ TEST(Laws, TheTableTellsLawPredictedMeasuredAndVerdict) {
     EXPECT_NE(table.find(text), std::string::npos) << text << "\n" << table;
 }
 
-// Two laws of one quantity read as a contradiction without the points that each is about.
-TEST(Laws, SaysWhichPointsItIsAbout) {
-  Law asked = law("error", "0.5", LawRelation::at_most);
-  asked.where = {{"map.resolution", {"512", "1024"}}};
-  const PointRecord one = point(0, 512, "none", 0);
-  const LawResult found = evaluate_laws({&one, 1}, {&asked, 1}, [](const PointRecord&) { return ""; }).at(0);
-  EXPECT_EQ(law_text(found), "error <= 0.5 where map.resolution = 512 | 1024");
-}
-
 // A law that reads what the ambiguous receivers may change is not known to hold.
 TEST(Laws, WhatIsAmbiguousIsNotKnown) {
   const auto result = [](const Law& asked, double ambiguous) {

@@ -356,18 +356,6 @@ TEST_F(Store, RefusesADamagedStore) {
   EXPECT_NE(refusal().find("--overwrite"), std::string::npos);
 }
 
-TEST_F(Store, SaysWhereRowsDoNotFitTogether) {
-  fresh().add(sample_point(1));
-  sqlite::Database(path, sqlite::Database::Mode::existing).execute("INSERT INTO metrics VALUES (8, 'acne', 1)");
-  try {
-    ResultStore::open(path).load();
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::file);
-    EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
-  }
-}
-
 // Found by fuzzing: the report read a sample at that index, beyond the end of the list.
 TEST_F(Store, RefusesALawWhoseWorstSampleIsNoneOfItsSamples) {
   fresh().set_laws({sample_law()});
