@@ -388,22 +388,6 @@ TEST_F(GlLookupTest, ReceiversWithoutAPlaceInTheMapAreDark) {
   EXPECT_EQ(seen_by(LightKind::point), (std::vector<float>{1, 1, 1, 0}));
 }
 
-TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
-  std::mt19937 random(5);
-  const Scene scene = random_scene(random);
-  Settings settings;
-  settings.map.resolution = 64;
-  settings.filter = {"box", {{"size", 5}}};
-  const LightFrame frame = make_light_frame(scene, settings);
-  for (const int width : {32, 200, 32}) {
-    load(scene, width, 24);
-    double ms = -1;
-    const Image<float> seen = renderer.lookup(renderer.render_map({settings, frame}), {settings, frame}, &ms);
-    EXPECT_EQ(seen.width, width);
-    EXPECT_GT(ms, 0);
-  }
-}
-
 // The time is that of the work, not of the calls that start it: 961 taps cost more than one.
 TEST_F(GlLookupTest, TimesIncludeTheWork) {
   std::mt19937 random(6);
