@@ -109,7 +109,6 @@ TEST_F(Output, ProgressCoversTheWholeRun) {
 TEST_F(Output, MapInspectAndRecommendHaveJsonAndQuiet) {
   write("square.gltf", test::square().dump());
   const std::vector<std::string> size = {"--set", "view.width_px=48", "--set", "view.height_px=27"};
-  using Words = std::vector<std::string>;
   for (const auto& [words, begins, keys] : std::vector<std::tuple<Words, std::string, Words>>{
            {{"map", "cube-room", "--from", "64", "--to", "128", "--rows", "2", "--placements", "2"},
             "the phase diagram of cube-room (",
