@@ -1,6 +1,5 @@
 // The curves from one pass, compared with counting every tap at every bias.
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <bit>
 #include <cmath>
