@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "compare/ladder/measure.h"
 #include "compare/report/cascade_rows.h"
-#include "scenes/library.h"
 #include "tests/acceptance/maps_apart.h"
 #include "tests/support/measured.h"
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "scenes/library.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {

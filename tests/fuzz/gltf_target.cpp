@@ -2,7 +2,6 @@
 // line. The bytes are mutated as JSON; in a .glb the JSON chunk, the binary chunk and the header are mutated
 // separately. The folder of the file also holds a buffer and a link to a buffer outside the folder. No file may read
 // that outside buffer; otherwise its positions would appear in the scene.
-#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"

@@ -1,6 +1,5 @@
 // Maps of spot and point lights, and the options of the pass, against the frame in double.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "technique/light_frame.h"

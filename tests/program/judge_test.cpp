@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <functional>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "tests/program/own_frame.h"

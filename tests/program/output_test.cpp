@@ -1,6 +1,5 @@
 // What run and check print for programs and people: --json, --quiet, --print-config, schema; standard output and standard
 // error.
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>

@@ -3,7 +3,6 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "compare/store/store.h"
 #include "tests/program/fixture.h"

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "compare/judge/curve_reading.h"
-#include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
 #include "compare/judge/verdict.h"
 #include "compare/report/junit.h"

@@ -1,9 +1,7 @@
 // The summary of a curve: shares, units, the window and the best bias.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "compare/ladder/bias_curves.h"

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iterator>
-#include <sstream>
 
 #include "base/text.h"
 #include "compare/results/quantities.h"

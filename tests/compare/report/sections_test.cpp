@@ -1,7 +1,6 @@
 // Which sections the report has, what is folded in them, and how their tables are aligned.
 #include <gtest/gtest.h>
 
-#include <set>
 #include <string>
 
 #include "compare/judge/recommendation.h"

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <bit>
-#include <fstream>
 #include <tuple>
 
 #include "base/error.h"

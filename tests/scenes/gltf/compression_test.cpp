@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <random>
 
 #include "tests/scenes/gltf/compressed_files.h"
 #include "tests/scenes/gltf/gltf_fixture.h"
