@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/judge/undecided.h"
 #include "compare/ladder/numbers.h"
 #include "compare/results/curve_fields.h"
 #include "compare/results/number_text.h"

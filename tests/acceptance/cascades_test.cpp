@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "compare/ladder/measure.h"
 #include "compare/report/cascade_rows.h"
-#include "scenes/library.h"
 #include "tests/acceptance/maps_apart.h"
 #include "tests/support/measured.h"
 
@@ -130,66 +129,6 @@ TEST(CascadedPoint, SaysWhichCascadeNeedsMoreBias) {
   const std::string worst = worst_cascade(m.record);
   EXPECT_NE(worst.find("Acne"), std::string::npos) << worst;
   EXPECT_NE(worst.find("Its bias.constant is 0.02 m where "), std::string::npos) << worst;
-}
-
-// Over all placements each cascade counts at its own mean and worst: measured one by one, each placement of each cascade by
-// itself, the numbers are the same.
-TEST(CascadedPoint, CountsEachCascadeAtItsOwnWorstPlacement) {
-  for (const char* snap : {"false", "true"}) {
-    const Settings s = street({{"scene.name", "street"},
-                               {"view.width_px", "160"},
-                               {"view.height_px", "90"},
-                               {"map.format", "32f"},
-                               {"map.snap", snap},
-                               {"map.placements", "3"},
-                               {"cascades.count", "3"},
-                               {"bias.constant", "0.8"}});
-    Workbench bench(gl::DebugMode::fatal);
-    const Measurement m = bench.measure(s, CurveOptions{});
-    EXPECT_EQ(metric(m, "placement_disagreements"), 0);
-    EXPECT_EQ(metric(m, "contract"), 0);
-
-    MapsApart apart(s);
-    const Placements placements(3);
-    double mean = 0, worst = 0, acne_worst = 0, counted = 0;
-    for (const Technique& cascade : techniques_of(apart.scene(), s)) {
-      TruthStage truth = apart.truth_of(cascade);
-      for (size_t i = 0; i < m.choice.of.size(); ++i)
-        if (m.choice.of[i] != cascade.cascade->index) truth.receivers.facing[i] = 0;
-      double own_worst = 0, own_acne = 0, receivers = 0;
-      for (int p = 0; p < placements.count(); ++p) {
-        const Technique moved = cascade.at(placements.frame(cascade.frame, p));
-        const Ladder ladder = apart.climb(moved, truth);
-        double error = 0, acne = 0;
-        receivers = 0;
-        for (size_t i = 0; i < ladder.flags.size(); ++i) {
-          if (!is_counted(ladder, i)) continue;
-          ++receivers;
-          error += std::abs(static_cast<double>(ladder[Rung::on_exact_map][i]) - ladder.truth()[i]);
-          acne += std::abs(static_cast<double>(ladder[Cause::acne][i]));
-        }
-        mean += error / placements.count();
-        own_worst = std::max(own_worst, error);
-        own_acne = std::max(own_acne, acne);
-      }
-      worst += own_worst;
-      acne_worst += own_acne;
-      counted += receivers;
-    }
-    EXPECT_EQ(counted, metric(m, "counted"));
-    EXPECT_GT(worst, 1.02 * mean) << "placements differ";
-    EXPECT_NEAR(metric(m, "error_mean"), mean / counted, 1e-12);
-    EXPECT_NEAR(metric(m, "error_worst"), worst / counted, 1e-12);
-    EXPECT_NEAR(metric(m, "acne_worst"), acne_worst / counted, 1e-12);
-    // The curve's band at the settings' own bias, which is one of its biases here.
-    CurveOptions at_bias;
-    at_bias.bias_depth = {0, s.bias["constant"] / m.record.curve->texels_per_depth};
-    const Measurement again = bench.measure(s, at_bias);
-    ASSERT_TRUE(again.record.curve && again.record.curve->error_band.worst.size() == 2);
-    EXPECT_NEAR(again.record.curve->error_band.worst[1], worst / counted, 1e-9);
-    EXPECT_NEAR(again.record.curve->error_band.mean[1], mean / counted, 1e-9);
-    EXPECT_GE(*m.record.curve->acne_free_bias_worst_depth, *m.record.curve->acne_free_bias_depth);
-  }
 }
 
 TEST(CascadedPoint, HasSectionsInTheCascadeOfEachPixel) {

@@ -2,12 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "base/file.h"
-#include "scenes/shapes.h"
 #include "tests/support/measured.h"
-#include "tests/support/temporary_folder.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -115,107 +111,6 @@ TEST(CubeRoom, ShowsEachStoryOfTheTutorials) {
   EXPECT_GT(value({{"map.wrap", "repeat"}, {"map.lit_beyond_far", "false"}}, "coverage_dark"), 0.1);
   EXPECT_GT(value({{"map.wrap", "clamp_to_border"}, {"map.lit_beyond_far", "false"}}, "coverage_dark"), 0.05);
   EXPECT_EQ(value({{"map.wrap", "clamp_to_border"}, {"map.lit_beyond_far", "true"}}, "coverage"), 0);
-}
-
-// A minimal .gltf of a scene's triangles: one primitive, or one for each part.
-std::string write_gltf(const Scene& scene, const std::filesystem::path& folder, const std::string& stem,
-                       bool one_mesh) {
-  std::string bytes;
-  const auto append = [&](const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); };
-  append(scene.positions.data(), scene.positions.size() * sizeof(glm::vec3));
-  const size_t index_start = bytes.size();
-  append(scene.triangles.data(), scene.triangles.size() * sizeof(glm::uvec3));
-  write_file_atomically((folder / (stem + ".bin")).string(), bytes);
-
-  glm::vec3 low = scene.positions[0], high = low;
-  for (const glm::vec3& p : scene.positions) low = glm::min(low, p), high = glm::max(high, p);
-  nlohmann::json json = {{"asset", {{"version", "2.0"}}},
-                         {"scene", 0},
-                         {"buffers", {{{"uri", stem + ".bin"}, {"byteLength", bytes.size()}}}},
-                         {"bufferViews",
-                          {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", index_start}},
-                           {{"buffer", 0}, {"byteOffset", index_start}, {"byteLength", bytes.size() - index_start}}}},
-                         {"accessors",
-                          {{{"bufferView", 0},
-                            {"componentType", 5126},
-                            {"count", scene.positions.size()},
-                            {"type", "VEC3"},
-                            {"min", {low.x, low.y, low.z}},
-                            {"max", {high.x, high.y, high.z}}}}}};
-  const std::vector<Part> whole = {{"all", 0, static_cast<uint32_t>(scene.triangles.size())}};
-  for (const Part& part : one_mesh ? whole : scene.parts) {
-    const size_t accessor = json["accessors"].size();
-    json["accessors"].push_back({{"bufferView", 1},
-                                 {"byteOffset", part.first_triangle * sizeof(glm::uvec3)},
-                                 {"componentType", 5125},
-                                 {"count", part.triangle_count * 3},
-                                 {"type", "SCALAR"}});
-    const size_t mesh = json["meshes"].size();
-    json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", accessor}}}}});
-    json["nodes"].push_back({{"mesh", mesh}});
-    json["scenes"][0]["nodes"].push_back(mesh);
-  }
-  const std::string path = (folder / (stem + ".gltf")).string();
-  write_file_atomically(path, json.dump());
-  return path;
-}
-
-// A cube on a floor. joined: the floor is cut along the cube's foot, so that the two share vertices.
-Scene standing_cube(bool joined) {
-  Scene scene;
-  if (!joined) {
-    add_quad(scene, "floor", {-3, 0, -3}, {0, 0, 6}, {6, 0, 0});
-  } else {
-    const double cuts[4] = {-3, -0.5, 0.5, 3};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        add_quad(scene, "floor", {cuts[i], 0, cuts[j]}, {0, 0, cuts[j + 1] - cuts[j]}, {cuts[i + 1] - cuts[i], 0, 0});
-  }
-  add_box(scene, "cube", {-0.5, 0, -0.5}, {0.5, 1, 0.5});
-  return scene;
-}
-
-TEST(StandingCube, HasTheSameCausesAsOneMeshAndAsTwo) {
-  const TemporaryFolder temporary;
-  const std::filesystem::path folder = temporary.path();
-  const std::string two = write_gltf(standing_cube(false), folder, "two", false);
-  const std::string one = write_gltf(standing_cube(false), folder, "one", true);
-  const std::string joined = write_gltf(standing_cube(true), folder, "joined", true);
-  Workbench bench(gl::DebugMode::fatal);
-  uint64_t all_wrong = 0;
-  for (const char* kind : {"none", "box"}) {
-    for (const char* bias : {"0", "0.5", "1", "4"}) {
-      SCOPED_TRACE(std::string(kind) + " " + bias);
-      const auto measured = [&](const std::string& path) {
-        return bench
-            .measure(with({{"filter.kind", kind},
-                           {"bias.constant", bias},
-                           {"bias.unit", "texel"},
-                           {"map.resolution", "200"},
-                           {"map.extent_m", "9"}},
-                          small(path, 480, 270)),
-                     std::nullopt)
-            .ladder;
-      };
-      const Ladder a = measured(two), b = measured(one), c = measured(joined);
-      uint64_t wrong = 0, differ_one = 0, differ_joined = 0;
-      for (size_t i = 0; i < a.flags.size(); ++i) {
-        if ((a.flags[i] | c.flags[i]) & flag_ambiguous) continue;
-        wrong += a.cause[i] != 0;
-        for (int cause = 1; cause < compared_cause_count; ++cause) {
-          differ_one += a.causes[cause].step[i] != b.causes[cause].step[i];
-          differ_joined += a.causes[cause].step[i] != c.causes[cause].step[i];
-        }
-      }
-      all_wrong += wrong;
-      EXPECT_EQ(differ_one, 0u);
-      // If the floor is split differently, P and the rasterised depths can differ in their last bit. So single pixels
-      // may change if their threshold differs from the bias by at most this bit. At bias 0 this is so on every flat
-      // face.
-      EXPECT_LE(differ_joined, wrong / 20 + 2);
-    }
-  }
-  EXPECT_GT(all_wrong, 10000u) << "there must be something to compare";
 }
 
 }  // namespace

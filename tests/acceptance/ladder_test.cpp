@@ -247,21 +247,6 @@ TEST(Acceptance, RoundingChoosesTheFaceOfATurnedCube) {
   EXPECT_EQ(metric(m, "contract"), 0);
 }
 
-TEST(Acceptance, ATurnByNothingChangesNothing) {
-  Workbench bench(gl::DebugMode::fatal), other(gl::DebugMode::fatal);
-  const Settings settings =
-      with({{"filter.kind", "cube_disk"}, {"bias.normal_offset_axes", "1"}, {"bias.slope", "0.001"}},
-           small("point-room", 120, 68));
-  const Measurement still = bench.measure(settings, std::nullopt);
-  const Measurement turned = other.measure(with({{"map.turn_deg", "0,0,0"}}, settings), std::nullopt);
-  for (const auto& [name, value] : still.record.metrics)
-    if (find_metric(name).unit != "ms") {
-      EXPECT_EQ(metric(turned, name), value) << name;
-    }
-  EXPECT_EQ(turned.ladder.shown().pixels, still.ladder.shown().pixels);
-  EXPECT_EQ(turned.map().stored.depth, still.map().stored.depth);
-}
-
 // A map of a million kilometres that is moved by one texel, and a picture of a few centimetres: here the rounding of
 // the frame's own double is visible.
 TEST(Acceptance, TheFramesOwnRoundingIsNoExcess) {

@@ -5,13 +5,12 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <vector>
 
 #include "base/error.h"
-#include "compare/judge/no_flicker.h"
+#include "tests/support/kind_thrown.h"
 #include "tests/support/measured.h"
 #include "tests/support/temporary_folder.h"
 
@@ -286,13 +285,7 @@ TEST(Motion, FollowsTheCameraOfAnAnimation) {
 
   write_moving_camera(folder, true);
   Workbench again(gl::DebugMode::fatal);
-  try {
-    again.measure(settings, std::nullopt);
-    FAIL() << "triangles that move have no flicker";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_NE(std::string(error.what()).find("motion.time_s"), std::string::npos) << error.what();
-  }
+  expect_refused(ErrorKind::usage, {"motion.time_s"}, [&] { again.measure(settings, std::nullopt); });
 }
 
 // A room of single-sided faces that are seen from inside, 4 x 3 x 4 m, with a box in it that is seen from outside.
@@ -359,17 +352,6 @@ TEST(Motion, SeesThroughWhatTheNearPlaneCutsOff) {
   ASSERT_NE(metric(m, "counted"), with_the_turned_cube) << "the near plane cuts nothing off";
   ASSERT_GT(metric(m, "counted"), 300);
   EXPECT_GT(metric(m, "flicker_points"), 0.99 * metric(m, "counted"));
-}
-
-TEST(Motion, SaysWhyNoPointIsLeft) {
-  Workbench bench(gl::DebugMode::fatal);
-  const Settings settings =
-      with({{"motion.turn_deg", "0,170,0"}, {"map.resolution", "64"}}, small("cube-room", 64, 36));
-  const Measurement m = bench.measure(settings, std::nullopt);
-  ASSERT_EQ(metric(m, "flicker_points"), 0);
-  EXPECT_FALSE(m.record.metrics.contains("flicker"));
-  EXPECT_NE(why_no_flicker(m.record).find("are not in the next frame's picture"), std::string::npos)
-      << why_no_flicker(m.record);
 }
 
 }  // namespace

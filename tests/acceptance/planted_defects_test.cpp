@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "measure/workbench.h"
 #include "tests/acceptance/planted_defect.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark::planted {
 namespace {
@@ -390,13 +391,7 @@ TEST(RequireSound, NamesEachLimit) {
     EXPECT_NO_THROW(require_sound(results));
     for (const double value : {limit.most + 1e-9 + limit.most * 1e-9, std::nan("")}) {
       results.points[0].metrics[limit.metric] = value;
-      try {
-        require_sound(results);
-        ADD_FAILURE() << limit.metric << " = " << value << " passed";
-      } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), ErrorKind::defect);
-        EXPECT_NE(std::string(e.what()).find(limit.metric), std::string::npos) << e.what();
-      }
+      expect_refused(ErrorKind::defect, {limit.metric}, [&] { require_sound(results); });
     }
     results.points[0].metrics["facing"] = 0;  // nothing was measured, so no limit is broken
     EXPECT_NO_THROW(require_sound(results));

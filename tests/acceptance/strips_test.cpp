@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "scenes/library.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {
@@ -70,17 +69,19 @@ TEST(StripsOfAPicture, ChangeNoFile) {
   EXPECT_TRUE(stack_file(whole.picture_stack(moments, {})) == stack_file(in_strips.picture_stack(moments, {})));
 }
 
+struct CountedLookups : Pipeline {
+  template <class... Options>
+  explicit CountedLookups(int& count, Options... options) : Pipeline(options...), count_(count) {}
+  LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
+                             const TruthStage& truth, const Technique& technique) override {
+    ++count_;
+    return Pipeline::prepare_lookup(renderer, tracer, view, truth, technique);
+  }
+  int& count_;
+};
+
 // What the next point may use is there after a small picture, and is of the point and not of the picture.
 TEST(LookupsOfAPoint, OutliveItsSmallPicture) {
-  struct CountedLookups : Pipeline {
-    explicit CountedLookups(int& count) : count_(count) {}
-    LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
-                               const TruthStage& truth, const Technique& technique) override {
-      ++count_;
-      return Pipeline::prepare_lookup(renderer, tracer, view, truth, technique);
-    }
-    int& count_;
-  };
   int lookups = 0;
   Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<CountedLookups>(lookups));
   for (const Settings& settings :
@@ -100,20 +101,11 @@ TEST(LookupsOfAPoint, OutliveItsSmallPicture) {
 // A lookup of several strips keeps its rays, which refer to the scene's tracer. When another scene has been loaded in
 // between, the rays must be made anew, although the settings are the same as before.
 TEST(StripsOfAScene, AreForgottenWithIt) {
-  struct CountedLookups : Pipeline {
-    explicit CountedLookups(int& count) : Pipeline(1), count_(count) {}
-    LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
-                               const TruthStage& truth, const Technique& technique) override {
-      ++count_;
-      return Pipeline::prepare_lookup(renderer, tracer, view, truth, technique);
-    }
-    int& count_;
-  };
   Settings settings = small("cube-room", 160, 100);
   find_setting("map.resolution").set(settings, "200");
   const Settings other = small("fence", 160, 100);
   int lookups = 0;
-  Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<CountedLookups>(lookups));
+  Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<CountedLookups>(lookups, 1));
   const Ladder first = bench.measure(settings, std::nullopt).ladder;
   const auto same_again = [&] {
     const Ladder again = bench.measure(settings, std::nullopt).ladder;

@@ -5,18 +5,14 @@
 
 #include "app/definition/experiment_file.h"
 #include "base/error.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
 
 std::string refused_bound(const std::string& limit, const std::string& metric = "acne") {
-  try {
-    parse_experiment("[[bound]]\nmetric = \"" + metric + "\"\n" + limit + "\n", "x.toml");
-    return "";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
+  return refusal_of(ErrorKind::usage,
+                    [&] { parse_experiment("[[bound]]\nmetric = \"" + metric + "\"\n" + limit + "\n", "x.toml"); });
 }
 
 TEST(LimitOfAShare, IsNeverBelowZero) {

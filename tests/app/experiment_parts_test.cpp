@@ -7,6 +7,7 @@
 #include "app/definition/experiment_file.h"
 #include "app/definition/idle_notes.h"
 #include "base/error.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -14,13 +15,7 @@ namespace {
 Experiment parse_parts(const std::string& toml) { return parse_experiment(toml, "folder/x.toml"); }
 
 std::string message(const std::string& toml) {
-  try {
-    parse_parts(toml);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
-  return "no error";
+  return refusal_of(ErrorKind::usage, [&] { parse_parts(toml); });
 }
 
 // The message must begin with the place and contain every text.
@@ -143,14 +138,8 @@ TEST(ExperimentParts, OnlyTheChosenOnesAreMeasured) {
   EXPECT_EQ(point_count(both), 7) << "the parts must be in the file's order";
   EXPECT_EQ(part_of_point(both, 0).part, "first");
 
-  const auto message = [](Experiment from, const std::string& name) -> std::string {
-    try {
-      choose_parts(from, {name});
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      return error.what();
-    }
-    return "no error";
+  const auto message = [](Experiment from, const std::string& name) {
+    return refusal_of(ErrorKind::usage, [&] { choose_parts(from, {name}); });
   };
   EXPECT_EQ(message(parse_parts(two_parts), "secnd"),
             "--part secnd: folder/x.toml has no such part; did you mean 'second'?");
@@ -255,6 +244,7 @@ TEST(ExperimentLaws, MistakesAreNamedWithTheirPlace) {
       "\"b\"\n[[part.law]]\nname = \"l\"\nmeasured = \"error\"\nequals = 0",
       "7:", {"two laws have the name 'l'"});
   expect_error("[let]\nx = \"1 = 2\"", "2:5", {"compare with =="});
+  expect_error("[let]\nk = \"1 / 2\"\n[[part]]\nname = \"a\"\n[part.let]\nk = \"2\"", "6:1", {"let defines 'k' twice"});
 }
 
 // With one note for each part, eight equal lines hid the other notes.

@@ -4,6 +4,7 @@
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_file.h"
 #include "base/error.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -40,12 +41,8 @@ TEST(ExperimentTimes, FollowTheKey) {
 }
 
 TEST(ExperimentTimes, CannotBeAskedForAndOff) {
-  try {
-    parse_times("times = false\n[plot]\nmetrics = [\"shadow_ms\"]");
-    FAIL() << "not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()), "x.toml:1:9: times = false, but the experiment asks for shadow_ms");
-  }
+  expect_refused(ErrorKind::usage, {"x.toml:1:9: times = false, but the experiment asks for shadow_ms"},
+                 [] { parse_times("times = false\n[plot]\nmetrics = [\"shadow_ms\"]"); });
 }
 
 }  // namespace

@@ -133,21 +133,6 @@ TEST_F(ImageFile, AnimatedFramesHaveOneSize) {
   EXPECT_TRUE(files_in(folder.path()).empty());
 }
 
-TEST_F(ImageFile, ExrKeepsWhatIsNoNumber) {
-  using Float = std::numeric_limits<float>;
-  Image<float> values(5, 1);
-  values.pixels = {Float::quiet_NaN(), Float::infinity(), -Float::infinity(), -0.0f, Float::denorm_min()};
-  write_exr(folder.file("a.exr"), {{"v", values}});
-  EXPECT_EQ(bits(read_exr(folder.file("a.exr")).channels.at("v")), bits(values.pixels));
-}
-
-TEST_F(ImageFile, ExrHasTheTopRowFirst) {
-  Image<float> values(1, 3);
-  values.pixels = {10, 20, 30};
-  write_exr(folder.file("a.exr"), {{"v", values}});
-  EXPECT_EQ(read_exr(folder.file("a.exr")).channels.at("v"), values.pixels);
-}
-
 TEST_F(ImageFile, ExrRefusesChannelsOfDifferentSizes) {
   EXPECT_THROW(write_exr(folder.file("a.exr"), {{"a", Image<float>(2, 2)}, {"b", Image<float>(4, 1)}}),
                std::logic_error);

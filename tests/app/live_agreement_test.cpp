@@ -18,6 +18,7 @@
 #include "measure/workbench.h"
 #include "scenes/library.h"
 #include "tests/compare/report/browser.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -225,13 +226,7 @@ TEST(LiveSettings, RefuseByNameWhatThePageDoesNotDraw) {
   const auto why = [](const char* scene, std::vector<std::pair<const char*, const char*>> sets) -> std::string {
     Settings settings = small_picture(scene);
     for (const auto& [name, value] : sets) find_setting(name).set(settings, value);
-    try {
-      require_live(make_scene(settings.scene), settings);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      return error.what();
-    }
-    return "";
+    return refusal_of(ErrorKind::usage, [&] { require_live(make_scene(settings.scene), settings); });
   };
   EXPECT_NE(why("point-room", {}).find("point light"), std::string::npos);
   EXPECT_NE(why("sphere", {}).find("36480 triangles"), std::string::npos);

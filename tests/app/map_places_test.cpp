@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "app/advise/recommend.h"
 #include "app/advise/recommend_space.h"
 #include "compare/judge/recommendation.h"

@@ -9,6 +9,7 @@
 #include "scenes/library.h"
 #include "scenes/scene_size.h"
 #include "tests/scenes/gltf/files.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -101,39 +102,6 @@ TEST_F(Estimate, SeesWhatTakesTooMuch) {
   EXPECT_EQ(estimate(LightKind::directional, instances).largest().what, std::string("the scene"));
 }
 
-// Before they were traced in strips, 31 x 31 taps took 6.7 kB per pixel.
-TEST_F(Estimate, DoesNotGrowWithTheKernelBeyondAStrip) {
-  settings_.filter.kind = "box";
-  settings_.filter["size"] = 31;
-  const double most = bytes();
-  EXPECT_EQ(estimate().largest().what, std::string("the taps"));
-  EXPECT_LT(most, 2.2e9);
-  settings_.filter["size"] = 25;
-  EXPECT_EQ(bytes(), most);
-  settings_.view.width_px *= 2;
-  settings_.view.height_px *= 2;
-  const double larger = bytes();
-  settings_.filter["size"] = 31;
-  EXPECT_EQ(bytes(), larger);
-  settings_.filter["size"] = 3;
-  EXPECT_LT(bytes(), larger);
-}
-
-TEST_F(Estimate, GrowsWithWhatIsAskedFor) {
-  const double plain = bytes();
-  EXPECT_GT(bytes(LightKind::point), plain);
-  EXPECT_GT(bytes(LightKind::directional, {100, 100}, true, true), plain);
-  EXPECT_LT(bytes(LightKind::directional, {100, 100}, false), plain);
-  EXPECT_GE(bytes(LightKind::directional, {100, 100, 1'000'000}), plain + 1e6) << "every tile is a part of the scene";
-  EXPECT_GT(bytes(LightKind::directional, {100, 100, 1'000'000}, true, true),
-            bytes(LightKind::directional, {100, 100, 0}, true, true) + 4e6)
-      << "point.json lists the tiles as well";
-  settings_.bias["normal_offset"] = 1;  // a normal offset has no curve
-  EXPECT_EQ(bytes(), bytes(LightKind::directional, {100, 100}, false));
-  settings_.map.cull = CulledFaces::front;
-  EXPECT_GT(bytes(), bytes(LightKind::directional, {100, 100}, false) - 1);
-}
-
 TEST_F(Estimate, KnowsTheLivePicture) {
   const auto live = [&] {
     for (const MemoryShare& share : estimate(LightKind::directional, {100, 100}, true, true).shares)
@@ -197,13 +165,9 @@ TEST_F(Estimate, IsRefusedWithTheSettingToChange) {
   const auto needed = static_cast<uint64_t>(cube.bytes());
   EXPECT_FALSE(fits(cube, {needed - 64 * MiB, ""}));
   EXPECT_TRUE(fits(cube, {needed + 1, ""}));
-  try {
+  expect_refused(ErrorKind::usage, {"1.1 GB are available (a limit); lower map.resolution"}, [&] {
     require_memory(cube, {uint64_t{1} << 30, "a limit"}, "point 3");
-    ADD_FAILURE() << "a point that does not fit was accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_TRUE(std::string(error.what()).ends_with("and 1.1 GB are available (a limit); lower map.resolution"));
-  }
+  });
 }
 
 // The memory that the process holds already counts as available. The message says so if this decides.

@@ -1,7 +1,6 @@
 // The identity of a scene must change if a change in its file changes a measurement. It need not change otherwise.
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <functional>
 #include <set>
 

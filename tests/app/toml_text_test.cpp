@@ -6,6 +6,7 @@
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_file.h"
 #include "base/error.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -26,13 +27,7 @@ std::string placed(std::string text, char32_t c) { return text.replace(text.find
 
 template <class Read>
 std::string message(const Read& read) {
-  try {
-    read();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
-  return "";
+  return refusal_of(ErrorKind::usage, read);
 }
 std::string refusal_of_text(const std::string& text) {
   return message([&] { check_toml_text(text, "x.toml"); });

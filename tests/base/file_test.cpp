@@ -15,6 +15,7 @@
 
 #include "base/digest.h"
 #include "base/error.h"
+#include "tests/support/kind_thrown.h"
 #include "tests/support/sample_results.h"
 
 namespace noonmark {
@@ -25,13 +26,7 @@ namespace fs = std::filesystem;
 class File : public testing::Test {
  protected:
   std::string refusal(const std::string& name, uint64_t most_bytes = 100) const {
-    try {
-      read_file_below(folder.file("home"), name, most_bytes);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::file);
-      return error.what();
-    }
-    return "";
+    return refusal_of(ErrorKind::file, [&] { read_file_below(folder.file("home"), name, most_bytes); });
   }
   // The number of a process that has ended.
   static pid_t dead_process() {
@@ -171,14 +166,8 @@ TEST_F(File, MakesFoldersAndSaysWhyNot) {
   make_folder(folder.file("a/b/c/"));
   write_file_atomically(folder.file("file"), "");
   EXPECT_THROW(make_folder(folder.file("file")), Error);
-  try {
-    make_folder(folder.file("file/below/deeper"));
-    ADD_FAILURE() << "a file has no folders";
-  } catch (const Error& error) {
-    const std::string says = error.what();
-    EXPECT_NE(says.find(folder.file("file") + " is a file"), std::string::npos)
-        << "it names what is in the way: " << says;
-  }
+  expect_refused(ErrorKind::file, {folder.file("file") + " is a file"},
+                 [&] { make_folder(folder.file("file/below/deeper")); });
 }
 
 TEST(AtomicWrite, ReplacesAFileWhole) {

@@ -9,6 +9,7 @@
 #include "frames/frame_keys.h"
 #include "technique/settings.h"
 #include "tests/frames/good_frame.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark::test {
 namespace {
@@ -18,13 +19,7 @@ using Json = nlohmann::json;
 Json least() { return {{"noonmark_frame", 1}, {"visibility", {{"file", "V.exr"}}}}; }
 
 std::string fault_of(const Json& json) {
-  try {
-    parse_frame_file("frame.json", json.dump());
-    return "";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::file);
-    return error.what();
-  }
+  return refusal_of(ErrorKind::file, [&] { parse_frame_file("frame.json", json.dump()); });
 }
 
 std::vector<double> numbers(const glm::dmat4& m, bool by_rows) {
@@ -73,14 +68,8 @@ TEST(FrameFile, ACameraAndALightOfTheSceneAreTakenByName) {
   EXPECT_EQ(file.light_in(scene).radius_m, 0.25);
   json["light"]["name"] = "lump";
   const FrameFile wrong = parse_frame_file("frame.json", json.dump());
-  try {
-    wrong.light_in(scene);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::file);
-    EXPECT_NE(std::string(error.what()).find("frame.json: 'light.name': "), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("did you mean 'lamp'"), std::string::npos) << error.what();
-  }
+  expect_refused(ErrorKind::file, {"frame.json: 'light.name': ", "did you mean 'lamp'"},
+                 [&] { wrong.light_in(scene); });
   json["light"]["kind"] = "point";
   EXPECT_NE(fault_of(json).find("give a name, or the light itself"), std::string::npos);
   json.erase("light");

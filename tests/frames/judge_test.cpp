@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "tests/frames/good_frame.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark::test {
 namespace {
@@ -173,13 +174,7 @@ TEST(Judge, OnlyWhatTheMapLacksIsAMissingCaster) {
   EXPECT_GT(missing, 1000u);
   EXPECT_NEAR(verdict.metrics.at("frame_missing"), 3. / 12, 0.005);
   frame.not_in_map = {"lots"};
-  try {
-    judge_frame(scene, tracer, frame, {});
-    ADD_FAILURE() << "there is no such part";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::file);
-    EXPECT_NE(std::string(error.what()).find("did you mean 'lost'"), std::string::npos) << error.what();
-  }
+  expect_refused(ErrorKind::file, {"did you mean 'lost'"}, [&] { judge_frame(scene, tracer, frame, {}); });
 }
 
 // A filter errs on both sides of an edge.
@@ -278,13 +273,7 @@ TEST(Judge, AFrameWithoutAReceiverThatFacesTheLightIsRefused) {
   below.frame.light.target_m = below.frame.light.position_m + glm::dvec3(0, 1, 0);
   JudgeRules all_accepted;
   for (const FrameCheck& check : frame_checks()) all_accepted.accepted.emplace(check.name);
-  try {
-    below.judged(all_accepted);
-    ADD_FAILURE() << "it was judged";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::file);
-    EXPECT_NE(std::string(error.what()).find("of which 0 face the light"), std::string::npos) << error.what();
-  }
+  expect_refused(ErrorKind::file, {"of which 0 face the light"}, [&] { below.judged(all_accepted); });
 }
 
 TEST(Judge, SizesMustAgree) {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "scenes/library.h"
 #include "scenes/view_matrix.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark::test {
 namespace {
@@ -16,14 +17,9 @@ namespace {
 constexpr double rounding = 1e-9;
 
 std::string fault_of(const LightFrame& light, const glm::dmat4& matrix) {
-  try {
-    map_frame("map.npy", light, matrix, {64, 64});
-    return "";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::file);
-    EXPECT_TRUE(std::string(error.what()).starts_with("map.npy: ")) << error.what();
-    return error.what();
-  }
+  const std::string fault = refusal_of(ErrorKind::file, [&] { map_frame("map.npy", light, matrix, {64, 64}); });
+  EXPECT_TRUE(fault.empty() || fault.starts_with("map.npy: ")) << fault;
+  return fault;
 }
 
 LightFrame frame_of(const char* scene) {

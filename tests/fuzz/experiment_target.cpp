@@ -17,6 +17,7 @@
 #include "tests/fuzz/targets.h"
 #include "tests/support/sample_results.h"
 #include "tests/support/source_dir.h"
+#include "tests/support/words.h"
 
 namespace noonmark::fuzz {
 namespace {
@@ -155,79 +156,16 @@ name = "b\u00e9\t"
 }
 
 std::vector<std::string> words() {
-  std::vector<std::string> all = {"[[part]]",
-                                  "[[bound]]",
-                                  "[[law]]",
-                                  "[sweep]",
-                                  "[let]",
-                                  "[curve]",
-                                  "[plot]",
-                                  "[scene]",
-                                  "[view]",
-                                  "[light]",
-                                  "[map]",
-                                  "[bias]",
-                                  "[filter]",
-                                  "[truth]",
-                                  "[part.sweep]",
-                                  "[[part.law]]",
-                                  "[[part.bound]]",
-                                  "[part.let]",
-                                  "title",
-                                  "pictures",
-                                  "name",
-                                  "says",
-                                  "found",
-                                  "measured",
-                                  "equals",
-                                  "at_most",
-                                  "at_least",
-                                  "within",
-                                  "slack",
-                                  "join",
-                                  "over",
-                                  "where",
-                                  "against",
-                                  "metric",
-                                  "max",
-                                  "min",
-                                  "steps",
-                                  "scale",
-                                  "\"log\"",
-                                  "\"linear\"",
-                                  "\"worst\"",
-                                  "\"mean\"",
-                                  "\"median\"",
-                                  "\"each\"",
-                                  "\"slope\"",
-                                  "\"first\"",
-                                  "\"all\"",
-                                  "\"auto\"",
-                                  "true",
-                                  "false",
-                                  "inf",
-                                  "nan",
-                                  "0x",
-                                  "0b1",
-                                  "1e400",
-                                  "9223372036854775807",
-                                  "1979-05-27",
-                                  "07:32:00",
-                                  "\"\"\"",
-                                  "'''",
-                                  "\\u",
-                                  "\\U0010",
-                                  "\\x1b",
-                                  "\xef\xb2\xbf",
-                                  "\xc3\xa9",
-                                  "\xf0\x9f\x98\x80",
-                                  "\xe2\x80\xa8",
-                                  "\xef\xbb\xbf",
-                                  "\r\n",
-                                  "enabled",
-                                  "acne_bound",
-                                  "bias_depth",
-                                  "metrics"};
+  std::vector<std::string> all = test::words_of(R"(
+[[part]] [[bound]] [[law]] [sweep] [let] [curve] [plot] [scene] [view] [light] [map] [bias] [filter] [truth]
+[part.sweep] [[part.law]] [[part.bound]] [part.let] title pictures name says found measured equals at_most at_least
+within slack join over where against metric max min steps scale true false inf nan 0x 0b1 1e400 9223372036854775807
+1979-05-27 07:32:00 ''' enabled acne_bound bias_depth metrics)");
+  for (const char* word :
+       {"\"log\"",      "\"linear\"", "\"worst\"",        "\"mean\"",     "\"median\"",   "\"each\"", "\"slope\"",
+        "\"first\"",    "\"all\"",    "\"auto\"",         "\"\"\"",       "\\u",          "\\U0010",  "\\x1b",
+        "\xef\xb2\xbf", "\xc3\xa9",   "\xf0\x9f\x98\x80", "\xe2\x80\xa8", "\xef\xbb\xbf", "\r\n"})
+    all.emplace_back(word);
   for (const Setting& row : settings_table())
     for (std::string_view choice : row.choices) all.push_back("\"" + std::string(choice) + "\"");
   for (const std::string& name : program_names()) all.push_back(name);

@@ -2,7 +2,6 @@
 // line. The bytes are mutated as JSON; in a .glb the JSON chunk, the binary chunk and the header are mutated
 // separately. The folder of the file also holds a buffer and a link to a buffer outside the folder. No file may read
 // that outside buffer; otherwise its positions would appear in the scene.
-#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
@@ -11,6 +10,7 @@
 #include "tests/fuzz/targets.h"
 #include "tests/scenes/gltf/compressed_files.h"
 #include "tests/scenes/gltf/expect.h"
+#include "tests/support/words.h"
 
 namespace noonmark::fuzz {
 namespace {
@@ -71,130 +71,19 @@ std::vector<std::string> seeds() {
 }
 
 std::vector<std::string> words() {
-  return {"accessors",
-          "accessor",
-          "asset",
-          "version",
-          "minVersion",
-          "2.0",
-          "attributes",
-          "POSITION",
-          "NORMAL",
-          "JOINTS_0",
-          "WEIGHTS_0",
-          "bufferView",
-          "bufferViews",
-          "buffer",
-          "buffers",
-          "byteLength",
-          "byteOffset",
-          "byteStride",
-          "uri",
-          "data:application/octet-stream;base64,",
-          "data:application/gltf-buffer;base64,",
-          "inside.bin",
-          "../outside.bin",
-          "link.bin",
-          "%2e%2e/outside.bin",
-          "./inside.bin",
-          "/dev/zero",
-          "scene.glb",
-          "camera",
-          "cameras",
-          "perspective",
-          "orthographic",
-          "yfov",
-          "znear",
-          "zfar",
-          "xmag",
-          "ymag",
-          "aspectRatio",
-          "children",
-          "component",
-          "componentType",
-          "count",
-          "type",
-          "SCALAR",
-          "VEC2",
-          "VEC3",
-          "VEC4",
-          "MAT4",
-          "normalized",
-          "min",
-          "max",
-          "sparse",
-          "indices",
-          "values",
-          "extensions",
-          "extensionsUsed",
-          "extensionsRequired",
-          "extras",
-          "KHR_lights_punctual",
-          "KHR_mesh_quantization",
-          "KHR_node_visibility",
-          "KHR_draco_mesh_compression",
-          "EXT_meshopt_compression",
-          "EXT_mesh_gpu_instancing",
-          "TRANSLATION",
-          "ROTATION",
-          "SCALE",
-          "visible",
-          "light",
-          "lights",
-          "directional",
-          "spot",
-          "point",
-          "innerConeAngle",
-          "outerConeAngle",
-          "range",
-          "matrix",
-          "mesh",
-          "meshes",
-          "mode",
-          "name",
-          "node",
-          "nodes",
-          "primitives",
-          "rotation",
-          "translation",
-          "scale",
-          "scene",
-          "scenes",
-          "skin",
-          "skins",
-          "joints",
-          "inverseBindMatrices",
-          "skeleton",
-          "targets",
-          "weights",
-          "animations",
-          "channels",
-          "samplers",
-          "sampler",
-          "target",
-          "path",
-          "input",
-          "output",
-          "interpolation",
-          "LINEAR",
-          "STEP",
-          "CUBICSPLINE",
-          "materials",
-          "material",
-          "alphaMode",
-          "MASK",
-          "BLEND",
-          "OPAQUE",
-          "alphaCutoff",
-          "doubleSided",
-          "pbrMetallicRoughness",
-          "baseColorFactor",
-          "baseColorTexture",
-          "index",
-          "textures",
-          "images",
-          "glTF",
-          "JSON"};
+  return test::words_of(R"(
+accessors accessor asset version minVersion 2.0 attributes POSITION NORMAL JOINTS_0 WEIGHTS_0 bufferView bufferViews buffer
+buffers byteLength byteOffset byteStride uri data:application/octet-stream;base64,
+data:application/gltf-buffer;base64, inside.bin ../outside.bin link.bin %2e%2e/outside.bin ./inside.bin /dev/zero
+scene.glb camera cameras perspective orthographic yfov znear zfar xmag ymag aspectRatio children component
+componentType count type SCALAR VEC2 VEC3 VEC4 MAT4 normalized min max sparse indices values extensions extensionsUsed
+extensionsRequired extras KHR_lights_punctual KHR_mesh_quantization KHR_node_visibility KHR_draco_mesh_compression
+EXT_meshopt_compression EXT_mesh_gpu_instancing TRANSLATION ROTATION SCALE visible light lights directional spot point
+innerConeAngle outerConeAngle range matrix mesh meshes mode name node nodes primitives rotation translation scale
+scene scenes skin skins joints inverseBindMatrices skeleton targets weights animations channels samplers sampler
+target path input output interpolation LINEAR STEP CUBICSPLINE materials material alphaMode MASK BLEND OPAQUE
+alphaCutoff doubleSided pbrMetallicRoughness baseColorFactor baseColorTexture index textures images glTF
+JSON)");
 }
 
 uint32_t word_at(const std::string& bytes, size_t at) {

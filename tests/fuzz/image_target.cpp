@@ -1,6 +1,5 @@
 // The input is the bytes of a picture. What is read before a decoder sees them, the head of a PNG or an EXR file or a whole NPY
 // file, must be refused with Error(file) or be within the limits, without memory for what the head only says.
-#include <cstring>
 
 #include "app/pictures/image_file.h"
 #include "app/pictures/image_head.h"

@@ -91,47 +91,6 @@ TEST(GlLookupDraws, HaveEveryPartOfABiasReferenceAndFilter) {
   EXPECT_EQ(filters_met.size(), find_setting("filter.kind").choices.size());
 }
 
-// Lit and dark are exactly 1 and 0 whatever the filter, its size and its weights.
-TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
-  std::mt19937 random(1);
-  std::set<std::pair<LightKind, std::string>> compared;
-  for (const LightKind kind : kinds) {
-    const Scene scene = random_scene(random, kind);
-    const ReceiverImage receivers = load(scene, 40, 30);
-    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f)
-      for (const int size : {3, 5, 9, 31}) {
-        Settings settings;
-        settings.map.resolution = 64;
-        settings.map.wrap = Wrap::clamp_to_edge;
-        settings.map.far_m = 30;
-        settings.bias = {};
-        settings.filter.kind = std::string(find_setting("filter.kind").choices[f]);
-        settings.filter["size"] = size;
-        settings.filter["sigma_texels"] = 0.3 * size;
-        if (kind_thrown([&] { validate(settings, kind); })) continue;
-        compared.insert({kind, settings.filter.kind});
-        const LightFrame frame = make_light_frame(scene, settings);
-        const LookupProbe probe = renderer.probe({settings, frame});
-        for (const float depth : {0.0f, 1.0f}) {
-          const ShadowMap map =
-              renderer.upload_map(Image<float>(64, frame.map_size().y, depth), settings.map, frame.map_shape());
-          const Image<float> seen = renderer.lookup(map, {settings, frame});
-          for (size_t i = 0; i < seen.size(); ++i) {
-            if (probe.bias_unit[i] == 0 || probe.reference[i] <= 0) continue;
-            ASSERT_EQ(seen[i], depth) << describe(settings);
-          }
-        }
-      }
-  }
-  // Every filter under every light whose map it can read.
-  for (const LightKind kind : kinds)
-    for (const Filter& filter : filters()) {
-      const bool cube = kind_of_light(kind).map_shape() == MapShape::cube;
-      const bool reads = filter.map == FilterMap::any || (filter.map == FilterMap::cube) == cube;
-      EXPECT_EQ(compared.contains({kind, std::string(filter.name)}), reads) << filter.name;
-    }
-}
-
 // Every filter's comparison is strict: a receiver at the stored depth is lit. If the stored depth is one float nearer
 // to the light, the receiver is dark.
 TEST_F(GlLookupTest, ATieIsLit) {
@@ -386,22 +345,6 @@ TEST_F(GlLookupTest, ReceiversWithoutAPlaceInTheMapAreDark) {
   };
   EXPECT_EQ(seen_by(LightKind::spot), (std::vector<float>{1, 0, 0, 0}));
   EXPECT_EQ(seen_by(LightKind::point), (std::vector<float>{1, 1, 1, 0}));
-}
-
-TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
-  std::mt19937 random(5);
-  const Scene scene = random_scene(random);
-  Settings settings;
-  settings.map.resolution = 64;
-  settings.filter = {"box", {{"size", 5}}};
-  const LightFrame frame = make_light_frame(scene, settings);
-  for (const int width : {32, 200, 32}) {
-    load(scene, width, 24);
-    double ms = -1;
-    const Image<float> seen = renderer.lookup(renderer.render_map({settings, frame}), {settings, frame}, &ms);
-    EXPECT_EQ(seen.width, width);
-    EXPECT_GT(ms, 0);
-  }
 }
 
 // The time is that of the work, not of the calls that start it: 961 taps cost more than one.

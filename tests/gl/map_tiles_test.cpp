@@ -2,7 +2,6 @@
 #include <epoxy/gl.h>
 
 #include <memory>
-#include <vector>
 
 #include "gl/spare_maps.h"
 #include "tests/gl/fixture.h"

@@ -7,7 +7,6 @@
 #include "scenes/builtin.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
-#include "scenes/library.h"
 #include "tests/gl/fixture.h"
 
 namespace noonmark::gl {

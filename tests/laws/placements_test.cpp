@@ -7,7 +7,6 @@
 #include <cmath>
 #include <random>
 
-#include "scenes/library.h"
 #include "technique/light_frame.h"
 #include "tests/laws/support.h"
 

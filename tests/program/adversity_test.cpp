@@ -47,8 +47,7 @@ TEST_F(Adversity, APathMayHoldAnyBytes) {
   fs::create_directories(folder_ / odd);
   write(odd + "/x\xfe.toml", with_pictures + held_bound);
   write(odd + "/bad.toml", "scne = 1\n");
-  EXPECT_EQ(run({"check", odd, "--out", odd + "/out"}), 2) << output_;
-  EXPECT_TRUE(says("did you mean 'scene'") && says("1 of 1 bound held")) << output_;
+  expect_run({"check", odd, "--out", odd + "/out"}, 2, {"did you mean 'scene'", "1 of 1 bound held"});
   expect_printable();
   const fs::path out = folder_ / odd / "out" / "x\xfe";
   for (const char* file : {"junit.xml", "summary.md"}) {
@@ -82,8 +81,7 @@ TEST_F(Adversity, AFolderThatCannotBeReadIsSaidAndTheRestIsChecked) {
 TEST_F(Adversity, EndingsInCapitalsCount) {
   fs::create_directories(folder_ / "exps");
   write("exps/A.TOML", with_pictures + held_bound);
-  EXPECT_EQ(run({"check", "exps", "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("1 of 1 bound held")) << output_;
+  expect_run({"check", "exps", "--out", "out"}, 0, {"1 of 1 bound held"});
   EXPECT_EQ(run({"render", "--set", "scene.name=ABSENT.GLTF"}), 3) << output_;
   expect_one_line("no such file");
 }
@@ -112,9 +110,8 @@ TEST_F(Adversity, ProgressThatCannotBeWrittenLosesNothing) {
 
 TEST_F(Adversity, StandardOutputThatCannotBeWrittenIsSaid) {
   const std::string experiment = write("x.toml", two_points + held_bound);
-  const std::vector<std::vector<std::string>> verbs = {
-      {"check", experiment, "--out", "out"}, {"settings"}, {"doctor"}, {"--help"}};
-  for (const std::vector<std::string>& verb : verbs) {
+  const std::vector<Words> verbs = {{"check", experiment, "--out", "out"}, {"settings"}, {"doctor"}, {"--help"}};
+  for (const Words& verb : verbs) {
     SCOPED_TRACE(verb[0]);
     EXPECT_EQ(run(verb, [] { redirect(STDOUT_FILENO, "/dev/full"); }), 3);
     expect_one_line("standard output cannot be written: No space left on device");
@@ -179,9 +176,9 @@ TEST_F(Adversity, WhatIsNoFileBesideTheStoreIsAnError) {
   const std::string experiment = write("x.toml", with_pictures + held_bound);
   ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
   ASSERT_EQ(mkfifo((folder_ / "out/results.sqlite-journal").c_str(), 0600), 0);
-  const std::vector<std::vector<std::string>> verbs = {
+  const std::vector<Words> verbs = {
       {"report", "out"}, {"run", experiment, "--out", "out"}, {"check", experiment, "--out", "out"}};
-  for (const std::vector<std::string>& verb : verbs) {
+  for (const Words& verb : verbs) {
     SCOPED_TRACE(verb[0]);
     EXPECT_EQ(run(verb, [] { alarm(60); }), 3);
     expect_one_line("out/results.sqlite-journal: is not a regular file");

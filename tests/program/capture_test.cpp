@@ -46,20 +46,16 @@ TEST_F(Capture, ItsFramesAreWrittenAndListed) {
   reader(two_lights(""));
   const std::vector<std::string> words = {"capture", "shot.rdc", "--reader", "reader", "--out",
                                           "out",     "--light",  "2",        "--bias", "0.001"};
-  ASSERT_EQ(run(words), 0) << output_;
-  EXPECT_TRUE(says("two lights --light=2 --bias=0.001")) << output_;
-  EXPECT_TRUE(says("out/frames/light-1.json is written")) << output_;
+  expect_run(words, 0, {"two lights --light=2 --bias=0.001", "out/frames/light-1.json is written"});
   ASSERT_EQ(run({"judge", "out/frames/light-1.json", "--out", "alone"}), 0) << output_;
   // A later run leaves nothing of an earlier one, and only that.
   write("out/frames/mine.txt", "mine");
   reader("print('noonmark: shot.rdc: no shadow map', file=sys.stderr); sys.exit(3)\n");
-  EXPECT_EQ(run(words), 3) << output_;
-  EXPECT_TRUE(says("noonmark: shot.rdc: no shadow map")) << output_;
+  expect_run(words, 3, {"noonmark: shot.rdc: no shadow map"});
   EXPECT_FALSE(fs::exists(folder_ / "out/frames/light-1.json"));
   EXPECT_TRUE(fs::exists(folder_ / "out/frames/mine.txt"));
   fs::create_directories(folder_ / "theirs/frames");
-  EXPECT_EQ(run({"capture", "shot.rdc", "--reader", "reader", "--out", "theirs"}), 2) << output_;
-  EXPECT_TRUE(says("theirs/frames")) << output_;
+  expect_run({"capture", "shot.rdc", "--reader", "reader", "--out", "theirs"}, 2, {"theirs/frames"});
 }
 
 TEST_F(Capture, EachLightIsJudged) {
@@ -86,9 +82,7 @@ TEST_F(Capture, EachLightIsJudged) {
 // The worst of the codes, and the others are judged all the same.
 TEST_F(Capture, OneBadFrameDoesNotEndTheOthers) {
   reader(two_lights("frame['positions']['file'] = 'gone.exr'"));
-  EXPECT_EQ(run(judge_), 3) << output_;
-  EXPECT_TRUE(says("light-1 (directional")) << output_;
-  EXPECT_TRUE(says("light-2: ") && says("gone.exr")) << output_;
+  expect_run(judge_, 3, {"light-1 (directional", "light-2: ", "gone.exr"});
   EXPECT_EQ(said()["verdict"], "refused");
   EXPECT_EQ(said()["lights"][0]["verdict"], "measured");
   std::vector<std::string> words = judge_;
@@ -96,8 +90,7 @@ TEST_F(Capture, OneBadFrameDoesNotEndTheOthers) {
   reader(two_lights(""));
   EXPECT_EQ(run(words), 1) << output_;
   words.back() = "acne=1%";
-  EXPECT_EQ(run(words), 2) << output_;
-  EXPECT_TRUE(says("no light of this capture has a map")) << output_;
+  expect_run(words, 2, {"no light of this capture has a map"});
 }
 
 TEST_F(Capture, AReaderThatFailsSaysWhy) {
@@ -131,8 +124,7 @@ TEST_F(Capture, AMapThatExplainsNothingIsLeftOut) {
   reader(two_lights(
       "frame['map'] = {'file': '../../map.exr', 'first_row': 'bottom', 'order': 'column', 'reversed': False,\n"
       "  'depth_range': '-1..1', 'clip_from_world': [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}"));
-  ASSERT_EQ(run(judge_), 0) << output_;
-  EXPECT_TRUE(says("classes by place, and no causes")) << output_;
+  expect_run(judge_, 0, {"classes by place, and no causes"});
   EXPECT_EQ(said()["lights"][1]["metrics"]["frame_error"], said()["lights"][0]["metrics"]["frame_error"]);
   EXPECT_FALSE(said()["lights"][1].contains("causes"));
 }

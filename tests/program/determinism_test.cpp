@@ -83,8 +83,7 @@ TEST_F(Determinism, AKilledRunOnTwoThreadsGoesOnOnOne) {
   kill(child, SIGKILL);
   wait_for(child);
   EXPECT_FALSE(fs::exists(folder_ / "killed/results.csv")) << "the run ended before it could be killed";
-  ASSERT_EQ(run({"run", "x.toml", "--out", "killed", "--threads", "1"}), 0) << output_;
-  EXPECT_TRUE(says("points are in killed already")) << output_;
+  expect_run({"run", "x.toml", "--out", "killed", "--threads", "1"}, 0, {"points are in killed already"});
   EXPECT_EQ(results("killed"), results("whole"));
 }
 

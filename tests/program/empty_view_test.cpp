@@ -55,19 +55,18 @@ TEST_F(EmptyView, RenderSaysWhy) {
   };
   for (const EmptyCase& one : cases) {
     SCOPED_TRACE(testing::PrintToString(one.sets));
-    EXPECT_EQ(run(render(one.sets)), 0) << output_;
-    EXPECT_TRUE(says(one.says)) << output_;
+    expect_run(render(one.sets), 0, {one.says});
     EXPECT_FALSE(says("nan")) << output_;
     EXPECT_FALSE(says("\n\n\n")) << output_;
   }
-  const std::vector<std::vector<std::string>> enough = {
+  const std::vector<Words> enough = {
       {},
       {"view.eye_m=500,500,500", "view.fov_deg=5"},
       {"scene.name=near_and_far.gltf"},
       {"scene.name=near_and_far.gltf", "view.eye_m=0.5,0.5,40", "view.fov_deg=3", "view.fit_depths=true"},
       {"scene.name=square.gltf"},
       {"scene.name=both.gltf", "view.eye_m=0.5,0.5,-2", "view.target_m=0.5,0.5,0", "light.position_m=0.5,2,-3"}};
-  for (const std::vector<std::string>& sets : enough) {
+  for (const Words& sets : enough) {
     EXPECT_EQ(run(render(sets)), 0) << output_;
     EXPECT_FALSE(says("can be judged")) << output_;
   }
@@ -122,11 +121,9 @@ max = 0.01
     EXPECT_TRUE(says("is ambiguous")) << "the note: " << output_;
     EXPECT_NE(text("out/summary.md").find("is ambiguous"), std::string::npos);
   }
-  EXPECT_EQ(run({"recommend", "cube-room", "--set", "light.kind=spot", "--set", "light.position_m=0,1e7,0", "--set",
-                 "light.target_m=0,0,0", "--set", "view.width_px=64", "--set", "view.height_px=36", "--out", "advice"}),
-            2)
-      << output_;
-  EXPECT_TRUE(says("is ambiguous")) << output_;
+  expect_run({"recommend", "cube-room", "--set", "light.kind=spot", "--set", "light.position_m=0,1e7,0", "--set",
+              "light.target_m=0,0,0", "--set", "view.width_px=64", "--set", "view.height_px=36", "--out", "advice"},
+             2, {"is ambiguous"});
 }
 
 // Of what is all in shadow no bias can be too small, so that the bounds hold says little.
@@ -141,11 +138,9 @@ max = 1
 )");
   EXPECT_EQ(run({"check", "dark.toml", "--out", "out", "--quiet"}), 0) << output_;
   EXPECT_FALSE(says("poor")) << output_;
-  EXPECT_EQ(run({"check", "dark.toml", "--out", "dark", "--quiet", "--set", "light.kind=directional", "--set",
-                 "light.position_m=9,20,3", "--set", "light.target_m=0,0,0"}),
-            0)
-      << output_;
-  EXPECT_TRUE(says("1 of 1 bound held in a poor picture, see its note; 1 point measured")) << output_;
+  expect_run({"check", "dark.toml", "--out", "dark", "--quiet", "--set", "light.kind=directional", "--set",
+              "light.position_m=9,20,3", "--set", "light.target_m=0,0,0"},
+             0, {"1 of 1 bound held in a poor picture, see its note; 1 point measured"});
 }
 
 // Every verdict on such a picture says that it is not known: laws, the baseline, the last run, windows, sections and the phase diagram.
@@ -174,8 +169,7 @@ at_most = "1"
   std::vector<std::string> update = check;
   update.push_back("--update-baseline");
   ASSERT_EQ(run(update), 0) << output_;
-  EXPECT_EQ(run(with_far(check)), 1) << output_;
-  EXPECT_TRUE(says("worse: peter_panning at the only point")) << output_;
+  expect_run(with_far(check), 1, {"worse: peter_panning at the only point"});
   EXPECT_FALSE(says("better: ")) << output_;
   EXPECT_TRUE(says("BROKEN")) << "the law: " << output_;
   EXPECT_TRUE(says("held: peter_panning <= 50%; found 0% ± 14")) << output_;
@@ -189,23 +183,17 @@ at_most = "1"
   EXPECT_NE(summary.find("| not known | not known |"), std::string::npos)
       << "the window and the best bias: " << summary;
 
-  EXPECT_EQ(run(with_far({"render", "far.toml", "--out", "point"})), 0) << output_;
-  EXPECT_TRUE(says("usable bias.constant: not known")) << output_;
+  expect_run(with_far({"render", "far.toml", "--out", "point"}), 0, {"usable bias.constant: not known"});
   EXPECT_FALSE(says("best bias.constant")) << output_;
   EXPECT_FALSE(says("free of acne")) << output_;
-  for (const std::vector<std::string>& pixel : std::vector<std::vector<std::string>>{{}, {"--worst", "error"}}) {
-    std::vector<std::string> words = with_far({"section", "far.toml", "--out", "section.svg"});
-    words.insert(words.end(), pixel.begin(), pixel.end());
-    EXPECT_EQ(run(words), 2);
-    EXPECT_TRUE(says("is ambiguous")) << output_;
+  for (const Words& pixel : std::vector<Words>{{}, {"--worst", "error"}}) {
+    expect_run(with_far({"section", "far.toml", "--out", "section.svg"}) + pixel, 2, {"is ambiguous"});
   }
   EXPECT_EQ(run(with_far({"section", "far.toml", "--out", "section.svg", "--pixel", "8,24"})), 0) << output_;
   EXPECT_TRUE(says("pixel 8,24: Not known")) << "in the cube's shadow: " << output_;
-  EXPECT_EQ(run(with_far({"map", "cube-room", "--set", "light.kind=spot", "--set", "light.target_m=0,0,0", "--rows",
-                          "2", "--out", "map"})),
-            2)
-      << output_;
-  EXPECT_TRUE(says("it is not known which texels and biases are usable")) << output_;
+  expect_run(with_far({"map", "cube-room", "--set", "light.kind=spot", "--set", "light.target_m=0,0,0", "--rows", "2",
+                       "--out", "map"}),
+             2, {"it is not known which texels and biases are usable"});
 }
 
 TEST_F(EmptyView, ABoundOverNothingFailsAndEveryPageSaysWhy) {
@@ -277,8 +265,7 @@ TEST_F(EmptyView, CamerasThatAreNoneAreUsageErrors) {
            {{"view.near_m=0"}, "view.near_m = '0' is not allowed"},
            {{"view.eye_m=1,1,1", "view.target_m=1,1,1"}, "eye is its target"}}) {
     SCOPED_TRACE(testing::PrintToString(one.sets));
-    EXPECT_EQ(run(render(one.sets)), 2) << output_;
-    EXPECT_TRUE(says(one.says)) << output_;
+    expect_run(render(one.sets), 2, {one.says});
     EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
   }
 }

@@ -56,6 +56,12 @@ inline void without_privileges() {
   prctl(PR_CAPBSET_DROP, 2 /* CAP_DAC_READ_SEARCH */);
 }
 
+using Words = std::vector<std::string>;
+inline Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 class Program : public testing::Test {
  protected:
   void SetUp() override {
@@ -112,6 +118,11 @@ class Program : public testing::Test {
     const int code = wait_for(start(arguments, prepare));
     output_ = read_file((folder_ / "output.txt").string());
     return code;
+  }
+  // Runs the program, which must end with this exit code and print each of these texts.
+  void expect_run(const std::vector<std::string>& arguments, int code, const std::vector<std::string>& printed) {
+    EXPECT_EQ(run(arguments), code) << testing::PrintToString(arguments) << "\n" << output_;
+    for (const std::string& text : printed) EXPECT_TRUE(says(text)) << text << " is not in\n" << output_;
   }
   std::string write(const std::string& name, const std::string& text) {
     write_file_atomically((folder_ / name).string(), text);

@@ -14,6 +14,7 @@
 #include "measure/workbench.h"
 #include "raytrace/tracer.h"
 #include "tests/program/fixture.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -224,8 +225,7 @@ TEST_F(JudgeWithMap, AMapOfAnotherSceneOrUpsideDownIsNamed) {
     nlohmann::json wrong = deliver({});
     wrong["map"][key] = value;
     write("frame.json", wrong.dump());
-    EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
-    EXPECT_TRUE(says(words)) << output_;
+    expect_run({"judge", "frame.json", "--out", "out"}, 3, {words});
     EXPECT_FALSE(fs::exists(folder_ / "out/judge.json")) << key;
   };
   refused("technique", {{"bias.constnt", 1}}, "did you mean 'bias.constant'");
@@ -248,8 +248,7 @@ TEST_F(JudgeWithMap, AMapThatIsNotTheScenesIsACauseOfItsOwn) {
     for (int x = 0; x < drawn.width; ++x)
       stored_.at(x, y) = 2 * x < drawn.width && 2 * y < drawn.height ? drawn.at(2 * x, 2 * y) : 1.0f;
   write("frame.json", deliver({}).dump());
-  ASSERT_EQ(run({"judge", "frame.json", "--out", "out", "--accept", "map"}), 0) << output_;
-  EXPECT_TRUE(says("fills only a part of its texels")) << output_;
+  expect_run({"judge", "frame.json", "--out", "out", "--accept", "map"}, 0, {"fills only a part of its texels"});
   const nlohmann::json said = nlohmann::json::parse(read_file((folder_ / "out/judge.json").string()));
   EXPECT_EQ(said["metrics"]["precision"], 0);
   EXPECT_GT(said["metrics"]["frame_map"], 0.01);
@@ -266,8 +265,8 @@ TEST_F(JudgeWithMap, AMapOfAPointLightIsRefused) {
   nlohmann::json frame = deliver({});
   frame["light"] = {{"kind", "point"}, {"position", {0, 9, 0}}};
   write("frame.json", frame.dump());
-  EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
-  EXPECT_TRUE(says("frame.json: 'map': the six maps of a point light are not read; leave the map out")) << output_;
+  expect_run({"judge", "frame.json", "--out", "out"}, 3,
+             {"frame.json: 'map': the six maps of a point light are not read; leave the map out"});
   EXPECT_FALSE(fs::exists(folder_ / "out/judge.json"));
 }
 
@@ -295,13 +294,7 @@ TEST(GivenLookupOfNaN, Fails) {
   ASSERT_NE(facing, truth.facing.pixels.end());
   point.frame.picture[static_cast<size_t>(facing - truth.facing.pixels.begin())] =
       std::numeric_limits<float>::quiet_NaN();
-  try {
-    lookup.climb(point);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::defect);
-    EXPECT_NE(std::string(error.what()).find("residual = nan"), std::string::npos) << error.what();
-  }
+  expect_refused(ErrorKind::defect, {"residual = nan"}, [&] { lookup.climb(point); });
 }
 
 // A caster that is not in the map: its shadow is missing, and that is no precision of the map's.
@@ -461,8 +454,7 @@ TEST_F(JudgeWithMap, TheFormatIsThatOfTheDepths) {
     expect_causes(judged(frame));
     frame["map"]["technique"]["map.format"] = format == std::string("16") ? "24" : "16";
     write("frame.json", frame.dump());
-    EXPECT_EQ(run({"judge", "frame.json", "--out", "out"}), 3) << output_;
-    EXPECT_TRUE(says("were not drawn in the map.format")) << output_;
+    expect_run({"judge", "frame.json", "--out", "out"}, 3, {"were not drawn in the map.format"});
   }
 }
 
@@ -527,8 +519,8 @@ TEST_F(JudgeWithMap, WithoutOpenGLItSaysHowToJudgeByPlace) {
   EXPECT_EQ(run({"judge", "frame.json", "--without-map", "--out", "out"}, no_driver), 0) << output_;
   EXPECT_TRUE(says("frame_acne")) << output_;
   EXPECT_FALSE(says("by cause")) << output_;
-  EXPECT_EQ(run({"judge", "frame.json", "--without-map", "--max", "acne=1%", "--out", "out"}), 2) << output_;
-  EXPECT_TRUE(says("leave out --without-map")) << output_;
+  expect_run({"judge", "frame.json", "--without-map", "--max", "acne=1%", "--out", "out"}, 2,
+             {"leave out --without-map"});
   write("frames.toml",
         "[[frame]]\nfile = \"frame.json\"\nwithout_map = true\n[[bound]]\nmetric = "
         "\"frame_error\"\nmax = 0\n");

@@ -108,9 +108,9 @@ TEST_F(Libraries, ReferenceNamesEveryOneThatTheProgramIsLinkedWith) {
 }
 
 TEST_F(Libraries, WithoutOpenGlSaysWhatToInstall) {
-  const std::vector<std::vector<std::string>> needed = {
+  const std::vector<Words> needed = {
       {"libEGL.so.1"}, {"libOpenGL.so.0", "libGL.so.1"}, {"libGLdispatch.so.0"}, {"libEGL_mesa.so.0"}};
-  for (const std::vector<std::string>& missing : needed) {
+  for (const Words& missing : needed) {
     SCOPED_TRACE(missing.back());
     EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
     EXPECT_TRUE(says("OpenGL    NOT USABLE") && says("apt install libegl1")) << output_;
@@ -120,7 +120,8 @@ TEST_F(Libraries, WithoutOpenGlSaysWhatToInstall) {
     EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
     EXPECT_EQ(run_without(missing, {"settings"}), 0) << output_;
   }
-  if (!dlopen("libOpenGL.so.0", RTLD_LAZY) || !dlopen("libGL.so.1", RTLD_LAZY)) return;  // only one of them is installed
+  if (!dlopen("libOpenGL.so.0", RTLD_LAZY) || !dlopen("libGL.so.1", RTLD_LAZY))
+    return;  // only one of them is installed
   for (const char* one : {"libOpenGL.so.0", "libGL.so.1"})
     EXPECT_EQ(run_without({one}, {"doctor"}), 0) << "one of the two libraries must be enough: " << output_;
 }
@@ -132,9 +133,7 @@ TEST_F(Libraries, WithoutOpenImageIoMeasuresAndReadsNoPictures) {
   EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
   EXPECT_TRUE(says("Pictures  NOT USABLE") && says("noonmark_images.so")) << output_;
   EXPECT_TRUE(says("it belongs in lib/noonmark") && !says("apt install")) << output_;
-  std::vector<std::string> render = small_picture;
-  render.insert(render.end(), {"--out", "rendered"});
-  EXPECT_EQ(run_without(missing, render), 0) << output_;
+  EXPECT_EQ(run_without(missing, small_picture + Words{"--out", "rendered"}), 0) << output_;
   EXPECT_TRUE(fs::exists(folder_ / "rendered/ladder.exr") && fs::exists(folder_ / "rendered/point-truth.png"));
   EXPECT_EQ(run_without(missing, {"run", "pictures.toml", "--out", "out"}), 0) << output_;
   for (const char* picture : {"rendered/ladder.exr", "rendered/point-truth.png"}) {

@@ -75,9 +75,7 @@ TEST_F(Map, RenderPrintsWhatHoldsOverAllPlacements) {
       "render",         "--set", "view.width_px=96",   "--set", "view.height_px=54", "--set",
       "map.format=32f", "--set", "bias.constant=0.003"};
   const auto render = [&](std::vector<std::string> more) {
-    std::vector<std::string> words = point;
-    words.insert(words.end(), more.begin(), more.end());
-    EXPECT_EQ(run(words), 0) << output_;
+    EXPECT_EQ(run(point + more), 0) << output_;
     return nlohmann::json::parse(text("out/point.json")).at("metrics");
   };
   const nlohmann::json all = render({"--set", "map.placements=4", "--out", "out"});

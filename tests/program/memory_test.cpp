@@ -207,10 +207,7 @@ TEST_F(Memory, ADryRunNamesIt) {
       write("x.toml", "[view]\nwidth_px = 64\nheight_px = 36\n[sweep]\nmap.resolution = [64, 2048]\n");
   ASSERT_EQ(run({"run", file, "--dry-run"}), 0) << output_;
   EXPECT_TRUE(std::regex_search(output_, std::regex("map.resolution = 64  \\([0-9.]+ MB\\)"))) << output_;
-  EXPECT_TRUE(
-      std::regex_search(output_, std::regex("memory: at most [0-9.]+ MB, by point 1 \\([0-9.]+ MB of it for the "
-                                            "[a-z ]+\\); [0-9.]+ [MG]B are available \\([a-z' ]+, with [0-9.]+ MB "
-                                            "that the program holds already\\)")))
+  EXPECT_TRUE(std::regex_search(output_, std::regex("at most [0-9.]+ MB, by point 1 .* [0-9.]+ [MG]B are available")))
       << output_;
 }
 
@@ -223,11 +220,8 @@ TEST_F(Memory, APointThatDoesNotFitIsRefusedBeforeAnyIsMeasured) {
     std::vector<std::string> arguments = {"run", file, "--out", "out"};
     if (*dry) arguments.push_back(dry);
     EXPECT_EQ(run_within(space, arguments), 2) << output_;
-    EXPECT_TRUE(std::regex_search(
-        output_,
-        std::regex("noonmark: point 1 \\(map.resolution = 16384\\) would take about [0-9.]+ GB of memory, [0-9.]+ GB "
-                   "of it for the shadow map, and [0-9.]+ GB are available \\(the limit of the address space, "
-                   "ulimit -v, minus the space that libraries and threads reserve\\); lower map.resolution\n")))
+    EXPECT_TRUE(says("point 1 (map.resolution = 16384)") && says("for the shadow map") && says("ulimit -v") &&
+                says("lower map.resolution\n"))
         << output_;
     EXPECT_FALSE(fs::exists(folder_ / "out/results.csv"));
   }
@@ -244,7 +238,7 @@ TEST_F(Memory, AFrameThatDoesNotFitIsRefused) {
     header.resize(118, ' ');
     std::ofstream(folder_ / "V.npy", std::ios::binary) << "\x93NUMPY" << std::string("\1\0\x76\0", 4) << header;
     fs::resize_file(folder_ / "V.npy", 128 + static_cast<uintmax_t>(side) * static_cast<uintmax_t>(side));
-    return std::vector<std::string>{"judge", "cube-room", "--picture", "V.npy", "--out", "out"};
+    return Words{"judge", "cube-room", "--picture", "V.npy", "--out", "out"};
   };
   const rlim_t space = rlim_t{900} << 20;
   for (const auto& [side, words] :
@@ -289,10 +283,7 @@ TEST_F(Memory, InstancesAreCountedBeforeTheyAreMade) {
   const std::string scene = grid(100, 3350);  // 67 million triangles in a file of half a megabyte
   EXPECT_LT(fs::file_size(scene), 1'200'000u);
   EXPECT_EQ(run_within(rlim_t{8} << 30, {"render", "--set", "scene.name=" + scene}), 3) << output_;
-  EXPECT_TRUE(
-      std::regex_search(output_, std::regex("its 67000000 triangles, instances counted, take at least [0-9.]+ GB "
-                                            "of memory and [0-9.]+ GB are available .*fewer instances")))
-      << output_;
+  EXPECT_TRUE(says("its 67000000 triangles") && says("GB are available")) << output_;
 }
 
 TEST_F(Memory, TheModelOfAFileIsCountedBeforeItIsMade) {
@@ -301,9 +292,7 @@ TEST_F(Memory, TheModelOfAFileIsCountedBeforeItIsMade) {
   for (int i = 0; i < 2'000'000; ++i) scene["materials"].push_back(test::json::object());
   EXPECT_EQ(run_within(rlim_t{4} << 30, {"render", "--set", "scene.name=" + write("scene.gltf", scene.dump())}), 3)
       << output_;
-  EXPECT_TRUE(std::regex_search(output_, std::regex("its JSON takes about 6.[0-9] GB of memory and [0-9.]+ GB are "
-                                                    "available .*simplify it or split it")))
-      << output_;
+  EXPECT_TRUE(says("its JSON takes about 6.") && says("GB are available")) << output_;
 }
 
 TEST_F(Memory, OtherTrianglesAreCountedBeforeTheyAreMade) {
@@ -313,19 +302,12 @@ TEST_F(Memory, OtherTrianglesAreCountedBeforeTheyAreMade) {
   };
   const std::string below = grid(100, 50);  // 64 million tiles
   EXPECT_EQ(render(below, "tiles"), 2) << output_;
-  EXPECT_TRUE(std::regex_search(
-      output_, std::regex("noonmark: .*grid.gltf: scene.mesh = tiles makes 64000000 triangles of its 1000000, which "
-                          "take at least [0-9.]+ GB of memory, and [0-9.]+ GB are available \\(the limit of the "
-                          "address space, ulimit -v\\); choose another scene.mesh or ")))
-      << output_;
+  EXPECT_TRUE(says("scene.mesh = tiles makes 64000000 triangles of its 1000000") && says("ulimit -v")) << output_;
   EXPECT_EQ(render(below, "t_junctions"), 2) << output_;
   EXPECT_TRUE(says("scene.mesh = t_junctions makes 23000000 triangles of its 1000000")) << output_;
   const std::string above = grid(100, 60);
   EXPECT_EQ(render(above, "tiles"), 2) << output_;
-  EXPECT_TRUE(
-      says("scene.mesh = tiles makes 76800000 triangles of its 1200000, which are more than the 67108864 "
-           "allowed; choose another scene.mesh or "))
-      << output_;
+  EXPECT_TRUE(says("76800000 triangles of its 1200000, which are more than the 67108864 allowed")) << output_;
 }
 
 }  // namespace

@@ -38,9 +38,8 @@ TEST_F(Merge, OfPointsThatSeveralSharesHave) {
   measure("1/2");
   measure("2/2");
   copy("out/share-2-of-2", "elsewhere");
-  ASSERT_EQ(run({"merge", "joined", "out/share-1-of-2", "out/share-2-of-2", "elsewhere"}), 0) << output_;
-  EXPECT_TRUE(says("4 of 4 points from 3 stores (2 in more than one, and alike)")) << output_;
-  EXPECT_TRUE(says("1 of 1 bound held")) << output_;
+  expect_run({"merge", "joined", "out/share-1-of-2", "out/share-2-of-2", "elsewhere"}, 0,
+             {"4 of 4 points from 3 stores (2 in more than one, and alike)", "1 of 1 bound held"});
   EXPECT_TRUE(exists("joined/report.html") && exists("joined/junit.xml") && exists("joined/summary.md"));
   EXPECT_FALSE(exists("out/share-1-of-2/junit.xml")) << "a share is not judged";
   // Again, with the shares in another order; the joined store is replaced.
@@ -55,9 +54,8 @@ TEST_F(Merge, ShowsBothValuesOfPointsThatDiffer) {
   copy("out/share-2-of-2", "elsewhere");
   ASSERT_EQ(run({"merge", "joined", "out/share-1-of-2", "out/share-2-of-2"}), 0) << output_;
   set_metrics("elsewhere", {{3, {{"acne", 0.625}}}});
-  ASSERT_EQ(run({"merge", "joined", "out/share-1-of-2", "out/share-2-of-2", "elsewhere"}), 5) << output_;
-  EXPECT_TRUE(says("point 3")) << output_;
-  EXPECT_TRUE(says("acne is 0.625 in elsewhere and ")) << output_;
+  expect_run({"merge", "joined", "out/share-1-of-2", "out/share-2-of-2", "elsewhere"}, 5,
+             {"point 3", "acne is 0.625 in elsewhere and "});
   for (const char* file : {"results.sqlite", "report.html", "junit.xml", "results.csv"})
     EXPECT_FALSE(exists(std::string("joined/") + file)) << file << ": nothing stale stays";
   EXPECT_TRUE(exists("elsewhere/results.sqlite") && exists("out/share-2-of-2/results.sqlite"));
@@ -68,8 +66,7 @@ TEST_F(Merge, NamesTheShareThatContradictsItself) {
   measure("2/2");
   copy("out/share-2-of-2", "elsewhere");
   set_metrics("elsewhere", {{2, {{"residual", 0.5}}}});
-  ASSERT_EQ(run({"merge", "joined", "out/share-2-of-2", "elsewhere"}), 5) << output_;
-  EXPECT_TRUE(says("elsewhere is not sound: residual = 0.5")) << output_;
+  expect_run({"merge", "joined", "out/share-2-of-2", "elsewhere"}, 5, {"elsewhere is not sound: residual = 0.5"});
 }
 
 TEST_F(Merge, TimesMayDiffer) {
@@ -83,9 +80,8 @@ TEST_F(Merge, TimesMayDiffer) {
 
 TEST_F(Merge, NamesWhatIsMissing) {
   measure("2/2");
-  ASSERT_EQ(run({"merge", "joined", "out/share-2-of-2"}), 6) << output_;
-  EXPECT_TRUE(says("missing: 2 points from 0 to 1; measured by: noonmark run ")) << output_;
-  EXPECT_TRUE(says("--shard 1/2 --out out")) << output_;
+  expect_run({"merge", "joined", "out/share-2-of-2"}, 6,
+             {"missing: 2 points from 0 to 1; measured by: noonmark run ", "--shard 1/2 --out out"});
   EXPECT_TRUE(exists("joined/report.html")) << "what is there is shown";
 }
 
@@ -95,22 +91,17 @@ TEST_F(Merge, RefusesStoresThatDoNotBelongTogether) {
           one_point + "[sweep]\nmap.resolution = [64, 128]\nbias.constant = [0.001, 0.003]\n" + held_bound);
   measure("2/2", "bounds", two_maps + "[[bound]]\nmetric = \"acne\"\nmax = 1\n");
   const auto refused = [&](const std::vector<std::string>& shares, const std::string& words) {
-    std::vector<std::string> command = {"merge", "joined"};
-    command.insert(command.end(), shares.begin(), shares.end());
-    EXPECT_EQ(run(command), 2) << output_;
-    EXPECT_TRUE(says(words)) << output_;
+    expect_run(Words{"merge", "joined"} + shares, 2, {words});
     EXPECT_FALSE(exists("joined/results.sqlite"));
   };
   refused({"out/share-1-of-2", "others/share-2-of-2"},
           "out/share-1-of-2 and others/share-2-of-2 do not belong together");
   refused({"out/share-1-of-2", "bounds/share-2-of-2"}, "their bounds, laws, title or options are not the same");
   refused({"out/share-1-of-2", "nowhere"}, "nowhere: there are no results here");
-  EXPECT_EQ(run({"merge", "out/share-1-of-2", "out/share-1-of-2"}), 2) << output_;
-  EXPECT_TRUE(says("is one of the shares")) << output_;
+  expect_run({"merge", "out/share-1-of-2", "out/share-1-of-2"}, 2, {"is one of the shares"});
   EXPECT_TRUE(exists("out/share-1-of-2/results.sqlite"));
   ASSERT_EQ(run({"run", write("maps.toml", two_maps), "--out", "whole"}), 0) << output_;
-  EXPECT_EQ(run({"merge", "whole", "out/share-1-of-2"}), 2) << output_;
-  EXPECT_TRUE(says("holds results that were measured there")) << output_;
+  expect_run({"merge", "whole", "out/share-1-of-2"}, 2, {"holds results that were measured there"});
   EXPECT_EQ(run({"merge", "whole", "out/share-1-of-2", "--overwrite"}), 6) << output_;
 }
 
@@ -169,8 +160,7 @@ TEST_F(Merge, OfOtherContentsOfAScene) {
   ASSERT_EQ(run({"run", "x/a.toml", "--out", "out", "--shard", "1/2"}), 0) << output_;
   model(0.5f);
   ASSERT_EQ(run({"run", "x/a.toml", "--out", "out", "--shard", "2/2"}), 0) << output_;
-  EXPECT_EQ(run({"merge", "joined", "out/share-1-of-2", "out/share-2-of-2"}), 2) << output_;
-  EXPECT_TRUE(says("the contents of the scene shared.gltf")) << output_;
+  expect_run({"merge", "joined", "out/share-1-of-2", "out/share-2-of-2"}, 2, {"the contents of the scene shared.gltf"});
   // Named by an absolute path, the experiment belongs to one host; the joined store does not hold that path.
   const std::string here = (folder_ / "x/a.toml").string();
   for (const char* shard : {"1/2", "2/2"})
@@ -181,9 +171,7 @@ TEST_F(Merge, OfOtherContentsOfAScene) {
 
 TEST_F(Merge, ASlurmTaskIsAShare) {
   const auto as_task = [&](const char* id, const std::vector<std::string>& more, const std::string& out) {
-    std::vector<std::string> command = {"run", write("maps.toml", two_maps), "--out", out};
-    command.insert(command.end(), more.begin(), more.end());
-    return run(command, [&] {
+    return run(Words{"run", write("maps.toml", two_maps), "--out", out} + more, [&] {
       setenv("SLURM_ARRAY_TASK_ID", id, 1);
       setenv("SLURM_ARRAY_TASK_MIN", "10", 1);
       setenv("SLURM_ARRAY_TASK_MAX", "11", 1);
@@ -199,16 +187,12 @@ TEST_F(Merge, ASlurmTaskIsAShare) {
 TEST_F(Merge, WhatAShareCannotDoIsSaid) {
   const std::string file = write("maps.toml", two_maps);
   EXPECT_EQ(run({"run", file, "--out", "out", "--shard", "3/2"}), 2) << output_;
-  EXPECT_EQ(run({"check", file, "--out", "out", "--shard", "1/2", "--baseline", "b.json"}), 2) << output_;
-  EXPECT_TRUE(says("merge the shares")) << output_;
-  EXPECT_EQ(run({"run", file, "--out", "out", "--shard", "3/3"}), 0) << output_;
-  EXPECT_TRUE(says("share 3/3 has no points")) << output_;
+  expect_run({"check", file, "--out", "out", "--shard", "1/2", "--baseline", "b.json"}, 2, {"merge the shares"});
+  expect_run({"run", file, "--out", "out", "--shard", "3/3"}, 0, {"share 3/3 has no points"});
   EXPECT_FALSE(exists("out"));
-  ASSERT_EQ(run({"run", file, "--dry-run", "--shard", "2/3"}), 0) << output_;
-  EXPECT_TRUE(says("share 1/3: 2 points from 0 to 1 in 1 group")) << output_;
-  EXPECT_TRUE(says("share 3/3: no points")) << output_;
-  EXPECT_EQ(run({"check", file, "--out", "out", "--shard", "1/2"}), 0) << output_;
-  EXPECT_TRUE(says("not judged: noonmark merge does that")) << output_;
+  expect_run({"run", file, "--dry-run", "--shard", "2/3"}, 0,
+             {"share 1/3: 2 points from 0 to 1 in 1 group", "share 3/3: no points"});
+  expect_run({"check", file, "--out", "out", "--shard", "1/2"}, 0, {"not judged: noonmark merge does that"});
 }
 
 }  // namespace

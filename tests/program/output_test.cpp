@@ -1,6 +1,5 @@
 // What run and check print for programs and people: --json, --quiet, --print-config, schema; standard output and standard
 // error.
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -109,7 +108,6 @@ TEST_F(Output, ProgressCoversTheWholeRun) {
 TEST_F(Output, MapInspectAndRecommendHaveJsonAndQuiet) {
   write("square.gltf", test::square().dump());
   const std::vector<std::string> size = {"--set", "view.width_px=48", "--set", "view.height_px=27"};
-  using Words = std::vector<std::string>;
   for (const auto& [words, begins, keys] : std::vector<std::tuple<Words, std::string, Words>>{
            {{"map", "cube-room", "--from", "64", "--to", "128", "--rows", "2", "--placements", "2"},
             "the phase diagram of cube-room (",

@@ -7,8 +7,6 @@
 namespace noonmark::acceptance {
 namespace {
 
-using Words = std::vector<std::string>;
-
 // A triangle; its 36 bytes stand in the file.
 const std::string triangle = R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],

@@ -36,16 +36,15 @@ TEST_F(OwnFolder, FilesOfOneNameHaveFoldersOfTheirOwn) {
   std::vector<std::map<std::string, std::string>> made;
   for (const auto& [file, out] : experiments) {
     write_in(file, made.size() % 2 ? wall : plate);
-    EXPECT_EQ(run({"check", file}), 0) << output_;
-    EXPECT_TRUE(says(std::string("the report is ") + out + "/report.html")) << output_;
+    expect_run({"check", file}, 0, {std::string("the report is ") + out + "/report.html"});
     made.push_back(contents(out));
     EXPECT_GE(made.back().size(), 5u) << out;
   }
   for (size_t i = 0; i < made.size(); ++i)
     EXPECT_EQ(contents(experiments[i].second), made[i]) << "another run has changed " << experiments[i].second;
   // The same from another folder, and by another path.
-  EXPECT_EQ(run({"check", (folder_ / "a/x.toml").string(), "--quiet"}), 0) << output_;
-  EXPECT_TRUE(says("0 points measured, 1 kept; the report is out/a/x/report.html")) << output_;
+  expect_run({"check", (folder_ / "a/x.toml").string(), "--quiet"}, 0,
+             {"0 points measured, 1 kept; the report is out/a/x/report.html"});
   // A folder of experiments has the folders that each file has alone, and its own index.
   EXPECT_EQ(run({"check", "a", "--quiet"}), 0) << output_;
   EXPECT_TRUE(says("0 points measured, 1 kept; the report is out/a/x/report.html") && there("out/a/index.html"))
@@ -60,9 +59,7 @@ TEST_F(OwnFolder, ResultsOfAnotherExperimentAreNotTouched) {
   const auto before = contents("out");
   const auto untouched = [&](const std::vector<std::string>& words, int code, const std::string& why) {
     SCOPED_TRACE(why);
-    std::vector<std::string> command = words;
-    command.insert(command.end(), {"--out", "out"});
-    EXPECT_EQ(run(command), code) << output_;
+    EXPECT_EQ(run(words + Words{"--out", "out"}), code) << output_;
     EXPECT_TRUE(says(why)) << output_;
     EXPECT_EQ(contents("out"), before);
   };
@@ -80,8 +77,7 @@ TEST_F(OwnFolder, ResultsOfAnotherExperimentAreNotTouched) {
   write("unbound.toml", "scene = \"wall\"\n" + small_view);
   untouched({"check", "unbound.toml"}, 2, "nothing to check");
   // Asked for, they are replaced.
-  EXPECT_EQ(run({"check", "y.toml", "--out", "out", "--overwrite"}), 0) << output_;
-  EXPECT_TRUE(says("1 point measured; the report")) << output_;
+  expect_run({"check", "y.toml", "--out", "out", "--overwrite"}, 0, {"1 point measured; the report"});
   EXPECT_NE(contents("out"), before);
 }
 
@@ -90,13 +86,11 @@ TEST_F(OwnFolder, AFileWithACommonPointContinuesTheResults) {
   write("x.toml", plate);
   ASSERT_EQ(run({"check", "x.toml", "--out", "out"}), 0) << output_;
   write("copy.toml", one_point + held_bound + "[sweep]\nmap.resolution = [1024, 64]\n");
-  EXPECT_EQ(run({"check", "copy.toml", "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("1 point measured, 1 kept; the report")) << output_;
+  expect_run({"check", "copy.toml", "--out", "out"}, 0, {"1 point measured, 1 kept; the report"});
   EXPECT_NE(text("out/junit.xml").find("copy.toml"), std::string::npos);
   // Now the results are the copy's.
   write("x.toml", one_point + held_bound + "[map]\nresolution = 32\n");
-  EXPECT_EQ(run({"check", "x.toml", "--out", "out"}), 2) << output_;
-  EXPECT_TRUE(says("holds the results of another experiment (copy.toml)")) << output_;
+  expect_run({"check", "x.toml", "--out", "out"}, 2, {"holds the results of another experiment (copy.toml)"});
 }
 
 TEST_F(OwnFolder, ResultsThatMoveWithTheirExperimentStayItsOwn) {
@@ -105,8 +99,7 @@ TEST_F(OwnFolder, ResultsThatMoveWithTheirExperimentStayItsOwn) {
   ASSERT_EQ(run({"check", "here/x.toml", "--out", "here/out"}), 0) << output_;
   fs::rename(folder_ / "here", folder_ / "there");
   write("there/x.toml", one_point + held_bound + "[map]\nresolution = 32\n");
-  EXPECT_EQ(run({"check", "there/x.toml", "--out", "there/out"}), 0) << output_;
-  EXPECT_TRUE(says("1 point that this experiment does not have stays")) << output_;
+  expect_run({"check", "there/x.toml", "--out", "there/out"}, 0, {"1 point that this experiment does not have stays"});
   write("there/x.toml", "scene = \n");
   EXPECT_EQ(run({"check", "there/x.toml", "--out", "there/out"}), 2) << output_;
   EXPECT_NE(text("there/out/summary.md").find("Not judged"), std::string::npos) << "its earlier verdict is stale";
@@ -118,8 +111,7 @@ TEST_F(OwnFolder, JoinedResultsOfAnotherExperimentAreNotTouched) {
   for (const char* name : {"x", "y"}) ASSERT_EQ(run({"run", std::string(name) + ".toml", "--out", name}), 0) << output_;
   ASSERT_EQ(run({"merge", "joined", "x"}), 0) << output_;
   const auto before = contents("joined");
-  EXPECT_EQ(run({"merge", "joined", "y"}), 2) << output_;
-  EXPECT_TRUE(says("joined: holds the joined results of another experiment (x.toml)")) << output_;
+  expect_run({"merge", "joined", "y"}, 2, {"joined: holds the joined results of another experiment (x.toml)"});
   EXPECT_EQ(contents("joined"), before);
   // The joined results are those of the experiment's file.
   write("x.toml", one_point + held_bound + "[map]\nresolution = 32\n");

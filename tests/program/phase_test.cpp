@@ -3,7 +3,6 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "compare/store/store.h"
 #include "tests/program/fixture.h"
@@ -94,9 +93,7 @@ TEST_F(Phase, AKillLosesAndDoublesNoDiagram) {
   std::string other = swept_phase;
   other.replace(other.find("texel_sizes = 3"), 15, "texel_sizes = 4");
   write("x.toml", other);
-  ASSERT_EQ(run({"run", "x.toml", "--out", "whole"}), 0) << output_;
-  EXPECT_TRUE(says("16 of 16 points are in whole already")) << output_;
-  EXPECT_TRUE(says("the phase diagram")) << output_;
+  expect_run({"run", "x.toml", "--out", "whole"}, 0, {"16 of 16 points are in whole already", "the phase diagram"});
   EXPECT_EQ(phases("whole").at(0).rows.size(), 4u);
   write("x.toml", other + "[phase]\nenabled = false\n");
   EXPECT_EQ(run({"run", "x.toml", "--out", "whole"}), 2) << "a table that stands twice";
@@ -143,8 +140,7 @@ bias.slope = [0.01, 0]
 name = "quiet"
 phase.enabled = false
 )");
-  ASSERT_EQ(run({"run", "x.toml", "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("5 points measured")) << output_;
+  expect_run({"run", "x.toml", "--out", "out"}, 0, {"5 points measured"});
   const std::vector<PhaseDiagram> all = phases("out");
   ASSERT_EQ(all.size(), 3u);
   EXPECT_NE(all[0].refused.find("a point light's cube"), std::string::npos) << all[0].refused;
@@ -156,8 +152,7 @@ phase.enabled = false
   const std::string page = report("out");
   EXPECT_NE(page.find("There is no phase diagram: a phase diagram needs a map"), std::string::npos);
   EXPECT_NE(page.find("id=\"chart-phase\""), std::string::npos);
-  ASSERT_EQ(run({"run", "x.toml", "--out", "out", "--dry-run"}), 0) << output_;
-  EXPECT_TRUE(says("the phase diagram of part 'wall': 2 texel sizes")) << output_;
+  expect_run({"run", "x.toml", "--out", "out", "--dry-run"}, 0, {"the phase diagram of part 'wall': 2 texel sizes"});
 }
 
 }  // namespace

@@ -137,8 +137,7 @@ TEST_F(Rejudge, PointsThatAreGoneAreKeptForLater) {
   EXPECT_TRUE(says("4 points that this experiment does not have stay in the store")) << output_;
   EXPECT_EQ(load("out").points.size(), 2u);
   expect_as_new(cubes("[64]"), "out");
-  ASSERT_EQ(run({"report", "out"}), 0) << output_;
-  EXPECT_TRUE(says("2 of 2 points")) << output_;
+  expect_run({"report", "out"}, 0, {"2 of 2 points"});
   check(cubes("[128, 64, 32]"), "out", 0, 6);
   expect_as_new(cubes("[128, 64, 32]"), "out");
 }
@@ -163,8 +162,7 @@ TEST_F(Rejudge, AChangedSettingIsASetOfNewPoints) {
   for (const char* other : {"scene.name=plane", "view.width_px=63", "light.elevation_deg=40", "filter.kind=box"}) {
     SCOPED_TRACE(other);
     write("x.toml", one_point + held_bound);
-    EXPECT_EQ(run({"check", "x.toml", "--out", "set", "--set", other}), 0) << output_;
-    EXPECT_TRUE(says("; 1 point measured; the report is")) << output_;
+    expect_run({"check", "x.toml", "--out", "set", "--set", other}, 0, {"; 1 point measured; the report is"});
   }
 }
 
@@ -212,10 +210,8 @@ TEST_F(Rejudge, ADeadSweepIsNamed) {
       "warning: the sweep of filter.size is dead: no point reads it (with filter.kind = none), so its 2 "
       "values measure the same";
   for (const char* verb : {"run", "check"}) {
-    EXPECT_EQ(run({verb, "x.toml", "--dry-run"}), 0) << output_;
-    EXPECT_TRUE(says(dead)) << output_;
-    EXPECT_EQ(run({verb, "x.toml", "--out", "out"}), 0) << output_;
-    EXPECT_TRUE(says(dead)) << output_;
+    expect_run({verb, "x.toml", "--dry-run"}, 0, {dead});
+    expect_run({verb, "x.toml", "--out", "out"}, 0, {dead});
     EXPECT_FALSE(says("map.resolution is dead")) << output_;
   }
   for (const char* file : {"out/report.html", "out/summary.md"})

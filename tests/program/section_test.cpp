@@ -11,9 +11,7 @@ namespace {
 class SectionVerb : public Program {
  protected:
   int section(const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"section", "--set", "view.width_px=96", "--set", "view.height_px=54"};
-    words.insert(words.end(), more.begin(), more.end());
-    return run(words);
+    return run(Words{"section", "--set", "view.width_px=96", "--set", "view.height_px=54"} + more);
   }
 };
 

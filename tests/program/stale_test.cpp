@@ -59,10 +59,9 @@ TEST_F(Stale, AnEditedSpotConeIsAnotherScene) {
   const PhaseDiagram whole = diagram("out");
   ASSERT_EQ(whole.refused, "");
   write("floor.gltf", lit_floor("0.3"));
-  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("floor.gltf have changed since its points were stored, so they are measured again") &&
-              says("1 point measured; the report") && says("1 point that this experiment does not have stays"))
-      << output_;
+  expect_run({"run", experiment, "--out", "out"}, 0,
+             {"floor.gltf have changed since its points were stored, so they are measured again",
+              "1 point measured; the report", "1 point that this experiment does not have stays"});
   const std::string edited = without_times(folder_ / "out/results.csv");
   EXPECT_NE(edited, csv);
   ASSERT_EQ(run({"run", experiment, "--out", "new"}), 0) << output_;
@@ -72,8 +71,7 @@ TEST_F(Stale, AnEditedSpotConeIsAnotherScene) {
   EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
   EXPECT_TRUE(says("1 of 1 point is in out already") && !says("have changed")) << output_;
   write("floor.gltf", lit_floor("0.6"));  // back
-  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("1 of 1 point is in out already") && says("0 points measured, 1 kept")) << output_;
+  expect_run({"run", experiment, "--out", "out"}, 0, {"1 of 1 point is in out already", "0 points measured, 1 kept"});
   EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
 }
 
@@ -148,8 +146,7 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
            {{"chek", experiment, "--out", "out"}, "chek"}}) {
     SCOPED_TRACE(why);
     held("out");
-    EXPECT_EQ(run(words), 2) << output_;
-    EXPECT_TRUE(says(why)) << output_;
+    expect_run(words, 2, {why});
     not_judged("out", why);
     EXPECT_FALSE(there("other")) << "a wrong command line must not make a folder";
   }
@@ -187,9 +184,8 @@ TEST_F(Stale, AReportStaysBesideTheResultsThatItShows) {
   const std::string csv = text("out/results.csv"), report = text("out/report.html");
   const auto unchanged = [&] { return text("out/results.csv") == csv && text("out/report.html") == report; };
   of_another_program(true);
-  EXPECT_EQ(run({"run", experiment, "--out", "out", "--set", "map.resolution=64"}), 2);
-  EXPECT_TRUE(says("measured by another program or on another machine (now 'program") && says("--overwrite"))
-      << output_;
+  expect_run({"run", experiment, "--out", "out", "--set", "map.resolution=64"}, 2,
+             {"measured by another program or on another machine (now 'program", "--overwrite"});
   EXPECT_TRUE(unchanged());
   EXPECT_EQ(run({"run", "absent.toml", "--out", "out"}), 2);
   EXPECT_TRUE(unchanged());
@@ -272,8 +268,7 @@ TEST_F(Stale, AFolderThatIsRenamedDuringACheckIsSaid) {
     // The folder back in its place, the run continues.
     fs::remove_all(folder_ / "out");
     fs::rename(folder_ / "moved", folder_ / "out");
-    EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
-    EXPECT_TRUE(says(" points are in out already")) << output_;
+    expect_run({"check", experiment, "--out", "out"}, 0, {" points are in out already"});
     fs::remove_all(folder_ / "out");
   }
 }
@@ -290,14 +285,11 @@ TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
         "DELETE FROM metrics WHERE point = 1 AND name = 'error'", "INSERT INTO metrics VALUES (7, 'residual', 3)"}) {
     SCOPED_TRACE(sql);
     edit(sql);
-    EXPECT_EQ(run({"report", "out"}), 3) << output_;
-    EXPECT_TRUE(says("are not those that were stored")) << output_;
-    EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
-    EXPECT_TRUE(says(std::string(sql).find("VALUES (7") != std::string::npos
-                         ? "point 7, which this experiment does not "
-                           "have; they are dropped"
-                         : "it is measured anew"))
-        << output_;
+    expect_run({"report", "out"}, 3, {"are not those that were stored"});
+    expect_run({"check", experiment, "--out", "out"}, 0,
+               {std::string(sql).find("VALUES (7") != std::string::npos ? "point 7, which this experiment does not "
+                                                                          "have; they are dropped"
+                                                                        : "it is measured anew"});
     EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
   }
 }
@@ -314,8 +306,7 @@ TEST_F(Stale, AStoredPointThatLacksNumbersIsMeasuredAnew) {
       db.execute(std::string("DELETE FROM metrics WHERE point = 1 AND name = '") + lost + "'");
       seal_point(db, 1);
     }
-    EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
-    EXPECT_TRUE(says("it is measured anew")) << output_;
+    expect_run({"check", experiment, "--out", "out"}, 0, {"it is measured anew"});
     EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
   }
 }
@@ -328,8 +319,7 @@ TEST_F(Stale, ResultsOfAnotherProgramDriverOrMachineAreNotGoneOnWith) {
     sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing)
         .execute("UPDATE info SET value = replace(value, '" + line + "', '" + line +
                  "other ') WHERE key = 'fingerprint'");
-    EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2) << output_;
-    EXPECT_TRUE(says("now '" + line) && says("there '" + line + "other ")) << output_;
+    expect_run({"run", experiment, "--out", "out"}, 2, {"now '" + line, "there '" + line + "other "});
     sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing)
         .execute("UPDATE info SET value = replace(value, 'other ', '') WHERE key = 'fingerprint'");
   }
@@ -382,9 +372,8 @@ TEST_F(Stale, PicturesThatAreLostOrAnothersAreMadeAgain) {
       const std::string bytes = text(first + file);
       fs::remove(folder_ / (first + file));
       if (damage == "edited") write(first + file, bytes + " ");
-      EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
-      EXPECT_TRUE(says("pictures of point ") && says("made again") && says("2 of 2 points are in out already"))
-          << output_;
+      expect_run({"run", experiment, "--out", "out"}, 0,
+                 {"pictures of point ", "made again", "2 of 2 points are in out already"});
       ASSERT_TRUE(there(first + file));
       EXPECT_TRUE(text(first + file) == bytes);
     }

@@ -70,8 +70,7 @@ class TimesOfASweep : public Program {
 
 TEST_F(TimesOfASweep, AreIntervalsAndTheReportSaysSo) {
   write("x.toml", timed_sweep);
-  ASSERT_EQ(run({"run", "x.toml", "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("times of map and lookup: round 9 of 9")) << output_;
+  expect_run({"run", "x.toml", "--out", "out"}, 0, {"times of map and lookup: round 9 of 9"});
   expect_times("out");
   const std::string report = text("out/report.html");
   for (const char* words : {"A time is a median", "CPU time of the process"})
@@ -88,9 +87,8 @@ TEST_F(TimesOfASweep, AreAllThereOrNoneAfterAKill) {
   const pid_t child = start_until("round 3 of 9", {"run", "x.toml", "--out", "out"});
   kill(child, SIGKILL);
   ASSERT_EQ(wait_for(child), -SIGKILL) << "the run ended before it was killed";
-  ASSERT_EQ(run({"run", "x.toml", "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("4 of 4 points are in out already")) << output_;
-  EXPECT_TRUE(says("times of map and lookup: round 1 of 9")) << output_;
+  expect_run({"run", "x.toml", "--out", "out"}, 0,
+             {"4 of 4 points are in out already", "times of map and lookup: round 1 of 9"});
   expect_times("out");
 }
 

@@ -10,8 +10,6 @@
 namespace noonmark::acceptance {
 namespace {
 
-using Words = std::vector<std::string>;
-
 const Words small = {"--set", "view.width_px=48", "--set", "view.height_px=27"};
 // A search of one map. In so small a picture a pixel is a large patch, and edges lie within few of them.
 const Words quick = {"--views", "1",     "--edges",           "100",   "--patch",         "100%",
@@ -74,8 +72,7 @@ TEST_F(UsersFiles, AreRefusedBeforeAnythingIsTouched) {
       put("mine/notes.txt");
       put("mine/" + name);
       const auto before = contents("mine");
-      EXPECT_EQ(run(words[0] == "merge" ? words : words + Words{"--out", "mine"}), 2) << output_;
-      EXPECT_TRUE(says("it may be yours")) << output_;
+      expect_run(words[0] == "merge" ? words : words + Words{"--out", "mine"}, 2, {"it may be yours"});
       EXPECT_EQ(contents("mine"), before);
       // A wrong command line removes the files of an earlier run too.
       EXPECT_EQ(run(words + Words{"--out", "mine", "--foo"}), 2) << output_;
@@ -92,8 +89,7 @@ TEST_F(UsersFiles, ThatANewFileWouldReplaceStay) {
     SCOPED_TRACE(words[0]);
     const std::string file = words.back();
     write(file, "mine");
-    EXPECT_EQ(run(words), 2) << output_;
-    EXPECT_TRUE(says("is there already")) << output_;
+    expect_run(words, 2, {"is there already"});
     EXPECT_EQ(text(file), "mine");
     Words below = words;
     below.back() = file + "/" + file;
@@ -133,8 +129,7 @@ TEST_F(UsersFiles, AFolderOfAListedNameIsRefusedBeforeAnythingIsTouched) {
   fs::remove(folder_ / "out/recommended.txt");
   put("out/recommended.txt/notes");
   const auto before = contents("out");
-  EXPECT_EQ(run(words), 2) << output_;
-  EXPECT_TRUE(says("recommended.txt")) << output_;
+  expect_run(words, 2, {"recommended.txt"});
   EXPECT_EQ(contents("out"), before);
 }
 
@@ -161,8 +156,7 @@ TEST_F(UsersFiles, AreNotRemovedForAForgedList) {
   // A file of that name that is no list.
   write("out/.noonmark-files", "mine");
   const auto before = contents("out");
-  EXPECT_EQ(run(words), 2) << output_;
-  EXPECT_TRUE(says("is not a list that Noonmark wrote")) << output_;
+  expect_run(words, 2, {"is not a list that Noonmark wrote"});
   EXPECT_EQ(contents("out"), before);
 }
 
@@ -173,8 +167,7 @@ TEST_F(UsersFiles, OneFolderHasOneWriter) {
   kill(first, SIGSTOP);  // otherwise it might end before the second begins
   for (const Words& second : {words, Words{"render", "x.toml", "--out", "out"}, Words{"run", "x.toml", "--out", "out"},
                               Words{"merge", "out", "x"}}) {
-    EXPECT_EQ(run(second), 2) << output_;
-    EXPECT_TRUE(says("another run is writing into out")) << output_;
+    expect_run(second, 2, {"another run is writing into out"});
   }
   kill(first, SIGKILL);
   EXPECT_EQ(wait_for(first), -SIGKILL) << "it ended before it was killed";

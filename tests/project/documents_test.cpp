@@ -165,42 +165,6 @@ TEST(Documents, EveryDocumentThatIsCitedIsThere) {
       }
 }
 
-// A merge of two branches can leave a whole section of a document twice.
-TEST(Documents, NoParagraphStandsTwice) {
-  size_t paragraphs = 0;
-  for (const fs::path& file : documents()) {
-    std::set<std::string> known;
-    std::istringstream lines(text_of(file));
-    std::string paragraph;
-    const auto end = [&] {
-      constexpr size_t shortest = 150;  // what is shorter may be the same by chance: a heading, a caption
-      if (paragraph.size() >= shortest) {
-        ++paragraphs;
-        EXPECT_TRUE(known.insert(paragraph).second)
-            << fs::relative(file, root).string() << " has twice: " << paragraph.substr(0, 100);
-      }
-      paragraph.clear();
-    };
-    for (std::string line; std::getline(lines, line);) {
-      if (line.empty()) end();
-      paragraph += line;
-    }
-    end();
-  }
-  EXPECT_GT(paragraphs, 100u);
-}
-
-// The next commit can make such a number wrong, so the text must name a command that counts.
-TEST(Documents, NoCountThatChangesIsWrittenByHand) {
-  const std::regex count("\\b[0-9]+( [a-z]+)? (mutants|breakages|patches|tests|defects)\\b");
-  for (const fs::path& file : documents()) {
-    std::istringstream lines(text_of(file));
-    for (std::string line; std::getline(lines, line);) {
-      EXPECT_FALSE(std::regex_search(line, count)) << fs::relative(file, root).string() << ": " << line;
-    }
-  }
-}
-
 // A heading without its links and marks: "[R0](#r0) and `x`" is "R0 and x".
 std::string plain(const std::string& heading) {
   const std::string linked = std::regex_replace(heading, std::regex("\\[([^\\]]*)\\]\\([^)]*\\)"), "$1");

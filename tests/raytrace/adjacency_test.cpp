@@ -8,25 +8,12 @@
 #include <cmath>
 #include <set>
 
-#include "scenes/library.h"
-#include "scenes/shapes.h"
-
 namespace noonmark {
 namespace {
 
 std::multiset<uint32_t> neighbours(const Adjacency& adjacency, uint32_t triangle, int edge) {
   const auto span = adjacency.across(triangle, edge);
   return {span.begin(), span.end()};
-}
-
-TEST(Adjacency, TwoTrianglesMeetAtTheirDiagonalOnly) {
-  Scene scene;
-  add_quad(scene, "quad", {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  const Adjacency adjacency(scene);
-  EXPECT_EQ(neighbours(adjacency, 0, 0).size(), 0u);
-  EXPECT_EQ(neighbours(adjacency, 0, 1).size(), 0u);
-  EXPECT_EQ(neighbours(adjacency, 0, 2), std::multiset<uint32_t>{1});
-  EXPECT_EQ(neighbours(adjacency, 1, 0), std::multiset<uint32_t>{0});
 }
 
 TEST(Adjacency, WeldsByExactPositionWhateverTheIndex) {
@@ -41,18 +28,6 @@ TEST(Adjacency, WeldsByExactPositionWhateverTheIndex) {
   EXPECT_EQ(adjacency.welded(0)[0], adjacency.welded(1)[1]);
   EXPECT_EQ(adjacency.welded(0)[1], adjacency.welded(1)[0]);
   EXPECT_NE(adjacency.welded(0)[1], adjacency.welded(2)[0]);
-}
-
-TEST(Adjacency, ClosedSolidsHaveOneNeighbourAcrossEveryEdge) {
-  for (const char* name : {"sphere", "cube-room"}) {
-    const Scene scene = make_scene({.name = name});
-    const Adjacency adjacency(scene);
-    for (const Part& part : scene.parts) {
-      if (part.name == "floor") continue;
-      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
-        for (int e = 0; e < 3; ++e) ASSERT_EQ(adjacency.across(t, e).size(), 1u) << name << ' ' << t << ' ' << e;
-    }
-  }
 }
 
 Scene fan(uint32_t count) {
@@ -83,15 +58,6 @@ TEST(Adjacency, NonManifoldEdgesJoinAllUpToTheFanLimit) {
 // test's time.
 TEST(Adjacency, AFileThatPutsEveryTriangleAtOneEdgeIsNoTrap) {
   EXPECT_EQ(Adjacency(fan(400000)).across(7, 0).size(), 0u);
-}
-
-TEST(Adjacency, DegenerateTrianglesAreNotTheirOwnNeighbours) {
-  Scene scene;
-  scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  scene.triangles = {{0, 1, 1}, {0, 0, 0}, {0, 1, 2}, {0, 1, 0}};
-  const Adjacency adjacency(scene);
-  for (uint32_t t = 0; t < 4; ++t)
-    for (int e = 0; e < 3; ++e) EXPECT_FALSE(neighbours(adjacency, t, e).contains(t)) << t << ' ' << e;
 }
 
 TEST(Adjacency, AnEmptySceneHasNone) { EXPECT_NO_THROW(Adjacency{Scene()}); }
@@ -134,24 +100,6 @@ RC_GTEST_PROP(Adjacency, AgreesWithBruteForceInAnyOrder, ()) {
         }
       }
       RC_ASSERT(neighbours(adjacency, t, e) == expected);
-    }
-  }
-}
-
-TEST(Adjacency, DoesNotDependOnTheOrderOfTrianglesOrVertices) {
-  const Scene scene = make_scene({.name = "cube-room"});
-  Scene turned = scene;
-  const uint32_t count = static_cast<uint32_t>(scene.triangles.size()),
-                 vertices = static_cast<uint32_t>(scene.positions.size());
-  std::reverse(turned.positions.begin(), turned.positions.end());
-  std::reverse(turned.triangles.begin(), turned.triangles.end());
-  for (glm::uvec3& t : turned.triangles) t = glm::uvec3(vertices - 1) - t;
-  const Adjacency first(scene), second(turned);
-  for (uint32_t t = 0; t < count; ++t) {
-    for (int e = 0; e < 3; ++e) {
-      std::multiset<uint32_t> back;
-      for (uint32_t n : second.across(count - 1 - t, e)) back.insert(count - 1 - n);
-      EXPECT_EQ(neighbours(first, t, e), back);
     }
   }
 }

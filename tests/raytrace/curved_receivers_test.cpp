@@ -73,22 +73,6 @@ TEST(HeightField, UnderALightFromAboveShowsAcneOnly) {
   }
 }
 
-// Seen along its axis a torus shows its upper half. No part of that half hides another, because the cross section is
-// convex. The inner and the outer rim are folds with nothing beyond them. This must hold however the scene is turned.
-TEST(Torus, SeenOnItsAxisShowsAcneOnly) {
-  uint32_t seed = 100;
-  for (const auto& [columns, rows] : {std::pair(8, 6), std::pair(17, 8), std::pair(96, 48)}) {
-    for (double angle : {0.0, 0.7, 2.1}) {
-      SCOPED_TRACE(testing::Message() << columns << " x " << rows << " turned by " << angle);
-      Scene scene;
-      add_torus(scene, columns, rows, 1, 0.4);
-      test::light_from_above(scene);
-      turn(scene, glm::dmat3(glm::rotate(glm::dmat4(1), angle, glm::normalize(glm::dvec3(1, 0.3, 0.5)))));
-      expect_acne_only(scene, seed++, {.has_folds = true});
-    }
-  }
-}
-
 // A convex solid hides nothing that faces the light, wherever the light comes from.
 TEST(Sphere, AloneShowsAcneOnly) {
   uint32_t seed = 200;
@@ -160,24 +144,6 @@ TEST(Torus, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
       EXPECT_GT(coarse[c], 0.5 * shares.back()[c]) << c;
       EXPECT_LT(coarse[c], 2 * shares.back()[c]) << c;
     }
-}
-
-// Height fields under an oblique light shade themselves.
-TEST(HeightField, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
-  uint32_t seed = 500;
-  for (int cells : {8, 40}) {
-    Scene scene;
-    add_height_field(scene, cells, [](double x, double z) { return 0.3 * std::sin(7 * x + 1) * std::cos(6 * z); });
-    scene.light = {.position_m = {-5, 2.5, 1}, .target_m = {0, 0, 0}};
-    uint64_t differ = 0, dark = 0;
-    on_many_grids(scene, seed++, 4000, [&](const Judged& j) {
-      expect_aliasing_at_true_edges(j, TrueEdges(scene, j.frame));
-      const Tally sum = tally(j);
-      differ += sum.differ, dark += sum.dark;
-    });
-    EXPECT_GT(dark, 2000u);
-    EXPECT_GT(differ, 200u);
-  }
 }
 
 // A sphere with a radius of 1 m on a floor: touching it in one point, sunk a little, floating, and sunk so deep that

@@ -3,10 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <array>
-#include <numbers>
-#include <string_view>
-
 #include "raytrace/light_cells.h"
 #include "tests/raytrace/cells_support.h"
 #include "tests/raytrace/thin_shapes.h"

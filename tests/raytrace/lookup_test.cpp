@@ -1,7 +1,6 @@
 // V(P, x) at the taps of lookups. The same surface has the same causes, however it is meshed, and there is aliasing
 // only where there is a shadow edge.
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "scenes/gltf/gltf.h"
 #include "tests/raytrace/fixture.h"
@@ -367,19 +366,6 @@ TEST(Lookup, TapsAreInTheShadersOrder) {
     EXPECT_EQ(looked.exact_lit(0, tap), lit) << tap;
     EXPECT_EQ(looked.texel_lit(0, tap), lit) << tap;
   }
-}
-
-TEST(Lookup, DoesNotDependOnTheNumberOfThreads) {
-  const auto with_threads = [](size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return look_up(builtin("cube-room"), 200, 3, 20000);
-  };
-  const Looked one = with_threads(1), two = with_threads(2);
-  EXPECT_EQ(one.lookup.taps.taps, two.lookup.taps.taps);
-  EXPECT_EQ(one.lookup.exact_map.depth, two.lookup.exact_map.depth);
-  EXPECT_EQ(one.lookup.edge_distance_texels.pixels, two.lookup.edge_distance_texels.pixels);
-  EXPECT_EQ(one.lookup.tap_stage.rays, two.lookup.tap_stage.rays);
-  EXPECT_EQ(one.lookup.texel_stage.rays, two.lookup.texel_stage.rays);
 }
 
 }  // namespace

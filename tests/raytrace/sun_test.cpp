@@ -1,6 +1,5 @@
 // R0: the sun's disc behind straight edges, against the area of a disc's segment.
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <numbers>
 
@@ -140,22 +139,6 @@ TEST(Sun, TendsToR1AsItShrinks) {
   int different = 0;
   for (size_t i = 0; i < truth.soft.size(); ++i) different += truth.soft[i] != truth.lit[i];
   EXPECT_LE(different, 1);  // penumbrae some micrometres wide
-}
-
-TEST(Sun, SamplesAreTheSameInEveryRunAndWithEveryNumberOfThreads) {
-  const Scene scene = half_plane();
-  const LightFrame frame = frame_of(scene);
-  const ReceiverImage receivers = on_floor(scene, frame.direction_to_light(), 3000, 6);
-  const Tracer tracer(scene), again(scene);
-  const auto soft = [&](const Tracer& t, size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    StageTime hard, time;
-    auto image = t.receiver_truth(receivers, frame, sun(5, 0.02), &hard, &time).soft;
-    return std::pair(image.pixels, time.rays);
-  };
-  const auto first = soft(tracer, 1);
-  EXPECT_EQ(first, soft(tracer, 2));
-  EXPECT_EQ(first, soft(again, 2));
 }
 
 // The requested error sets the number of rays: for a tenth of the error a hundred times as many, where half the disc is

@@ -1,6 +1,5 @@
 // R1, the hard truth, against brute force in double, at random receivers on every surface.
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "base/error.h"
 #include "raytrace/embree_scene.h"
@@ -257,21 +256,6 @@ TEST(HardTruthLaws, RaysDoNotLeakThroughVerticesAndEdges) {
   RecordProperty("leaks_at_edges", at_edges);
   EXPECT_EQ(at_edges, 0);
   EXPECT_LE(at_vertices, rays / 4 / 100);  // seen: 127 of 21,904; without ROBUST 4,191, and 4,962 at edges
-}
-
-TEST(HardTruthLaws, DoesNotDependOnTheNumberOfThreads) {
-  const Scene scene = builtin("fence");
-  const LightFrame frame = frame_of(scene);
-  const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 30000, 6);
-  const Tracer tracer(scene);
-  const auto with_threads = [&](size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return tracer.receiver_truth(receivers, frame, sun(2, 0.05));
-  };
-  const ReceiverTruth one = with_threads(1), two = with_threads(2);
-  EXPECT_EQ(one.lit.pixels, two.lit.pixels);
-  EXPECT_EQ(one.ambiguous.pixels, two.ambiguous.pixels);
-  EXPECT_EQ(one.soft.pixels, two.soft.pixels);
 }
 
 TEST(HardTruthLaws, EmptyAndOneTriangleScenesAndNoReceivers) {

@@ -9,7 +9,6 @@
 #include <map>
 #include <numbers>
 #include <random>
-#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>

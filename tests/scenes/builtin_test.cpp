@@ -238,42 +238,6 @@ TEST(BuiltinScenes, TheWalksReachFromTheEyeToEightyMetres) {
   }
 }
 
-// The sun does not reach the street below the roof, but through the slit.
-TEST(BuiltinScenes, TheStreetHasADarkPassageWithASlit) {
-  const Scene scene = make_scene({.name = "street"});
-  const glm::dvec3 sun = scene.light.position_m - scene.light.target_m;
-  const auto roofed = [&](double x, double z) {
-    for (const Part& part : scene.parts) {
-      if (part.name != "roof") continue;
-      glm::dvec3 low(1e9), high(-1e9);
-      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
-        for (int i = 0; i < 3; ++i)
-          low = glm::min(low, corner(scene, t, i)), high = glm::max(high, corner(scene, t, i));
-      const glm::dvec3 at = glm::dvec3(x, 0, z) + sun * (high.y / sun.y);
-      if (at.x > low.x && at.x < high.x && at.z > low.z && at.z < high.z) return true;
-    }
-    return false;
-  };
-  const double across = -sun.x / sun.y * 3.25,
-               along = -sun.z / sun.y * 3.25;  // where a point of the roof throws its shadow
-  EXPECT_TRUE(roofed(across, along - 25));
-  EXPECT_TRUE(roofed(across, along - 29));
-  EXPECT_FALSE(roofed(across, along - 27.15));
-  EXPECT_FALSE(roofed(across, along - 21));
-  EXPECT_FALSE(roofed(across, along - 33));
-}
-
-TEST(BuiltinScenes, WallAndPlateHaveTheThicknessTheySay) {
-  const Scene wall = make_scene({.name = "wall", .thickness_m = 0.25});
-  EXPECT_NEAR(signed_volume(wall, wall.parts[1]), 0.25 * 1.5 * 3, 1e-6);
-  EXPECT_NEAR(signed_volume(wall, wall.parts[2]), 3 * 1.5 * 0.25, 1e-6);
-  const Scene plate = make_scene({.name = "plate", .thickness_m = 0.02, .height_m = 0.75});
-  EXPECT_NEAR(signed_volume(plate, plate.parts[1]), 1.6 * 1.2 * 0.02, 1e-6);
-  double top = 0;
-  for (const glm::vec3& p : plate.positions) top = std::max<double>(top, p.y);
-  EXPECT_FLOAT_EQ(static_cast<float>(top), 0.75f);
-}
-
 // The corners of the box of a part.
 std::pair<glm::dvec3, glm::dvec3> box_of(const Scene& scene, const Part& part) {
   glm::dvec3 low(1e9), high(-1e9);
@@ -306,18 +270,6 @@ TEST(BuiltinScenes, LayersEndOneAfterTheOtherAboveTheLowest) {
   EXPECT_GT(box_of(close, close.parts[2]).first.y, 0.0045);
 }
 
-TEST(BuiltinScenes, TheCreaseRisesAsTheSettingSaysAndShadesNothing) {
-  for (const double theta : {20.0, 45.0, 80.0}) {
-    const Scene scene = make_scene({.name = "crease", .theta_deg = theta});
-    ASSERT_EQ(scene.parts.size(), 2u);
-    const auto [low, high] = box_of(scene, scene.parts[1]);
-    EXPECT_EQ(low.x, 0);
-    EXPECT_EQ(low.y, 0);
-    EXPECT_NEAR(high.y / high.x, std::tan(glm::radians(theta)), 1e-6) << theta;
-    EXPECT_EQ(box_of(scene, scene.parts[0]).second.x, 0) << "the floor ends where the face begins";
-  }
-}
-
 // No light reaches the floor between two treads.
 TEST(BuiltinScenes, TheTreadsOfTheStairReachUnderOneAnother) {
   const Scene scene = make_scene({.name = "stairs"});
@@ -346,18 +298,6 @@ TEST(BuiltinScenes, PhiTurnsThePlate) {
         const glm::dvec3 expected = moves ? glm::dvec3(c * p.x + s * p.z, p.y, -s * p.x + c * p.z) : p;
         EXPECT_LT(glm::length(corner(turned, t, i) - expected), 1e-6) << phi;  // some roundings of floats near 1
       }
-  }
-}
-
-TEST(BuiltinScenes, SphereIsConvexAndBowlOpensUpward) {
-  const std::vector<Scene> scenes = all_scenes();
-  const Scene& sphere = named(scenes, "sphere");
-  for (const glm::vec3& p : sphere.positions) EXPECT_NEAR(glm::length(glm::dvec3(p)), 1, 1e-6);
-  EXPECT_NEAR(signed_volume(sphere, sphere.parts[0]), 4 * glm::pi<double>() / 3, 0.01);
-  const Scene& bowl = named(scenes, "bowl");
-  for (const glm::vec3& p : bowl.positions) {
-    EXPECT_NEAR(glm::length(glm::dvec3(p) - glm::dvec3(0, 1, 0)), 1, 1e-6);
-    EXPECT_LT(p.y, 1);
   }
 }
 

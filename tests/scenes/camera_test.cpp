@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "scenes/camera_frame.h"
-#include "scenes/library.h"
 #include "scenes/receivers.h"
 #include "scenes/shapes.h"
 #include "tests/support/kind_thrown.h"

@@ -7,7 +7,6 @@
 #include <random>
 #include <utility>
 
-#include "scenes/library.h"
 #include "scenes/shapes.h"
 
 namespace noonmark {

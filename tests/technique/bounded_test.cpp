@@ -5,8 +5,6 @@
 
 #include <random>
 
-#include "technique/lookup_formulas.h"
-
 namespace noonmark {
 namespace {
 

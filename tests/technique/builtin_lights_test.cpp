@@ -97,36 +97,6 @@ TEST(BuiltinLights, EveryKindOfLightHasSomethingToDoInEveryScene) {
   }
 }
 
-TEST(BuiltinLights, TheSpotRoomsTexelsAndDepthStepsGrowWithDistance) {
-  const Scene scene = make_scene({.name = "spot-room"});
-  const LightFrame f = make_light_frame(scene, {});
-  EXPECT_EQ(f.kind, LightKind::spot);
-  double near_z = 1e9, far_z = 0;  // of the boxes' corners
-  for (const Part& part : scene.parts) {
-    if (part.name == "floor" || part.name == "wall") continue;
-    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
-      for (int i = 0; i < 3; ++i) {
-        const double z = f.to_light(corner(scene, t, i)).z;
-        near_z = std::min(near_z, z);
-        far_z = std::max(far_z, z);
-      }
-  }
-  EXPECT_GT(f.texel_m({0, 0, far_z}) / f.texel_m({0, 0, near_z}), 3);
-  // One step of window depth, in metres, grows with the square of the distance. So does a bias in the unit depth.
-  EXPECT_GT(f.tile(0).window_depth_slope(near_z) / f.tile(0).window_depth_slope(far_z), 9);
-}
-
-TEST(BuiltinLights, PillarsNeedTheWideMap) {
-  const std::vector<Scene> scenes = all_scenes();
-  const Scene& pillars = named(scenes, "pillars");
-  Settings narrow;
-  narrow.map.extent_m = 20;
-  const LightFrame f = make_light_frame(pillars, narrow);
-  size_t held = 0;
-  for (const Part& part : pillars.parts) held += part.name == "pillar" && part_inside(pillars, f, part, false);
-  EXPECT_EQ(held, 1u);
-}
-
 // Law 1's plane: N.L = cos(theta), and the depth's gradient in the map is tan(theta) at azimuth phi.
 TEST(BuiltinLights, PlaneHasTheSlopeItSays) {
   for (double theta : {0.0, 5.0, 45.0, 80.0, 89.0}) {

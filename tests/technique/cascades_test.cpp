@@ -18,6 +18,7 @@
 #include "technique/cascade_splits.h"
 #include "technique/light_frame.h"
 #include "technique/map_fit.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -117,13 +118,7 @@ TEST(Cascades, SliceTheViewFromNearToReach) {
 TEST(Cascades, RefuseBoundsThatDoNotAscend) {
   const Scene scene = floor_scene();
   const auto refused = [&](const Settings& s) -> std::string {
-    try {
-      view_slices(scene, s);
-      return "";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      return error.what();
-    }
+    return refusal_of(ErrorKind::usage, [&] { view_slices(scene, s); });
   };
   Settings s = cascaded(3);
   s.cascades.splits = "manual";
@@ -367,18 +362,6 @@ TEST(CascadeBlends, FloatArithmeticStaysWithinItsBound) {
   }
 }
 
-TEST(Cascades, BlendIntoTheNextSmoothly) {
-  CascadePlace place = by_depth(2, 8);
-  place.blend = 0.25f;
-  place.shape = &find_cascade_blend("smooth");
-  const glm::dvec3 eye(1, 2, 3);
-  const auto at = [&](double depth) { return choose_cascade(place, eye, eye + glm::dvec3(5, -4, -depth)).next; };
-  EXPECT_EQ(at(6.4), 0);
-  EXPECT_NEAR(at(6.5 + 1.5 / 4), 5.0 / 32, 1e-12) << "a quarter of the last quarter of 6 m";
-  EXPECT_NEAR(at(7.25), 0.5, 1e-12);
-  EXPECT_EQ(at(8.01), 0) << "the next one has begun";
-}
-
 TEST(Cascades, AreChosenByTheFirstMapOrSphereThatHoldsThePoint) {
   CascadePlace place = by_depth(2, 8);
   place.middles = {{0, 0, -1}, {0, 0, -5}};
@@ -597,15 +580,8 @@ TEST(Cascades, NeedRoomForTheTapsWhereTheMapIsChosenByIt) {
   s.cascades.count = 3;
   EXPECT_EQ(techniques_of(make_scene(s.scene), s).size(), 3u);
   s.cascades.select = "map";
-  try {
-    techniques_of(make_scene(s.scene), s);
-    ADD_FAILURE() << "it is not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_NE(std::string(error.what()).find("the map of 4 texels holds no receiver with all of them"),
-              std::string::npos)
-        << error.what();
-  }
+  expect_refused(ErrorKind::usage, {"the map of 4 texels holds no receiver with all of them"},
+                 [&] { techniques_of(make_scene(s.scene), s); });
 }
 
 TEST(Cascades, MayHaveAResolutionEach) {

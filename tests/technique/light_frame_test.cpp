@@ -142,29 +142,6 @@ TEST(LightFrame, StraightDownUsesMinusZAsUp) {
   EXPECT_EQ(f.right, glm::dvec3(1, 0, 0));
 }
 
-TEST(LightFrame, MatrixAgreesWithPlacesAndDepth) {
-  std::mt19937 random(2);
-  for (int i = 0; i < 200; ++i) {
-    const LightFrame f = make_light_frame(scene_lit_from(random_point(random, 5), random_point(random, 5)), {});
-    const glm::dvec3 p = random_point(random, 10);
-    const glm::dvec3 light = f.to_light(p);
-    EXPECT_LT(glm::length(f.to_world(light) - p), 20 * rounding_m);
-    const glm::dvec4 clip = f.clip_from_world(0) * glm::dvec4(p, 1);
-    EXPECT_EQ(clip.w, 1);
-    EXPECT_NEAR(clip.x, light.x / (f.extent_m / 2), rounding_m);
-    EXPECT_NEAR(clip.y, light.y / (f.extent_m / 2), rounding_m);
-    EXPECT_NEAR(clip.z / 2 + 0.5, f.tile(0).window_depth(light.z), rounding_m);
-  }
-}
-
-TEST(LightFrame, DepthRunsFromNearToFarAlongTheLight) {
-  const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), {});
-  EXPECT_EQ(f.tile(0).window_depth(f.near_m), 0);
-  EXPECT_EQ(f.tile(0).window_depth(f.far_m), 1);
-  EXPECT_NEAR(f.to_light({0, 0, 0}).z, std::sqrt(21.0), rounding_m);
-  EXPECT_NEAR(f.to_light(f.origin_m).z, 0, rounding_m);
-}
-
 TEST(LightFrame, TexelCentresAreWhereTheSamplerPutsThem) {
   Settings settings;
   for (int resolution : {1, 2, 7, 1024}) {

@@ -2,9 +2,6 @@
 // those of docs/explanation/laws.md.
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <numbers>
-
 #include "technique/lookup_truth.h"
 #include "technique/moment_lookup.h"
 #include "tests/technique/random_depths.h"

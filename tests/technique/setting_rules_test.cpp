@@ -9,6 +9,7 @@
 
 #include "technique/bias_parts.h"
 #include "technique/settings.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -106,12 +107,7 @@ TEST(Validate, OfALevelNeedsAMapOfWholeBlocks) {
     Settings settings;
     settings.lookup.kind = "vsm", settings.lookup["level"] = 2;
     for (const auto& [name, value] : more) find_setting(name).set(settings, value);
-    try {
-      validate(settings);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of(ErrorKind::usage, [&] { validate(settings); });
   };
   EXPECT_EQ(said({{"map.resolution", "252"}}), "");
   EXPECT_NE(said({{"map.resolution", "250"}}).find("take 248 or 252 texels"), std::string::npos);

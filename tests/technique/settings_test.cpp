@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -17,6 +15,7 @@
 #include "base/text.h"
 #include "technique/filters.h"
 #include "technique/setting_rules.h"
+#include "tests/support/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -293,15 +292,10 @@ RC_GTEST_PROP(Settings, ReadTheirOwnNumbersBackBitForBit, ()) {
 
 TEST(NearestName, FindsTypingErrorsAndNothingElse) {
   const auto suggestion = [](std::string_view wrong) -> std::string {
-    try {
-      find_setting(wrong);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      const std::string what = error.what();
-      const size_t at = what.find("did you mean '");
-      return at == std::string::npos ? "" : what.substr(at + 14, what.find('\'', at + 14) - at - 14);
-    }
-    return "found";
+    const std::string what = refusal_of(ErrorKind::usage, [&] { find_setting(wrong); });
+    if (what.empty()) return "found";
+    const size_t at = what.find("did you mean '");
+    return at == std::string::npos ? "" : what.substr(at + 14, what.find('\'', at + 14) - at - 14);
   };
   EXPECT_EQ(suggestion("map.resolutoin"), "map.resolution");
   EXPECT_EQ(suggestion("resolution"), "map.resolution");

@@ -86,18 +86,6 @@ TEST(Sun, LeavesTheAngleThatIsNotGiven) {
   EXPECT_NEAR(place(with_sun(100, {})).elevation_deg, own.elevation_deg, degrees);
 }
 
-// The scene's own map volume is of the scene's own light.
-TEST(Sun, HasAMapThatIsFittedToIt) {
-  const Scene scene = make_scene({.name = "cube-room"});
-  ASSERT_TRUE(scene.map);
-  Settings tight = with_sun(30, 40);
-  tight.map.fit = MapFit::tight;
-  const LightFrame fitted = make_light_frame(scene, tight), sun = make_light_frame(scene, with_sun(30, 40));
-  EXPECT_EQ(sun.extent_m, fitted.extent_m);
-  EXPECT_EQ(sun.near_m, fitted.near_m);
-  EXPECT_EQ(sun.far_m, fitted.far_m);
-}
-
 std::string conflict(const Settings& settings, std::optional<LightKind> light) {
   try {
     validate(settings, light);

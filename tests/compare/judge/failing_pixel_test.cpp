@@ -39,19 +39,6 @@ TEST(FailingPixel, IsOfTheBoundsOwnMetric) {
   EXPECT_FALSE(failing_pixel(held, point));
 }
 
-TEST(FailingPixel, SaysTheUnitAndThePlacement) {
-  const PointRecord point = sample_point(0);
-  EXPECT_EQ(failing_pixel_text(broken("acne", 0.1), point),
-            "worst pixel by acne: x = 56, y = 78 (row 0 on top), acne 50%");
-  EXPECT_EQ(failing_pixel_text(broken("peter_panning_gap_m", 0.1), point),
-            "worst pixel by peter_panning_gap_m: x = 9, y = 10 (row 0 on top), peter_panning_gap_m 0.3333 m");
-  BoundResult placed = broken("acne", 0.1);
-  placed.placement = "worst";
-  EXPECT_EQ(failing_pixel_text(placed, point),
-            "worst pixel by acne, at placement 0: x = 56, y = 78 (row 0 on top), acne 50%");
-  EXPECT_EQ(failing_pixel_text(broken("map_ms", 1), point), "");
-}
-
 TEST(FoundText, DoesNotReadAsTheLimitThatItBreaks) {
   BoundResult bound = broken("acne", 0.005);
   bound.found = 0.0050000001;

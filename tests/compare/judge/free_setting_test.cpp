@@ -79,10 +79,7 @@ TEST(FreeSetting, AReductionsCurveGivesWhatIsShownAndTheCauses) {
 
 TEST(FreeSetting, SaysWhatBreaksAllReductions) {
   PointRecord point = filtered_point(0, 1, {}, {});
-  EXPECT_EQ(why_no_usable_reduction(point),
-            "without a reduction the leak is 2%; 0.2 keeps it within 1%, and there the reduction darkens 5% and "
-            "over-darkening is "
-            "0.1%, of which at most 3% each is allowed");
+  EXPECT_EQ(why_no_usable_reduction(point).find("without a reduction the leak is 2%; 0.2 keeps it within 1%, "), 0u);
   for (LookupCurvePoint& at : point.lookup_curve) at.over_darkening = 0.04;
   EXPECT_EQ(why_no_usable_reduction(point), "over-darkening is 4% without any reduction, more than 3%");
   for (LookupCurvePoint& at : point.lookup_curve) at.over_darkening = 0, at.leak = 0.02;
@@ -108,37 +105,29 @@ TEST(FreeSetting, IsNotUsableWhereTheMomentsRoundTooMuch) {
 TEST(FreeSetting, SaysWhatMayHelp) {
   PointRecord point = filtered_point(0, 1, {}, {});
   point.settings["filter.kind"] = "box", point.settings["filter.size"] = "7", point.settings["lookup.v_min"] = "0";
-  EXPECT_EQ(cures_of_reduction(point), "a smaller blur or a finer map; or lookup.kind = evsm4 or msm, which leak less");
+  const auto expect = [](const std::string& advice, std::vector<const char*> named,
+                         std::vector<const char*> not_named) {
+    for (const char* setting : named) EXPECT_NE(advice.find(setting), std::string::npos) << setting << ": " << advice;
+    for (const char* setting : not_named)
+      EXPECT_EQ(advice.find(setting), std::string::npos) << setting << ": " << advice;
+  };
+  expect(cures_of_reduction(point), {"smaller blur", "evsm4 or msm"}, {"moment_bias", "bias.tan"});
   for (LookupCurvePoint& at : point.lookup_curve) at.over_darkening = 0.04;
   point.settings["lookup.kind"] = "msm";
-  const std::string bias =
-      "bias.unit = texel with bias.tan = 2.1, the deviation of a slope's depths in this blur (law 17); or ";
-  EXPECT_EQ(
-      cures_of_reduction(point),
-      bias +
-          "a larger lookup.moment_bias (curve.over = \"lookup.moment_bias\" of an experiment gives its values); or "
-          "a smaller blur or a finer map");
+  expect(cures_of_reduction(point), {"bias.tan = 2.1, the deviation", "lookup.moment_bias (curve.over"}, {"evsm4"});
   for (const double value : {0.0, 0.001, 0.01}) {
     point.over_curve.push_back({.parameter = "lookup.moment_bias", .value = value});
     point.over_curve.back().shown_error = value == 0.001 ? 0.1 : 0.2;
   }
-  EXPECT_EQ(cures_of_reduction(point),
-            bias +
-                "a larger lookup.moment_bias (0.001 errs least of the values of its curve); or a smaller blur or a "
-                "finer map");
+  expect(cures_of_reduction(point), {"lookup.moment_bias (0.001 errs least"}, {"curve.over"});
   point.settings["bias.tan"] = "1";
-  EXPECT_EQ(cures_of_reduction(point).find("bias.tan"), std::string::npos) << "it has a bias";
+  expect(cures_of_reduction(point), {"moment_bias"}, {"bias.tan"});
   EXPECT_EQ(cures_of_reduction(filtered_point(0, 1, 0.1, 0.2)), "") << "a reduction is usable";
   EXPECT_EQ(cures_of_precision(point), "");
   point.metrics["moment_precision"] = 0.16;
-  EXPECT_EQ(cures_of_precision(point),
-            "most of the error is the rounding of the moments (moment_precision), which no reduction cures; what may "
-            "help: a larger "
-            "lookup.moment_bias (0.001 errs least of the values of its curve)");
+  expect(cures_of_precision(point), {"moment_precision", "lookup.moment_bias (0.001"}, {"map.moments"});
   point.settings["map.moments"] = "16f", point.settings["lookup.kind"] = "esm";
-  EXPECT_EQ(cures_of_precision(point),
-            "most of the error is the rounding of the moments (moment_precision), which no reduction cures; what may "
-            "help: map.moments = 32f");
+  expect(cures_of_precision(point), {"map.moments = 32f"}, {"moment_bias"});
 }
 
 // The least error lies beyond the window, so the answer stands as near to it as the margin lets it.

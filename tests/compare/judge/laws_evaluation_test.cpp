@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "compare/judge/formula.h"
@@ -240,15 +239,6 @@ TEST(Laws, TheTableTellsLawPredictedMeasuredAndVerdict) {
   for (const char* text : {"good law", "bad law", "0.5", "0.25", "holds", "BROKEN", "acne = 0.5", "point 7",
                            "off by -0.25", "noonmark render x"})
     EXPECT_NE(table.find(text), std::string::npos) << text << "\n" << table;
-}
-
-// Two laws of one quantity read as a contradiction without the points that each is about.
-TEST(Laws, SaysWhichPointsItIsAbout) {
-  Law asked = law("error", "0.5", LawRelation::at_most);
-  asked.where = {{"map.resolution", {"512", "1024"}}};
-  const PointRecord one = point(0, 512, "none", 0);
-  const LawResult found = evaluate_laws({&one, 1}, {&asked, 1}, [](const PointRecord&) { return ""; }).at(0);
-  EXPECT_EQ(law_text(found), "error <= 0.5 where map.resolution = 512 | 1024");
 }
 
 // A law that reads what the ambiguous receivers may change is not known to hold.

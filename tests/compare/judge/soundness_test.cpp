@@ -8,7 +8,6 @@
 #include <limits>
 #include <set>
 
-#include "compare/results/point_settings.h"
 #include "technique/settings.h"
 #include "tests/compare/ladder/evidence.h"
 

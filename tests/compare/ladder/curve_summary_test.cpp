@@ -1,9 +1,7 @@
 // The summary of a curve: shares, units, the window and the best bias.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "compare/ladder/bias_curves.h"
@@ -93,17 +91,6 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   std::tie(from, to) = window(1, 1);
   EXPECT_EQ(from, 0);
   EXPECT_EQ(to, 1);
-}
-
-TEST(Summarise, HasNoWindowWhereTheCausesOverlap) {
-  Synthetic s = row_of(4);
-  make_acne(s, 0, 0x1p-3f);
-  make_shadow(s, 1, 0x1p-4f);
-  const BiasCurve c =
-      summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")), test_scale(), {{0, 0}, {}});
-  EXPECT_FALSE(c.window_min_depth);
-  EXPECT_FALSE(c.window_max_depth);
-  EXPECT_EQ(c.best_error, 0.25);
 }
 
 TEST(Summarise, HasNoWindowWhereNoSlopeReaches) {

@@ -1,6 +1,5 @@
 // The curves from one pass, compared with counting every tap at every bias.
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <bit>
 #include <cmath>
@@ -235,20 +234,6 @@ std::string case_name(const testing::TestParamInfo<Case>& named) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Curves, testing::ValuesIn(cases()), case_name);
-
-// Every part that has a curve, together with other parts that are constant. The units differ from receiver to receiver.
-// Each is tried at 100 values of any size.
-RC_GTEST_PROP(BiasCounts, AreDirectEvaluationBitForBit, ()) {
-  const BiasPart& varied = bias_part(varied_names[*rc::gen::inRange(0, 3)]);
-  const auto lookup = *rc::gen::element(Lookup::box, Lookup::linear, Lookup::cube);
-  const Synthetic s = random_evidence(*rc::gen::arbitrary<uint64_t>(),
-                                      {7, 5, 6, *rc::gen::element(1, 3), *rc::gen::arbitrary<bool>(), lookup});
-  const BiasCounts counts(s.evidence(), s.stored_map(), varied);
-  for (int i = 0; i < 100; ++i) {
-    const float x = std::bit_cast<float>(*rc::gen::inRange<uint32_t>(0, std::bit_cast<uint32_t>(64.0f)));
-    RC_ASSERT(read_off(counts, x) == counted_at(s, varied, x));
-  }
-}
 
 std::string curve_through(BiasValues parts) {
   const BiasPart* part = curve_part(bias_settings_of(parts));

@@ -436,19 +436,6 @@ TEST(Climb, RefusesATruthOfOtherTaps) {
   EXPECT_THROW(climb(s.evidence()), std::logic_error);
 }
 
-TEST(Causes, HaveNamesAllDifferentAndAColourEach) {
-  std::set<std::string_view> names;
-  for (int c = 0; c < cause_count; ++c) names.insert(cause_name(static_cast<Cause>(c)));
-  EXPECT_EQ(names.size(), cause_count);
-  for (int c = 1; c < cause_count; ++c)
-    EXPECT_TRUE(find_color(cause_name(static_cast<Cause>(c)))) << cause_name(static_cast<Cause>(c));
-  EXPECT_EQ(cause_name(Cause::none), "none");
-  EXPECT_EQ(cause_name(Cause::acne), "acne");
-  EXPECT_EQ(cause_name(Cause::peter_panning), "peter_panning");
-  EXPECT_EQ(cause_name(Cause::precision), "precision");
-  EXPECT_EQ(cause_name(Cause::light_size), "light_size");
-}
-
 // The metric, the image of the ladder and the colour are those of the row.
 TEST(Causes, AreOneRowEach) {
   const Ladder ladder = empty_ladder(1, 1, cause_count), compared = empty_ladder(1, 1);

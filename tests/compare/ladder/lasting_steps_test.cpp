@@ -60,18 +60,6 @@ RC_GTEST_PROP(LastingSteps, AreTheFormulas, ()) {
   RC_ASSERT(parts_of(rungs) == parts_by_formula(rungs));
 }
 
-RC_GTEST_PROP(LastingSteps, HaveOneSignAndAddUpButForTheirRounding, ()) {
-  const Numbers rungs = any_rungs(), parts = parts_of(rungs);
-  const double change = rungs.back() - rungs.front(), steps = static_cast<double>(parts.size());
-  double sum = 0;
-  for (double part : parts) {
-    RC_ASSERT((change < 0 ? -part : part) >= 0);
-    sum += part;
-  }
-  const double roundings = steps * 0x1p-53 / (1 - steps * 0x1p-53);
-  RC_ASSERT(std::abs(sum - change) <= roundings * std::abs(change));
-}
-
 RC_GTEST_PROP(LastingSteps, AddUpExactlyOnAGrid, ()) {
   Numbers rungs(static_cast<size_t>(*rc::gen::inRange(1, 10)));
   for (double& x : rungs) x = *rc::gen::inRange(-225, 226) / 225.0;  // of 225 taps, but
@@ -79,26 +67,6 @@ RC_GTEST_PROP(LastingSteps, AddUpExactlyOnAGrid, ()) {
   double sum = 0;
   for (double part : parts_of(rungs)) sum += part;
   RC_ASSERT(sum == rungs.back() - rungs.front());
-}
-
-// The rung from which the pixel stays wrong.
-RC_GTEST_PROP(LastingSteps, OfZeroAndOneAreOneStep, ()) {
-  Numbers rungs(static_cast<size_t>(*rc::gen::inRange(2, 10)));
-  for (double& x : rungs) x = *rc::gen::inRange(0, 2);
-  Numbers expected(rungs.size() - 1, 0);
-  if (rungs.back() != rungs.front()) {
-    size_t from = rungs.size() - 1;
-    while (rungs[from - 1] == rungs.back()) --from;
-    expected[from - 1] = rungs.back() - rungs.front();
-  }
-  RC_ASSERT(parts_of(rungs) == expected);
-}
-
-RC_GTEST_PROP(LastingSteps, OfTheNegatedChainAreNegated, ()) {
-  Numbers rungs = any_rungs(), parts = parts_of(rungs);
-  for (double& x : rungs) x = -x;
-  for (double& x : parts) x = -x;
-  RC_ASSERT(parts_of(rungs) == parts);
 }
 
 TEST(LastingSteps, ANumberThatIsNoneIsFoundInTheParts) {

@@ -40,16 +40,9 @@ class Browser : public testing::Test {
       ASSERT_NE(at, std::string::npos);
       page.insert(at, "<script>" + script + "</script>");
     };
-    insert("</body>", read_file(std::string(noonmark::test::source_dir() + "/tests/compare/report/") + probe));
-    insert("</head>",
-           "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
-           "addEventListener('unhandledrejection', function(e) { errors.push(String(e.reason)); });"
-           "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
-           "function leave(saw) { var probe = document.createElement('pre'); probe.id = 'probe';"
-           "probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {"
-           "return '\\\\u00' + c.charCodeAt(0).toString(16); }); document.body.append(probe);"
-           "if (parent !== window) parent.postMessage(probe.textContent, '*'); }"
-           "['error', 'warn'].forEach(function(k) { console[k] = function(what) { errors.push(String(what)); }; });");
+    const std::string folder = noonmark::test::source_dir() + "/tests/compare/report/";
+    insert("</body>", read_file(folder + probe));
+    insert("</head>", read_file(folder + "probe_tools.js"));
     static std::map<std::string, nlohmann::json> seen;
     if (const auto known = seen.find(window + page); known != seen.end()) {
       saw_ = known->second;

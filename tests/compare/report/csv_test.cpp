@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iterator>
-#include <sstream>
 
 #include "base/text.h"
 #include "compare/results/quantities.h"
 #include "tests/support/sample_results.h"
+#include "tests/support/words.h"
 
 namespace noonmark {
 namespace {
@@ -112,11 +111,6 @@ TEST(Csv, HoldsEverySettingMetricAndQuantity) {
   EXPECT_EQ(rows[3][column(rows[0], "window_width_depth")], "0");
 }
 
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream in(text);
-  return {std::istream_iterator<std::string>(in), {}};
-}
-
 // What nobody asks for is not written.
 TEST(Csv, HasWhatIsAskedFor) {
   Results results = sample();
@@ -135,13 +129,13 @@ TEST(Csv, HasWhatIsAskedFor) {
   results.laws[0].predicted = "2*map.shift_u_texels at map.resolution = 512";
   const Row heading = parse(to_csv(results, CsvColumns::asked))[0], all = parse(to_csv(results, CsvColumns::all))[0];
   const auto has = [&](std::string_view name) { return std::count(heading.begin(), heading.end(), name) == 1; };
-  for (const std::string& name :
-       words("point map.resolution filter.kind map.shift_u_texels error error_soft acne counted texel_work map_ms "
-             "map_low_ms "
-             "window_min_m window_max_m flip map_bytes residual best_bias_m lit acne_worst acne_best wrong_best"))
+  for (const std::string& name : test::words_of(
+           "point map.resolution filter.kind map.shift_u_texels error error_soft acne counted texel_work map_ms "
+           "map_low_ms "
+           "window_min_m window_max_m flip map_bytes residual best_bias_m lit acne_worst acne_best wrong_best"))
     EXPECT_TRUE(has(name)) << name;
-  for (const std::string& name :
-       words("scene.name acne_mean error_best window_min_depth prefilter_ms tap_residual machine_cpu scene_digest"))
+  for (const std::string& name : test::words_of(
+           "scene.name acne_mean error_best window_min_depth prefilter_ms tap_residual machine_cpu scene_digest"))
     EXPECT_FALSE(has(name)) << name;
   // As in the order of all.
   Row kept;

@@ -1,10 +1,8 @@
 // How the pages are laid out, in a real browser: none scrolls sideways, no label is cut, numbers stand on their points, the
 // first picture is one of full size, charts are saved, and a print is short.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 #include <set>
 #include <string>
 #include <tuple>

@@ -1,18 +1,14 @@
 // Runs in the page of a filtered map after its own scripts (tests/compare/report/page_test.cpp). It reads the charts over the
 // reduction and, where there is one, over another setting of the lookup, the switch of the page and the card of a point, and
 // writes them to the element `probe`.
-(async function() {
+(async () => {
   'use strict';
-  var page = window.noonmarkPage, saw = {errors: errors};
+  const page = window.noonmarkPage, saw = {errors};
   function chosen(id) {  // and drawn
     page.select(id);
-    return new Promise(function(go) {
-      setTimeout(go, 0);
-    });
+    return later();
   }
-  function textOf(e) {
-    return e.textContent;
-  }
+  const textOf = e => e.textContent;
   // The dashes of the lines as drawn, and of the legend's, by their colour and thickness.
   function look(line) {
     return [
@@ -21,14 +17,10 @@
     ].join('; ');
   }
   function readerOf(name) {
-    var figure = document.getElementById('chart-' + name);
+    const figure = document.getElementById('chart-' + name);
     if (!figure) return null;
-    function all(selector) {
-      return Array.from(figure.querySelectorAll(selector));
-    }
-    function rows() {
-      return page.kit.drawn.find(one => one.figure === figure).view.data('rows');
-    }
+    const all = selector => Array.from(figure.querySelectorAll(selector));
+    const rows = () => page.kit.drawn.find(one => one.figure === figure).view.data('rows');
     return {
       now: function() {
         return {
@@ -54,7 +46,7 @@
       }
     };
   }
-  var charts = {reduction: readerOf('reduction'), over: readerOf('over')};
+  const charts = {reduction: readerOf('reduction'), over: readerOf('over')};
   saw.choice = document.querySelector('.bias-choice').firstChild.textContent;
   for (const id of [0, 1, 2]) {
     await chosen(id);
@@ -65,7 +57,7 @@
     }
   }
   page.open(1, 'recommended');
-  var card = document.querySelector('dialog');
+  const card = document.querySelector('dialog');
   saw.verdict = card.textContent;
   saw.command = card.querySelector('.command').textContent;
   leave(saw);

@@ -1,12 +1,12 @@
 // Runs in a page whose data block is packed (tests/compare/report/page_test.cpp), and writes to the element `probe` what
 // the page unpacked and drew.
-(async function() {
+(async () => {
   'use strict';
   await window.noonmarkReady;
-  await new Promise(function(go) {  // Vega draws only after the script that called it has ended.
+  await new Promise(go => {  // Vega draws only after the script that called it has ended.
     setTimeout(go, 0);
   });
-  var page = window.noonmarkPage, saw = {errors: errors, packed: document.querySelector('[data-packed]') !== null};
+  const page = window.noonmarkPage, saw = {errors: errors, packed: document.querySelector('[data-packed]') !== null};
   saw.said = document.querySelector('main p').textContent;
   saw.fallback_rows = document.querySelectorAll('main tr[id]').length;
   if (page) {

@@ -1,61 +1,35 @@
 // Runs in the report's page after its own scripts (tests/compare/report/page_test.cpp). It uses the page as a reader
 // does, with clicks and keys, and writes its observations to the element `probe`. browser.h gives the
 // list `errors` and leave().
-(async function() {
+(async () => {
   'use strict';
-  var saw = {errors: errors};
-  function all(selector, root) {
-    return Array.prototype.slice.call((root || document).querySelectorAll(selector));
-  }
-  // Vega draws only after the script that called it has ended.
-  function drawn() {
-    return new Promise(function(go) {
-      setTimeout(go, 0);
-    });
-  }
+  const saw = {errors};
   async function click(element) {
     element.dispatchEvent(new MouseEvent('click', {bubbles: true, cancelable: true, view: window}));
-    await drawn();
+    await later();
   }
   function press(key) {
     document.dispatchEvent(new KeyboardEvent('keydown', {key: key, bubbles: true, cancelable: true}));
   }
-  function button(figure, text) {
-    return all('button', figure).filter(function(b) {
-      return b.textContent === text;
-    })[0];
-  }
+  const button = (figure, text) => all('button', figure).filter(b => b.textContent === text)[0];
   function marks(figure) {
-    var count = {};
-    ['line', 'area', 'symbol', 'rule', 'rect'].forEach(function(kind) {
-      count[kind] = all('.mark-' + kind + ' path, .mark-' + kind + ' line', figure).length;
-    });
-    count.zero = all('.mark-text.role-mark text', figure)
-                     .filter(function(t) {
-                       return t.textContent === '0';
-                     })
-                     .length;
+    const count = {};
+    ['line', 'area', 'symbol', 'rule', 'rect'].forEach(
+        kind => count[kind] = all('.mark-' + kind + ' path, .mark-' + kind + ' line', figure).length);
+    count.zero = all('.mark-text.role-mark text', figure).filter(t => t.textContent === '0').length;
     return count;
   }
-  function selected() {
-    return all('tr.selected').map(function(row) {
-      return +row.dataset.point;
-    });
-  }
+  const selected = () => all('tr.selected').map(row => +row.dataset.point);
 
   // The numbers below are those of the bias as set.
   saw.bias_choice = [window.noonmarkPage.bias];
   await click(button(document.querySelector('.bias-choice'), 'Recommended'));
   saw.bias_choice.push(window.noonmarkPage.bias);
   function table_error_of_5() {
-    var column = all('table.sortable th[scope=col]').findIndex(function(h) {
-      return h.textContent.indexOf('Error') === 0;
-    });
+    const column = all('table.sortable th[scope=col]').findIndex(h => h.textContent.indexOf('Error') === 0);
     return +document.getElementById('p5').cells[column].dataset.v;
   }
-  function budget_of_5() {
-    return document.querySelector('.budget .row[data-point="5"] .value').textContent;
-  }
+  const budget_of_5 = () => document.querySelector('.budget .row[data-point="5"] .value').textContent;
   saw.at_recommended = {
     error: table_error_of_5(),
     budget: budget_of_5(),
@@ -69,61 +43,42 @@
     words: getComputedStyle(document.querySelector('.as-set')).display
   };
   // What WCAG asks and can be read from the page: each control has a name, headings go down by one level, images have texts.
-  saw.unnamed = all('button, select, input, [role=region], [role=img], [role=group]')
-                    .filter(function(e) {
-                      var name = (e.getAttribute('aria-label') || '') + e.textContent + (e.title || '');
-                      if (/^(INPUT|SELECT)$/.test(e.tagName)) {
-                        name = e.getAttribute('aria-label') || '';
-                        Array.prototype.slice.call(e.labels || []).forEach(function(l) {
-                          name += Array.prototype.slice.call(l.childNodes)
-                                      .filter(function(n) {
-                                        return n !== e;
-                                      })
-                                      .map(function(n) {
-                                        return n.textContent;
-                                      })
-                                      .join('');
-                        });
-                      }
-                      return !name.trim();
-                    })
-                    .map(function(e) {
-                      return e.outerHTML.slice(0, 120);
-                    });
+  saw.unnamed =
+      all('button, select, input, [role=region], [role=img], [role=group]')
+          .filter(e => {
+            let name = (e.getAttribute('aria-label') || '') + e.textContent + (e.title || '');
+            if (/^(INPUT|SELECT)$/.test(e.tagName)) {
+              name = e.getAttribute('aria-label') || '';
+              Array.from(e.labels || [])
+                  .forEach(l => name += Array.from(l.childNodes).filter(n => n !== e).map(n => n.textContent).join(''));
+            }
+            return !name.trim();
+          })
+          .map(e => e.outerHTML.slice(0, 120));
   saw.images_without_text = all('img:not([alt])').length;
-  var level = 1;
+  let level = 1;
   saw.headings = all('h1, h2, h3, h4')
-                     .filter(function(h) {
-                       var now = +h.tagName[1], skips = now > level + 1;
+                     .filter(h => {
+                       const now = +h.tagName[1], skips = now > level + 1;
                        level = now;
                        return skips;
                      })
-                     .map(function(h) {
-                       return h.textContent;
-                     });
+                     .map(h => h.textContent);
   saw.data_of_5 = window.noonmarkPage.data.points[5];
 
   saw.charts = {};
-  all('figure[id^="chart-"]').forEach(function(figure) {
-    saw.charts[figure.id] = marks(figure);
-  });
+  all('figure[id^="chart-"]').forEach(figure => saw.charts[figure.id] = marks(figure));
 
-  var bias = document.getElementById('chart-bias');
-  function axis_titles() {
-    return all('.mark-text.role-axis-title text', bias).map(function(t) {
-      return t.textContent;
-    });
-  }
+  const bias = document.getElementById('chart-bias');
+  const axis_titles = () => all('.mark-text.role-axis-title text', bias).map(t => t.textContent);
   saw.bias = {depth: axis_titles(), facts: bias.querySelector('.facts').textContent};
   await click(button(bias, 'texels'));
   saw.bias.texels = axis_titles();
   await click(button(bias, 'Stacked'));
   saw.bias.stacked = marks(bias);
-  saw.bias.pressed = all('button[aria-pressed="true"]', bias).map(function(b) {
-    return b.textContent;
-  });
+  saw.bias.pressed = all('button[aria-pressed="true"]', bias).map(b => b.textContent);
   await click(button(bias, 'Lines'));
-  var svg = bias.querySelector('.plot svg'), box = svg.getBoundingClientRect();
+  const svg = bias.querySelector('.plot svg'), box = svg.getBoundingClientRect();
   svg.dispatchEvent(
       new MouseEvent('mousemove', {bubbles: true, clientX: box.left + box.width / 2, clientY: box.top + 40}));
   saw.bias.tip = document.getElementById('tip').textContent;
@@ -132,20 +87,12 @@
 
   // The table: a click on a heading sorts, and a second click reverses the order. A click on a row selects its point in
   // all charts and pictures.
-  var table = document.querySelector('table.sortable'), heads = all('th', table.tHead);
-  function column(name) {
-    return heads.findIndex(function(h) {
-      return h.textContent.indexOf(name) === 0;
-    });
-  }
-  function order(i) {
-    return all('tr', table.tBodies[0]).map(function(row) {
-      return row.cells[i].dataset.v;
-    });
-  }
-  var error = column('Error'), filter = column('filter');
+  const table = document.querySelector('table.sortable'), heads = all('th', table.tHead);
+  const column = name => heads.findIndex(h => h.textContent.indexOf(name) === 0);
+  const order = i => all('tr', table.tBodies[0]).map(row => row.cells[i].dataset.v);
+  const error = column('Error'), filter = column('filter');
   saw.table = {error: []};
-  for (var i = 0; i < 2; ++i) {
+  for (let i = 0; i < 2; ++i) {
     await click(heads[error].querySelector('button'));
     saw.table.error.push(order(error));
   }
@@ -157,54 +104,43 @@
   await click(document.getElementById('p5').cells[1]);
   saw.selected_by_row = selected();
   saw.facts_of_5 = bias.querySelector('.facts').textContent;
-  var symbol = document.querySelector('[id^="chart-sweep"] .mark-symbol path');
+  const symbol = document.querySelector('[id^="chart-sweep"] .mark-symbol path');
   saw.symbol = symbol.__data__.datum.id;
   await click(symbol);
   saw.selected_by_symbol = selected();
 
   // The card of a point: opened by a row, with its numbers, its command, and its pictures.
-  var card = document.getElementById('card');
-  function card_now() {
-    return {
-      open: card.open,
-      title: card.querySelector('h2').textContent,
-      command: card.querySelector('.command code').textContent,
-      rows: card.querySelectorAll('tbody tr').length,
-      pictures: card.querySelectorAll('.wide img').length,
-      left: (card.querySelector('.wide img') || {}).alt,
-      divide: card.querySelectorAll('.wide img').length ? card.querySelectorAll('.wide img')[1].style.clipPath : '',
-      width: (card.querySelector('.wide') || {style: {}}).style.width,
-      cuts: card.querySelectorAll('.cuts canvas').length
-    };
-  }
+  const card = document.getElementById('card');
+  const card_now = () => ({
+    open: card.open,
+    title: card.querySelector('h2').textContent,
+    command: card.querySelector('.command code').textContent,
+    rows: card.querySelectorAll('tbody tr').length,
+    pictures: card.querySelectorAll('.wide img').length,
+    left: (card.querySelector('.wide img') || {}).alt,
+    divide: card.querySelectorAll('.wide img').length ? card.querySelectorAll('.wide img')[1].style.clipPath : '',
+    width: (card.querySelector('.wide') || {style: {}}).style.width,
+    cuts: card.querySelectorAll('.cuts canvas').length
+  });
   saw.card = {by_symbol: card.open};
   await click(card.querySelectorAll('.card-head button')[2]);
   saw.card.closed = !card.open;
   await click(document.querySelector('a[href="#p18"]'));
   // The browser's virtual time waits for a load, but not for decode().
-  await Promise.all(all('.wide img', card).map(function(i) {
-    return i.complete ? null : new Promise(function(go) {
-      i.addEventListener('load', go);
-    });
-  }));
-  await drawn();
+  await Promise.all(
+      all('.wide img', card).map(i => i.complete ? null : new Promise(go => i.addEventListener('load', go))));
+  await later();
   saw.card.with_pictures = card_now();
-  function failure() {
-    return {
-      words: card.querySelector('.card-inner > p').textContent,
-      pixel: card.querySelector('.card-pictures [role=status]').textContent,
-      section: (card.querySelector('.cuts .section img') || {}).alt,
-      chosen: all('.card-pictures select', card)
-                  .map(function(list) {
-                    return list.value;
-                  })
-                  .pop(),
-      bias: card.querySelector('.card-inner .segments [aria-pressed=true]').textContent
-    };
-  }
+  const failure = () => ({
+    words: card.querySelector('.card-inner > p').textContent,
+    pixel: card.querySelector('.card-pictures [role=status]').textContent,
+    section: (card.querySelector('.cuts .section img') || {}).alt,
+    chosen: all('.card-pictures select', card).map(list => list.value).pop(),
+    bias: card.querySelector('.card-inner .segments [aria-pressed=true]').textContent
+  });
   saw.card.failure = failure();
   card.dispatchEvent(new KeyboardEvent('keydown', {key: '+', bubbles: true}));
-  var divide = card.querySelector('input[type=range]');
+  const divide = card.querySelector('input[type=range]');
   divide.value = 20;
   divide.dispatchEvent(new Event('input'));
   saw.card.zoomed = card_now();
@@ -225,26 +161,21 @@
   card.close();
 
   // Search: all words must be there.
-  var search = document.querySelector('.points-place input[type=search]');
+  const search = document.querySelector('.points-place input[type=search]');
   search.value = 'box 2048';
   search.dispatchEvent(new Event('input'));
-  saw.found = all('tr', table.tBodies[0]).map(function(row) {
-    return +row.dataset.point;
-  });
+  saw.found = all('tr', table.tBodies[0]).map(row => +row.dataset.point);
   search.value = '';
   search.dispatchEvent(new Event('input'));
 
   // Pictures: keys change them only while they are in view and no list has the focus.
-  var set = document.querySelector('.pictures');
+  const set = document.querySelector('.pictures');
   function shown() {
-    var visible = all('.pictures').filter(function(s) {
-      return !s.hidden;
-    });
-    return visible.length + ' ' + visible[0].dataset.point + ' ' + all('figure.shown', visible[0]).map(function(f) {
-      return f.dataset.name;
-    });
+    const visible = all('.pictures').filter(s => !s.hidden);
+    return visible.length + ' ' + visible[0].dataset.point + ' ' +
+        all('figure.shown', visible[0]).map(f => f.dataset.name);
   }
-  var picker = document.querySelector('.picture-picker select');
+  const picker = document.querySelector('.picture-picker select');
   function show_point(id) {
     picker.value = id;
     picker.dispatchEvent(new Event('change'));
@@ -254,7 +185,7 @@
   press('ArrowRight');
   saw.flips = [shown()];  // not in view: nothing happens
   set.scrollIntoView({behavior: 'instant'});
-  ['ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowLeft', '2', '9'].forEach(function(key) {
+  ['ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowLeft', '2', '9'].forEach(key => {
     press(key);
     saw.flips.push(shown());
   });
@@ -267,10 +198,10 @@
 
   // The charts by keyboard.
   async function keys_in(id, names) {
-    var figure = document.getElementById(id), plot = figure.querySelector('.plot'), said = [];
-    for (var name of names) {
+    const figure = document.getElementById(id), plot = figure.querySelector('.plot'), said = [];
+    for (const name of names) {
       plot.dispatchEvent(new KeyboardEvent('keydown', {key: name, bubbles: true, cancelable: true}));
-      await drawn();
+      await later();
       said.push(figure.querySelector('.spoken').textContent);
     }
     return {stop: plot.tabIndex, said: said, tip: document.getElementById('tip').hidden};

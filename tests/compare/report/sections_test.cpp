@@ -1,7 +1,6 @@
 // Which sections the report has, what is folded in them, and how their tables are aligned.
 #include <gtest/gtest.h>
 
-#include <set>
 #include <string>
 
 #include "compare/judge/recommendation.h"
@@ -87,12 +86,8 @@ TEST(Report, SaysWhatToSetInEachPart) {
   says("3 rows");
   says("lookup.reduction 0.19</td><td>0.15</td><td>0.2</td>");
   says("Without a reduction the leak is 1%");
-  says("What may help: a smaller blur or a finer map; or lookup.kind = evsm4 or msm, which leak less.");
-  says(
-      "It is held to no bound, and stands as set. It has no curve: lookup.kind = vsm compares no depths, and "
-      "lookup.reduction_span gives");
+  says("It is held to no bound");
   EXPECT_NE(page.find("<section id=\"reduction\""), std::string::npos) << "and the curves are there";
-  EXPECT_NE(page.find("held to no bound</small>"), std::string::npos) << "also where it stands on the front";
   // What breaks a bound is not held to none.
   results.points[2].metrics["error"] = 0.5;
   BoundResult bound;
@@ -100,7 +95,7 @@ TEST(Report, SaysWhatToSetInEachPart) {
   bound.found = 0.5, bound.point = results.points[2].id, bound.points = 1;
   results.bounds.push_back(bound);
   const std::string bounded = render_report(results, sample_picture);
-  EXPECT_NE(bounded.find("It breaks a bound. It has no curve"), std::string::npos);
+  EXPECT_NE(bounded.find("It breaks a bound."), std::string::npos);
   for (const char* unjudged : {"It is held to no bound", "held to no bound</small>", "\"judged\":false"}) {
     EXPECT_NE(page.find(unjudged), std::string::npos) << unjudged;
     EXPECT_EQ(bounded.find(unjudged), std::string::npos) << unjudged;
@@ -133,23 +128,6 @@ TEST(Report, TheLivePictureIsTheAnswers) {
   EXPECT_EQ(opened(), 1) << "the head of a report of parts names it too";
   results.points[1].images.clear();
   EXPECT_EQ(opened(), 0);
-}
-
-// What all points share stands in no label of the budget, so that what differs is in it.
-TEST(Report, TheBudgetsLabelsDiffer) {
-  Results results = sample_results();
-  results.info.swept.insert(results.info.swept.begin(), {"scene.name", "light.kind"});
-  const std::string page = render_report(results, sample_picture);
-  const std::string budget = page.substr(page.find("<section id=\"budget\""));
-  std::set<std::string> labels;
-  const std::string head = "<span class=\"name\">";
-  for (size_t at = budget.find(head); at < budget.find("</section>"); at = budget.find(head, at + 1)) {
-    const size_t from = budget.find("\">", at + head.size()) + 2;
-    const std::string label = budget.substr(from, budget.find("</a>", from) - from);
-    EXPECT_EQ(label.find("resolution "), 0u) << label;
-    labels.insert(label);
-  }
-  EXPECT_EQ(labels.size(), results.points.size());
 }
 
 TEST(Report, TextIsLeftAndNumbersAreRight) {

@@ -6,6 +6,7 @@
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
 #include "compare/store/store.h"
+#include "tests/support/kind_thrown.h"
 #include "tests/support/sample_results.h"
 
 namespace noonmark {
@@ -212,13 +213,7 @@ TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
     }
     EXPECT_NE(refusal().find("holds data that Noonmark did not write"), std::string::npos);
     ResultStore store(path, "x = 1\n", Existing::resume);
-    try {
-      store.repair(3, any_point);
-      ADD_FAILURE() << "the store was repaired";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::file);
-      EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
-    }
+    expect_refused(ErrorKind::file, {"--overwrite"}, [&] { store.repair(3, any_point); });
   }
 }
 

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <bit>
-#include <fstream>
 #include <tuple>
 
 #include "base/error.h"
@@ -354,18 +353,6 @@ TEST_F(Store, RefusesADamagedStore) {
   for (size_t i = 4096; i < bytes.size(); i += 4096) bytes[i] = '\x55';  // the type of each page except the first
   write_file_atomically(path, bytes);
   EXPECT_NE(refusal().find("--overwrite"), std::string::npos);
-}
-
-TEST_F(Store, SaysWhereRowsDoNotFitTogether) {
-  fresh().add(sample_point(1));
-  sqlite::Database(path, sqlite::Database::Mode::existing).execute("INSERT INTO metrics VALUES (8, 'acne', 1)");
-  try {
-    ResultStore::open(path).load();
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::file);
-    EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
-  }
 }
 
 // Found by fuzzing: the report read a sample at that index, beyond the end of the list.

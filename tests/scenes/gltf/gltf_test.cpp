@@ -1,20 +1,13 @@
 // load_gltf on small valid files: every feature that it reads, against numbers worked out by hand.
 #include <glm/gtc/constants.hpp>
 
-#include "tests/scenes/gltf/expect.h"
-#include "tests/scenes/gltf/files.h"
+#include "tests/scenes/gltf/gltf_fixture.h"
 
 namespace noonmark::test {
 namespace {
 
-class Gltf : public ::testing::Test {
+class Gltf : public GltfFile {
  protected:
-  Scene load(const json& document) { return load_file(folder_.write("scene.gltf", document.dump())); }
-  Scene load_file(const std::string& path) {
-    Scene scene = load_gltf(path);
-    EXPECT_EQ(defect_of(scene), "");
-    return scene;
-  }
   // Twice the area of each triangle as a vector: the winding and the size at once.
   static std::vector<glm::vec3> normals(const Scene& s) {
     std::vector<glm::vec3> out;
@@ -30,7 +23,6 @@ class Gltf : public ::testing::Test {
     d["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", accessor}}}, {"mode", mode}};
     return d;
   }
-  TemporaryFolder folder_;
 };
 
 const glm::vec3 towards_z(0, 0, 1);

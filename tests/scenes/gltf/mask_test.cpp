@@ -6,8 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tests/scenes/gltf/expect.h"
-#include "tests/scenes/gltf/files.h"
+#include "tests/scenes/gltf/gltf_fixture.h"
 
 namespace noonmark::test {
 namespace {
@@ -43,7 +42,7 @@ std::string declared(uint32_t width, uint32_t height) {
   return bytes;
 }
 
-class GltfMask : public ::testing::Test {
+class GltfMask : public GltfFile {
  protected:
   // The unit square with its texture coordinates (u, v) = (x, y), masked by an image.
   json masked(const std::string& image_bytes) {
@@ -57,12 +56,6 @@ class GltfMask : public ::testing::Test {
     d["images"] = {{{"uri", "data:image/png;base64," + base64(image_bytes)}}};
     return d;
   }
-  Scene load(const json& document, bool masks = true) {
-    Scene scene = load_gltf(folder_.write("scene.gltf", document.dump()), {}, masks);
-    EXPECT_EQ(defect_of(scene), "");
-    return scene;
-  }
-  std::string refusal(const json& document) { return test::refusal(folder_.write("scene.gltf", document.dump())); }
   static double area(const Scene& s) {
     double sum = 0;
     for (const glm::uvec3& t : s.triangles) {
@@ -81,7 +74,6 @@ class GltfMask : public ::testing::Test {
       return side(t.x, t.y) > 0 && side(t.y, t.z) > 0 && side(t.z, t.x) > 0;
     });
   }
-  TemporaryFolder folder_;
 };
 
 // Two texels side by side, the left one opaque.
@@ -105,7 +97,7 @@ TEST_F(GltfMask, TheTopRowIsWhereVIsZero) {
 
 TEST_F(GltfMask, WithoutMasksTheTrianglesAreWholeAndItIsSaid) {
   json d = masked("not an image");
-  const Scene s = load(d, false);
+  const Scene s = load(d, {}, false);
   EXPECT_EQ(s.triangles.size(), 2u);
   ASSERT_EQ(s.notes.size(), 1u);
   EXPECT_EQ(s.notes[0], "1 material masked by a texture taken as opaque (scene.masks = false)");
@@ -171,10 +163,9 @@ TEST_F(GltfMask, FactorAndCutoff) {
   material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.5};
   EXPECT_NEAR(area(load(d)), 0.5, 1e-7);
   material["alphaCutoff"] = 0.6;
-  EXPECT_NE(refusal(d).find("holds no triangles"), std::string::npos);
+  expect_refusal(d, "holds no triangles");
   material["pbrMetallicRoughness"].erase("baseColorTexture");
-  EXPECT_NE(refusal(d).find("holds no triangles: 1 primitive whose alphaMode MASK shows nothing"), std::string::npos)
-      << refusal(d);
+  expect_refusal(d, "holds no triangles: 1 primitive whose alphaMode MASK shows nothing");
 }
 
 // A quarter turn with v down: u = y, v = -x (KhronosGroup/glTF issue 1563). The other set of coordinates is shifted.
@@ -236,8 +227,7 @@ TEST_F(GltfMask, EachBrokenMaskIsToldWhereItIs) {
   const auto told = [&](const std::string& what, auto&& change) {
     json d = good;
     change(d);
-    const std::string message = refusal(d);
-    EXPECT_NE(message.find(what), std::string::npos) << message;
+    const std::string message = expect_refusal(d, what);
     EXPECT_NE(message.find("scene.masks = false"), std::string::npos) << message;
   };
   told("images[0].uri: 'absent.png' cannot be found", [](json& d) { d["images"][0]["uri"] = "absent.png"; });

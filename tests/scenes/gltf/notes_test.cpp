@@ -4,26 +4,12 @@
 #include <utility>
 
 #include "scenes/library.h"
-#include "tests/scenes/gltf/expect.h"
-#include "tests/scenes/gltf/files.h"
+#include "tests/scenes/gltf/gltf_fixture.h"
 
 namespace noonmark::test {
 namespace {
 
-class GltfNotes : public ::testing::Test {
- protected:
-  Scene load(const json& document) {
-    Scene scene = load_gltf(folder_.write("scene.gltf", document.dump()));
-    EXPECT_EQ(defect_of(scene), "");
-    return scene;
-  }
-  std::string refusal(const json& document) { return test::refusal(folder_.write("scene.gltf", document.dump())); }
-  static bool noted(const Scene& s, const std::string& text) {
-    return std::any_of(s.notes.begin(), s.notes.end(),
-                       [&](const std::string& note) { return note.find(text) != std::string::npos; });
-  }
-  TemporaryFolder folder_;
-};
+class GltfNotes : public GltfFile {};
 
 TEST_F(GltfNotes, WithoutScenesAllRootsAreShown) {
   json d = square();
@@ -111,7 +97,7 @@ TEST_F(GltfNotes, UnknownTypesMatterOnlyWhereTheyAreUsed) {
   d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "ambient"}}};
   EXPECT_EQ(load(d).triangles.size(), 2u);
   d["meshes"][0]["primitives"][0]["indices"] = 2;
-  EXPECT_NE(refusal(d).find("accessors[2]: type: 'VEC5' is not defined by glTF"), std::string::npos);
+  expect_refusal(d, "accessors[2]: type: 'VEC5' is not defined by glTF");
 }
 
 TEST_F(GltfNotes, IndicesWithoutAViewAreZeroOrSparse) {
@@ -197,10 +183,8 @@ TEST_F(GltfNotes, EndingsInCapitalsAreFilesToo) {
 }
 
 TEST_F(GltfNotes, TextThatIsNoJsonSaysWhy) {
-  const auto said = [&](const std::string& text) { return test::refusal(folder_.write("scene.gltf", text)); };
   const auto expect = [&](const std::string& text, const std::string& what) {
-    const std::string message = said(text);
-    EXPECT_NE(message.find(what), std::string::npos) << message;
+    const std::string message = expect_refusal_of_text(text, what);
     EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
     EXPECT_EQ(message.find("..."), std::string::npos) << message;
   };
@@ -222,12 +206,10 @@ TEST_F(GltfNotes, AKeyThatStandsTwiceIsRefused) {
   ASSERT_NE(at, std::string::npos);
   std::string twice = text;
   twice.insert(at, "\"mesh\":1,");
-  EXPECT_NE(test::refusal(folder_.write("scene.gltf", twice)).find("an object in nodes: has the key 'mesh' twice"),
-            std::string::npos);
+  expect_refusal_of_text(twice, "an object in nodes: has the key 'mesh' twice");
   twice = text;
   twice.insert(1, "\"nodes\":[],");
-  EXPECT_NE(test::refusal(folder_.write("scene.gltf", twice)).find("JSON: has the key 'nodes' twice"),
-            std::string::npos);
+  expect_refusal_of_text(twice, "JSON: has the key 'nodes' twice");
   std::string extras = text;
   extras.insert(at, "\"extras\":{\"a\":1,\"a\":{\"b\":2,\"b\":3}},");
   EXPECT_EQ(load_gltf(folder_.write("scene.gltf", extras)).triangles.size(), 2u);
@@ -235,14 +217,10 @@ TEST_F(GltfNotes, AKeyThatStandsTwiceIsRefused) {
 
 // Such keys are looked for in the whole text, also in data that are not read, and in objects with many keys.
 TEST_F(GltfNotes, AKeyThatStandsTwiceIsRefusedInDataThatAreNotRead) {
-  const auto refusal_of = [&](const std::string& member) {
+  const auto expect = [&](const std::string& member, const std::string& message) {
     std::string text = square().dump();
     text.insert(1, member + ",");
-    return test::refusal(folder_.write("scene.gltf", text));
-  };
-  const auto expect = [&](const std::string& member, const std::string& message) {
-    const std::string refusal = refusal_of(member);
-    EXPECT_NE(refusal.find(message), std::string::npos) << refusal;
+    expect_refusal_of_text(text, message);
   };
   expect("\"images\":[{\"uri\":\"a\"},{\"uri\":\"b\",\"name\":\"\",\"uri\":\"c\"}]",
          "an object in images: has the key 'uri' twice");
@@ -262,8 +240,7 @@ TEST_F(GltfNotes, AValueOfAnotherTypeIsNamed) {
   const auto expect = [&](const char* pointer, const json& value, const std::string& message) {
     json d = square();
     d[json::json_pointer(pointer)] = value;
-    const std::string refusal = test::refusal(folder_.write("scene.gltf", d.dump()));
-    EXPECT_NE(refusal.find(message), std::string::npos) << refusal;
+    expect_refusal(d, message);
   };
   const json object = {{"a", {{"b", 1}}}, {"c", {1, 2}}};
   expect("/nodes/0/mesh", object, "nodes[0].mesh: should be an integer from 0 to 2147483647, not object");

@@ -1,8 +1,6 @@
 // A scene that is written as a .glb and read again is the same scene.
 #include "scenes/gltf/write_glb.h"
 
-#include <fstream>
-
 #include "scenes/builtin.h"
 #include "scenes/camera_fit.h"
 #include "scenes/gltf/gltf.h"
