@@ -117,7 +117,7 @@ class Capture:
     def after_vertex_shader(self, draw):
         """(clip positions, all that the shader writes behind them), a row for each index of each instance that is read."""
         self.at(draw.event)
-        found, instances = [np.zeros((0, 4))], draw.instances
+        found, instances = [], draw.instances
         if draw.topology == rd.Topology.PatchList_1CPs or instances > MOST_INSTANCES:
             print(f'{draw.name} has patches, or {instances} instances where {MOST_INSTANCES} are read; this draw is left out')
             instances = 0
@@ -130,7 +130,7 @@ class Capture:
             if mesh.indexResourceId != NULL and mesh.indexByteStride:
                 index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.baseVertex, mesh.numIndices)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
-        rows = np.concatenate(found[1:] or found)
+        rows = np.concatenate(found) if found else np.zeros((0, 4))
         return rows[:, :4] * np.array([1, -1 if draw.y_down else 1, 1, 1.0]), rows[:, 4:]
 
     def clip(self, draw):

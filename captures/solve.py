@@ -251,8 +251,8 @@ def camera_and_maps(capture):
 # ---- the lights
 def lights_of(maps):
     """Maps of one direction or of one place are those of one light."""
-    is_same = lambda a, b: np.abs(a.eye - b.eye).max() <= SAME_LIGHT * max(1, np.abs(a.eye).max())
-    return list(grouped(maps, lambda m: next(k for k, other in enumerate(maps) if is_same(other, m))).values())
+    is_one = lambda a, b: np.abs(a.eye - b.eye).max() <= SAME_LIGHT * max(1, np.abs(a.eye).max())
+    return list(grouped(maps, lambda m: next(first for first in maps if is_one(first, m))).values())
 
 
 def light_of(group):
