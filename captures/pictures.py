@@ -144,7 +144,8 @@ class Pictures:
                 notes.append(f'{clamped.any(2).sum()} pixels reach the end of their format in a channel, which is left out')
         v = divided(frame - dark, span)
         v[np.abs(span).max(2) < max(STEPS_OF_REACTION * step, 0.004 * np.percentile(reaction, 99))] = np.nan
-        off = np.where((v > 0) & (v < 1), divided(step * np.maximum(1, lit) * np.sign(span), span), 0)[np.isfinite(v)]
+        size = step * (2.28 * np.clip(lit, 0, 1) ** 0.583 if form.compType == rd.CompType.UNormSRGB else np.maximum(1, lit))  # sRGB's slope
+        off = np.where((v > 0) & (v < 1), divided(size * np.sign(span), span), 0)[np.isfinite(v)]
         partly = (v > 0.1) & (v < 0.9)
         part, whole = (frame - dark)[partly], span[partly]
         strong = np.abs(whole) > 0.2 * np.abs(whole).max(1, keepdims=True)
