@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""capture.py FRAME.rdc OUT: a capture of RenderDoc as frames for `noonmark judge`.
+"""capture.py FRAME.rdc OUT: a capture of RenderDoc as frames for `noonmark judge`, which OUT/capture.json lists.
 
 Exit codes: 0 frames are written, 2 the command or its file, 3 the capture cannot be judged, 4 a package is missing.
 A replay runs the captured calls in this machine's driver. So it runs in a child without a network or a display, which writes
@@ -7,8 +7,6 @@ only into OUT, with a limit of memory and time, and ends with this process.
 """
 import argparse
 import ctypes
-import glob
-import importlib.util
 import multiprocessing
 import os
 import resource
@@ -16,14 +14,11 @@ import shutil
 import signal
 import struct
 import sys
-import tempfile
 
-PACKAGES = {'python3-renderdoc': 'renderdoc', 'python3-numpy': 'numpy'}  # of Debian, and their modules
 MEMORY, SECONDS = 16 << 30, 1200
 CLONE_NEWUSER, CLONE_NEWNET, PR_SET_PDEATHSIG, PR_SET_NO_NEW_PRIVS = 0x10000000, 0x40000000, 1, 38
 LANDLOCK_CREATE, LANDLOCK_ADD, LANDLOCK_RESTRICT = 444, 445, 446
 WRITES = 0x1ff2 | 1 << 14  # all that changes files, and truncation; reading stays free
-
 
 
 def confine(folder):
@@ -44,6 +39,11 @@ def confine(folder):
         libc.syscall(LANDLOCK_RESTRICT, rules, 0)
 
 
+def failed(code, subject, why):
+    print(f'noonmark: {subject}: {why}', file=sys.stderr)
+    return code
+
+
 def replay(options):
     """In the child. It ends without Python's ending, nor RenderDoc's, which can wait for ever."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
@@ -51,22 +51,19 @@ def replay(options):
     sys.stdout.reconfigure(line_buffering=True)
     os.environ.pop('DISPLAY', None)  # RenderDoc replays OpenGL through EGL then
     places = ('HOME', 'TMPDIR', 'XDG_RUNTIME_DIR', 'XDG_CACHE_HOME')
-    os.environ.update({'LIBGL_ALWAYS_SOFTWARE': '1', 'LP_NUM_THREADS': '2'} | os.environ | dict.fromkeys(places, options.scratch))
-    os.environ['EGL_PLATFORM'] = 'surfaceless'
-    import read_capture
+    os.environ |= ({'LIBGL_ALWAYS_SOFTWARE': '1', 'LP_NUM_THREADS': '2'} | os.environ | {'EGL_PLATFORM': 'surfaceless'}
+                   | dict.fromkeys(places, options.scratch))
     try:
+        import read_capture
         read_capture.read(options)
         os._exit(0)
+    except ModuleNotFoundError as why:
+        os._exit(failed(4, f'captures need the module {why.name}', f"install Debian's package python3-{why.name} with apt"))
     except read_capture.Refusal as why:
-        print(f'noonmark: {options.capture}: {why}', file=sys.stderr)
-        os._exit(3)
+        os._exit(failed(3, options.capture, why))
 
 
 def main():
-    missing = [package for package, module in PACKAGES.items() if not importlib.util.find_spec(module)]
-    if missing:
-        print(f'noonmark: captures need these packages of Debian: {" ".join(missing)}; install them with apt', file=sys.stderr)
-        return 4
     parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
     parser.add_argument('capture', type=os.path.abspath)
     parser.add_argument('out', type=os.path.abspath)
@@ -74,18 +71,16 @@ def main():
     parser.add_argument('--filter', help='of the lookup: none, hardware, box3, box5 or box7; without it the one that fits')
     parser.add_argument('--bias', type=float, help='of the lookup, constant, in window depth; without it the one that fits')
     options = parser.parse_args()
+    options.scratch = os.path.join(options.out, '.noonmark-scratch')
     try:
         with open(options.capture, 'rb') as f:
             if f.read(4) != b'RDOC':
                 raise OSError('no capture of RenderDoc (its first bytes are not RDOC)')
-        os.makedirs(options.out, exist_ok=True)
+        shutil.rmtree(options.scratch, ignore_errors=True)  # of a run that was killed
+        os.makedirs(options.scratch)
     except OSError as why:
-        print(f'noonmark: {options.capture}: {why.strerror or why}', file=sys.stderr)
-        return 2
+        return failed(2, options.capture, why.strerror or why)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that the scratch folder ends with this process
-    for old in glob.glob(os.path.join(glob.escape(options.out), '.noonmark-scratch-*')):
-        shutil.rmtree(old, ignore_errors=True)  # of a run that was killed
-    options.scratch = tempfile.mkdtemp(prefix='.noonmark-scratch-', dir=options.out)
     child = multiprocessing.get_context('fork').Process(target=replay, args=[options])
     child.start()
     try:
@@ -94,11 +89,9 @@ def main():
         child.kill()
         child.join()
         shutil.rmtree(options.scratch, ignore_errors=True)
-    if child.exitcode < 0:
-        print(f'noonmark: {options.capture}: the replay ended by signal {-child.exitcode} (the driver, or its limits of {MEMORY >> 30} GiB '
-              f'and {SECONDS} s)', file=sys.stderr)
-        return 3
-    return child.exitcode
+    limits = f'the driver, or its limits of {MEMORY >> 30} GiB and {SECONDS} s'
+    return child.exitcode if child.exitcode >= 0 else failed(
+        3, options.capture, f'the replay ended by signal {-child.exitcode} ({limits})')
 
 
 if __name__ == '__main__':

@@ -10,6 +10,7 @@ import renderdoc as rd
 
 NULL = rd.ResourceId.Null()
 MOST_INSTANCES = 4096  # of one draw; GetPostVSData is one call for each
+KILLS = [1 << 16 | code for code in (252, 4416, 5380)]  # of SPIR-V: OpKill, OpTerminateInvocation, OpDemoteToHelper
 STAGES = (rd.ShaderStage.Vertex, rd.ShaderStage.Pixel)
 
 
@@ -17,65 +18,69 @@ class Refusal(Exception):
     """The capture cannot be judged; the text says why and what to do."""
 
 
+def walk(items, inside):
+    """All items of a tree, each before those inside it."""
+    for item in items:
+        yield item
+        yield from walk(inside(item), inside)
+
+
 class Draw:
     """A draw call, and the state that it is made in."""
 
     def __init__(self, action, state, capture):
-        self.event, self.action, self.count, self.topology = action.eventId, action, action.numIndices, state.GetPrimitiveTopology()
-        chunk = action
-        while chunk.parent and chunk.parent.flags & rd.ActionFlags.MultiAction:
-            chunk = chunk.parent  # of a draw out of a call for several RenderDoc counts on from the call's own place
-        self.chunk = chunk.events[-1].chunkIndex  # of the capture's list of calls
-        has_geometry_shader, instances = state.GetShader(rd.ShaderStage.Geometry) != NULL, max(1, action.numInstances)
+        self.event, self.count, self.topology = action.eventId, action.numIndices, state.GetPrimitiveTopology()
+        self.name = f'draw {self.event}'
+        self.first, self.index = action.vertexOffset, ()  # or (buffer, byte offset, bytes of an index, base vertex)
+        buffers, inputs = state.GetVBuffers(), state.GetVertexInputs()
+        mesh = [(b.resourceId, b.byteOffset) for b in buffers[inputs[0].vertexBuffer:][:1]] if len(inputs) else []
+        if action.flags & rd.ActionFlags.Indexed:
+            buffer = state.GetIBuffer()
+            offset = buffer.byteOffset + action.indexOffset * buffer.byteStride
+            mesh = self.index = (buffer.resourceId, offset, buffer.byteStride, action.baseVertex)
+        instances, has_geometry_shader = max(1, action.numInstances), state.GetShader(rd.ShaderStage.Geometry) != NULL
+        self.geometry = (*mesh, self.first, self.count, instances)  # equal in every pass that draws the same mesh
         self.stage = rd.MeshDataStage.GSOut if has_geometry_shader else rd.MeshDataStage.VSOut
         self.instances = 1 if has_geometry_shader else instances  # that are read one by one: a geometry shader's output holds all
-        self.geometry = (*_mesh(action, state), self.count, instances)  # equal in every pass that draws the same mesh
-        self.depth, self.outputs = (  # (texture, slice, mip), or (); and such of colours
+        while action.parent and action.parent.flags & rd.ActionFlags.MultiAction:
+            action = action.parent  # of a draw out of a call for several RenderDoc counts on from the call's own place
+        self.chunk = action.events[-1].chunkIndex  # of the capture's list of calls
+        self.reads = set()  # textures, only those that its shaders use: OpenGL's others are bound by chance
+        for stage in STAGES:
+            used = {(p.bindset, p.bind) for p in state.GetBindpointMapping(stage).readOnlyResources if p.used}
+            self.reads |= {r.resourceId for b in state.GetReadOnlyResources(stage) for r in b.resources
+                           if r.resourceId != NULL and (b.bindPoint.bindset, b.bindPoint.bind) in used}
+        depths, colours = (  # each (texture, slice, mip)
             [(t.resourceId, max(0, t.firstSlice), max(0, t.firstMip)) for t in targets if t.resourceId != NULL]
             for targets in ([state.GetDepthTarget()], state.GetOutputTargets()))
-        self.depth, self.outputs = tuple(*self.depth), tuple(self.outputs)
-        self.reads = set()  # textures, only those that its shaders use: OpenGL's others are bound by chance
-        place = lambda point: (point.bindset, point.bind)
-        for stage in STAGES:
-            used = {place(point) for point in state.GetBindpointMapping(stage).readOnlyResources if point.used}
-            self.reads |= {r.resourceId for b in state.GetReadOnlyResources(stage) if place(b.bindPoint) in used for r in b.resources}
-        self.reads.discard(NULL)
-        own, view = capture.control.GetGLPipelineState() if capture.gl else capture.control.GetVulkanPipelineState(), state.GetViewport(0)
-        if capture.gl:
-            raster, test, bottom = own.rasterizer.state, own.depthState, view.y
-            self.writes_depth = test.depthEnable and test.depthWrites
-        else:
-            raster, test, bottom = own.rasterizer, own.depthStencil, -max(view.y, view.y + view.height)
-            self.writes_depth = test.depthTestEnable and test.depthWriteEnable
-        self.zero_to_one = not (capture.gl and own.vertexProcessing.clipNegativeOneToOne)  # depths of clip space
-        self.y_down = not capture.gl and view.height > 0
-        self.samples = 1
-        for texture, _, mip in (*self.outputs, *filter(None, [self.depth]))[:1]:
+        self.depth, self.outputs = tuple(*depths), tuple(colours)  # () without any
+        gl, view = capture.gl, state.GetViewport(0)
+        own = capture.control.GetGLPipelineState() if gl else capture.control.GetVulkanPipelineState()
+        raster, test = (own.rasterizer.state, own.depthState) if gl else (own.rasterizer, own.depthStencil)
+        self.writes_depth = test.depthEnable and test.depthWrites if gl else test.depthTestEnable and test.depthWriteEnable
+        self.zero_to_one = not (gl and own.vertexProcessing.clipNegativeOneToOne)  # depths of clip space
+        self.y_down = not gl and view.height > 0
+        self.samples, bottom = 1, view.y
+        for texture, _, mip in (colours + depths)[:1]:
             self.samples = max(1, capture.textures[texture].msSamp)
-            bottom += 0 if capture.gl else capture.textures[texture].height >> mip
+            bottom = view.y if gl else (capture.textures[texture].height >> mip) - max(view.y, view.y + view.height)
         self.viewport = (view.x, bottom, view.width, abs(view.height))  # pixels, from the bottom
         self.reversed = test.depthFunction in (rd.CompareFunction.Greater, rd.CompareFunction.GreaterEqual)
         self.polygon_offset = raster.slopeScaledDepthBias, raster.depthBias  # factor, units
-        self.culls = 'none'  # or the turn on the screen of the triangles that are not drawn
-        if raster.cullMode in (rd.CullMode.Front, rd.CullMode.Back):
-            self.culls = 'ccw' if (raster.cullMode == rd.CullMode.Front) == bool(raster.frontCCW) else 'cw'
-        self.discards = discards(state.GetShaderReflection(rd.ShaderStage.Pixel))
-
-
-def _mesh(action, state):
-    if action.flags & rd.ActionFlags.Indexed:
-        buffer = state.GetIBuffer()
-        return int(buffer.resourceId), buffer.byteOffset + action.indexOffset * buffer.byteStride, action.baseVertex
-    buffers, inputs = state.GetVBuffers(), state.GetVertexInputs()
-    first = [(int(b.resourceId), b.byteOffset) for b in buffers[inputs[0].vertexBuffer:][:1]] if len(inputs) else []
-    return *first, action.vertexOffset
+        # Whether the triangles that are not drawn turn counterclockwise on the screen; None where all are drawn.
+        self.culls_ccw = {rd.CullMode.Front: bool(raster.frontCCW), rd.CullMode.Back: not raster.frontCCW}.get(raster.cullMode)
+        pixel = rd.ShaderStage.Pixel
+        self.shader = f'{capture.names.get(state.GetShader(pixel), "")} {state.GetShaderEntryPoint(pixel)}()'  # as the debugger shows it
+        reflection = state.GetShaderReflection(pixel)
+        code, of_binary = (bytes(reflection.rawBytes), reflection.encoding == rd.ShaderEncoding.SPIRV) if reflection else (b'', False)
+        self.discards = np.isin(rows_of(code, '<u4', 1), KILLS).any() if of_binary else b'discard' in code
 
 
 class Capture:
-    """An open capture. Close it: RenderDoc replays one at a time well, several badly."""
+    """An open capture."""
 
     def __init__(self, path):
-        self.file = rd.OpenCaptureFile()
+        self.path, self.file, self.event = path, rd.OpenCaptureFile(), None
         result = self.file.OpenFile(path, '', None)
         if result.code != rd.ResultCode.Succeeded:
             raise Refusal(f'RenderDoc does not read it: {result.Message()}')
@@ -85,11 +90,6 @@ class Capture:
         self.gl = self.control.GetAPIProperties().pipelineType == rd.GraphicsAPI.OpenGL
         self.textures = {t.resourceId: t for t in self.control.GetTextures()}
         self.names = {r.resourceId: r.name for r in self.control.GetResources()}
-        self.event = None
-
-    def close(self):
-        self.control.Shutdown()
-        self.file.Shutdown()
 
     def at(self, event):
         """The state of the pipeline at this event."""
@@ -100,46 +100,35 @@ class Capture:
 
     # ---- draws and their state
     def actions(self, flags):
-        def walk(actions):
-            for action in actions:
-                yield from [action] if action.flags & flags else []
-                yield from walk(action.children)
-        return walk(self.control.GetRootActions())
+        return [a for a in walk(self.control.GetRootActions(), lambda action: action.children) if a.flags & flags]
 
-    def clears(self):
-        """[(chunk, depth texture, colour textures)] that are cleared, or whose pass begins."""
-        return [(a.events[-1].chunkIndex, a.depthOut, a.outputs) for a in self.actions(rd.ActionFlags.Clear | rd.ActionFlags.PassBoundary)]
-
+    @functools.cached_property
     def draws(self):
         return [Draw(a, self.at(a.eventId), self) for a in self.actions(rd.ActionFlags.Drawcall)]
-
-    def fragment_shader(self, draw):
-        """As the debugger shows it."""
-        state = self.at(draw.event)
-        return f'{self.names.get(state.GetShader(STAGES[1]), "")} {state.GetShaderEntryPoint(STAGES[1])}()'
 
     # ---- vertices
     def _rows(self, kind, columns, *buffer):
         return rows_of(self.control.GetBufferData(*buffer), kind, columns)
 
-    def _indices(self, buffer, offset, width, count, base):
+    def _indices(self, buffer, offset, width, base, count):
         return self._rows(f'<u{width}', 1, buffer, offset, count * width)[:, 0].astype('i8') + base
 
     @functools.cache
     def after_vertex_shader(self, draw):
         """(clip positions, all that the shader writes behind them), a row for each index of each instance that is read."""
         self.at(draw.event)
-        is_read, found = draw.topology != rd.Topology.PatchList_1CPs and draw.instances <= MOST_INSTANCES, []
-        if not is_read:
-            print(f'draw {draw.event} has patches, or {draw.instances} instances where {MOST_INSTANCES} are read; this draw is left out')
-        for instance in range(draw.instances if is_read else 0):
+        found, instances = [], draw.instances
+        if draw.topology == rd.Topology.PatchList_1CPs or instances > MOST_INSTANCES:
+            print(f'{draw.name} has patches, or {instances} instances where {MOST_INSTANCES} are read; this draw is left out')
+            instances = 0
+        for instance in range(instances):
             mesh = self.control.GetPostVSData(instance, 0, draw.stage)
             if mesh.vertexResourceId == NULL or mesh.numIndices == 0:
                 continue
             index = np.arange(mesh.numIndices)
             rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
             if mesh.indexResourceId != NULL and mesh.indexByteStride:
-                index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.numIndices, mesh.baseVertex)
+                index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.baseVertex, mesh.numIndices)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
         rows = np.concatenate(found) if found else np.zeros((0, 4))
         return rows[:, :4] * np.array([1, -1 if draw.y_down else 1, 1, 1.0]), rows[:, 4:]
@@ -148,35 +137,32 @@ class Capture:
         return self.after_vertex_shader(draw)[0]
 
     def coordinates(self, draw):
-        """The first output of two floats, a mask's texture coordinate, a row for each index; None if there is none."""
-        reflection, at = self.at(draw.event).GetShaderReflection(rd.ShaderStage.Vertex), 0
+        """The first output of two floats, a mask's texture coordinate, a row for each index; without columns if there is none."""
+        reflection, written, at = self.at(draw.event).GetShaderReflection(rd.ShaderStage.Vertex), self.after_vertex_shader(draw)[1], 0
         for output in reflection.outputSignature if reflection else []:
             if output.compCount == 2 and output.systemValue == rd.ShaderBuiltin.Undefined:
-                found = self.after_vertex_shader(draw)[1][:, at:at + 2]
-                return found if found.shape[1] == 2 else None
+                return written[:, at:at + 2]
             at += 0 if output.systemValue == rd.ShaderBuiltin.Position else output.compCount
-        return None
+        return written[:, :0]
 
     def vertex_inputs(self, draw):
-        """Each attribute of two or three floats, a row for each index. Which one is the place is found by a fit."""
-        state, action, found = self.at(draw.event), draw.action, []
-        index, buffers = np.arange(draw.count) + action.vertexOffset, state.GetVBuffers()
-        if action.flags & rd.ActionFlags.Indexed:
-            ib = state.GetIBuffer()
-            index = self._indices(ib.resourceId, ib.byteOffset + action.indexOffset * ib.byteStride, ib.byteStride,
-                                  draw.count, action.baseVertex)
+        """Each attribute of floats as x, y, z, 1, a row for each of the clip positions. Which one is the place is found by a fit."""
+        index, found = self._indices(*draw.index, draw.count) if draw.index else np.arange(draw.count) + draw.first, []
+        if len(index) != len(self.clip(draw)):
+            return found
+        state = self.at(draw.event)
         for attribute in state.GetVertexInputs():
-            form, size = attribute.format, attribute.format.compByteWidth
-            if (attribute.vertexBuffer >= len(buffers) or attribute.perInstance or form.compType != rd.CompType.Float
-                    or form.compCount < 2 or size not in (2, 4) or buffers[attribute.vertexBuffer].resourceId == NULL):
+            form, buffers = attribute.format, state.GetVBuffers()[attribute.vertexBuffer:][:1]
+            size, columns = form.compByteWidth, form.compCount
+            if attribute.perInstance or form.compType != rd.CompType.Float or columns < 2 or size not in (2, 4):
                 continue
-            buffer = buffers[attribute.vertexBuffer]
-            raw = self.control.GetBufferData(buffer.resourceId, buffer.byteOffset + attribute.byteOffset, 0)
-            stride = buffer.byteStride or size * form.compCount
-            n = (len(raw) - size * form.compCount) // stride + 1
-            if n > index.max() >= index.min() >= 0:
-                rows = np.ndarray((n, min(3, form.compCount)), f'<f{size}', raw, strides=(stride, size))[index]
-                found.append(np.pad(rows.astype('f8'), ((0, 0), (0, 3 - rows.shape[1]))))
+            for buffer in (b for b in buffers if b.resourceId != NULL):
+                raw = self.control.GetBufferData(buffer.resourceId, buffer.byteOffset + attribute.byteOffset, 0)
+                stride = buffer.byteStride or size * columns
+                n = (len(raw) - size * columns) // stride + 1
+                if n > index.max() >= index.min() >= 0:
+                    found.append(np.tile([0, 0, 0, 1.0], (len(index), 1)))
+                    found[-1][:, :min(3, columns)] = np.ndarray((n, min(3, columns)), f'<f{size}', raw, strides=(stride, size))[index]
         return found
 
     # ---- constants
@@ -191,16 +177,13 @@ class Capture:
                     rows = self._rows('<f4', 4, buffer.resourceId, buffer.byteOffset, min(buffer.byteSize, 1 << 18)).astype('f8')
                     found += [(f'{block.name}+{16 * k}', rows[k:k + 4].T) for k in range(len(rows) - 3)]
                     continue
-                variables = self.control.GetCBufferVariableContents(
-                    state.GetGraphicsPipelineObject(), reflection.resourceId, stage, reflection.entryPoint, i, buffer.resourceId, 0, 0)
-                found += [(v.name, np.array(v.value.f32v[:16], 'f8').reshape(4, 4)) for v in flat(variables) if v.rows == 4 == v.columns]
+                variables = walk(self.control.GetCBufferVariableContents(
+                    state.GetGraphicsPipelineObject(), reflection.resourceId, stage, reflection.entryPoint, i, buffer.resourceId, 0, 0),
+                    lambda variable: variable.members)
+                found += [(v.name, np.array(v.value.f32v[:16], 'f8').reshape(4, 4)) for v in variables if v.rows == 4 == v.columns]
         return [(n, m) for n, m in found if np.isfinite(m).all() and 0 < np.abs(m).max() < 1e7]
 
     # ---- textures
-    def same(self, texture, other):
-        """The texture of this opening that `texture` is in `other`: a window's are numbered anew, in their order."""
-        return sorted(self.textures, key=int)[sorted(other.textures, key=int).index(texture)]
-
     def image(self, target, event, viewport=None):
         """float32 height x width x channels of (texture, slice, mip) after the event, or of a part of it; of sample 0."""
         self.at(event)
@@ -223,49 +206,27 @@ def rows_of(raw, kind, columns):
     return np.frombuffer(raw, kind, rows * columns).reshape(rows, columns)
 
 
-def flat(variables):
-    for v in variables:
-        yield from flat(v.members) if len(v.members) else [v]
-
-
-def discards(reflection):
-    """Whether a fragment shader has the word of GLSL, or an instruction of SPIR-V: OpKill, OpTerminateInvocation, OpDemoteToHelper."""
-    if reflection and reflection.encoding == rd.ShaderEncoding.SPIRV:
-        return bool(np.isin(rows_of(reflection.rawBytes, '<u4', 1), [1 << 16 | code for code in (252, 4416, 5380)]).any())
-    return bool(reflection) and b'discard' in bytes(reflection.rawBytes)
-
-
 # ---- the formats of textures
-def small_float(v, mantissa):
-    """A half float without its sign and its last bits."""
-    return ((v & 2 ** (5 + mantissa) - 1) << 10 - mantissa).astype('<u2').view('<f2')
-
-
-def float_or_unorm(v, _):
-    """GL_DEPTH_COMPONENT32 has the same name as the depth of floats."""
-    x = v.view('<f4')
-    return x if np.isfinite(x).all() and x.min() >= 0 and x.max() <= 1 else v / (2.0 ** 32 - 1)
-
-
 # How the first 32 bits of a texel are read, by the beginning of the format's name; the others have numbers in a row.
 PACKED = {'D24': lambda v, gl: v / (2.0 ** 32 - 1),  # spread over 32 bits
           'D24S8': lambda v, gl: (v >> 8 if gl else v & 2 ** 24 - 1) / (2.0 ** 24 - 1),  # Vulkan's has the stencil behind all depths
-          'D32': float_or_unorm, 'D32S8': float_or_unorm,
+          # Floats, or OpenGL's whole numbers of 32 bits of the same name: no float from 0 to 1 has more bits than 1.
+          'D32': lambda v, gl: v.view('<f4') if (v <= 0x3f800000).all() else v / (2.0 ** 32 - 1),
           'R10G10B10A2': lambda v, gl: np.stack([(v >> at & 1023) / 1023 for at in (0, 10, 20)], -1),
-          'R11G11B10': lambda v, gl: np.stack([small_float(v, 6), small_float(v >> 11, 6), small_float(v >> 22, 5)], -1)}
+          # Half floats without their signs and last bits.
+          'R11G11B10': lambda v, gl: np.stack([v << 4 & 0x7ff0, v >> 7 & 0x7ff0, v >> 17 & 0x7fe0], -1).astype('<u2').view('<f2')}
 KINDS = {rd.CompType.UNorm: 'u', rd.CompType.UNormSRGB: 'u', rd.CompType.Depth: 'u', rd.CompType.Float: 'f'}
 
 
 def step_of(form):
     """How far two values near 1 lie apart."""
-    packed = {'R10G10B10A2': 1 / 1023, 'R11G11B10': 2 ** -6}.get(form.Name().split('_')[0])
-    kind = 'f4' if packed else f'{KINDS[form.compType]}{form.compByteWidth}'
-    return packed or (1 / np.iinfo(kind).max if kind[0] == 'u' else np.finfo(kind).epsneg)
+    packed, kind = {'R10G10B10A2': 1 / 1023, 'R11G11B10': 2 ** -6}, f'{KINDS[form.compType]}{form.compByteWidth}'
+    return packed.get(form.Name().split('_')[0]) or (1 / np.iinfo(kind).max if kind[0] == 'u' else np.finfo(kind).epsneg)
 
 
 def decode(raw, form, width, height, gl):
     """The values of a texture's bytes, as float32; sRGB formats are decoded."""
-    name, pixels, v = form.Name().split('_')[0], width * height, ()
+    name, pixels, v = form.Name().split('_')[0].replace('D32S8', 'D32'), width * height, ()
     if name in PACKED:
         v = PACKED[name](rows_of(raw, '<u4', max(1, len(raw) // 4 // pixels))[:pixels, 0], gl)
     elif form.compType in KINDS:

@@ -15,6 +15,7 @@ from solve import usable
 
 ENOUGH = 100  # places of a part that the map tells of, before its mask is looked for
 SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through two matrices
+CUTS = sorted(np.linspace(0.05, 0.95, 19), key=lambda cut: abs(cut - 0.5))  # that programs drop fragments below, the usual ones first
 
 
 @dataclasses.dataclass
@@ -22,31 +23,23 @@ class Part:
     draw: object
     drawn: object  # the pass of the picture, or that of a map for what only that draws
     triangles: np.ndarray  # n x 3 x 3, of all instances
-    coordinates: np.ndarray  # n x 3 x 2, of a mask; None if the draw has none
+    coordinates: np.ndarray  # n x 3 x 2, of a mask; less than 2 if the draw has none
     mask: tuple = None  # (texture, channel, cutoff)
 
-    @property
-    def name(self):
-        return f'draw {self.draw.event}'
 
-
-def triangle_rows(topology, count):
-    """Rows of the vertices of each triangle; none for points and lines."""
-    i = np.arange(max(0, count - 2))
-    return {rd.Topology.TriangleList: np.arange(count // 3 * 3).reshape(-1, 3),
-            rd.Topology.TriangleStrip: np.stack([i + i % 2, i + 1 - i % 2, i + 2], 1),
-            rd.Topology.TriangleFan: np.stack([0 * i, i + 1, i + 2], 1)}.get(topology, np.zeros((0, 3), int))
-
-
-def part_of(draw, drawn, to_camera, capture):
-    clip = capture.clip(draw)
+def part_of(draw, drawn, capture):
+    clip, coordinates = capture.clip(draw), capture.coordinates(draw)
     count = len(clip) // draw.instances
-    rows = (triangle_rows(draw.topology, count) + count * np.arange(draw.instances)[:, None, None]).reshape(-1, 3)
-    places = clip @ to_camera.T
+    i = np.arange(max(0, count - 2))
+    rows = {rd.Topology.TriangleList: np.arange(count // 3 * 3).reshape(-1, 3),  # of the vertices of each triangle
+            rd.Topology.TriangleStrip: np.stack([i + i % 2, i + 1 - i % 2, i + 2], 1),
+            rd.Topology.TriangleFan: np.stack([0 * i, i + 1, i + 2], 1)}.get(draw.topology, np.zeros((0, 3), int))
+    rows = (rows + count * np.arange(draw.instances)[:, None, None]).reshape(-1, 3)
+    places = clip @ np.linalg.inv(drawn.clip).T
     good = usable(clip) & (np.abs(places[:, 3]) > 1e-12)
     places = places[:, :3] / np.where(good, places[:, 3], 1)[:, None]
-    rows, coordinates = rows[good[rows].all(1)], capture.coordinates(draw)
-    return Part(draw, drawn, places[rows], None if coordinates is None else coordinates[rows])
+    rows = rows[good[rows].all(1)]
+    return Part(draw, drawn, places[rows], coordinates[rows])
 
 
 def find_mask(part, m, draw, capture):
@@ -60,8 +53,8 @@ def find_mask(part, m, draw, capture):
     taps = Taps(m, (part.triangles[pick] * weight).sum(1))
     farther = taps.farther()
     told = farther < AT_TEXEL  # elsewhere something nearer hides it
-    if part.coordinates is None or told.sum() < ENOUGH:
-        return part.coordinates is None
+    if part.coordinates.shape[2] < 2 or told.sum() < ENOUGH:
+        return part.coordinates.shape[2] < 2
     there, uv = (farther > -AT_TEXEL)[told], (part.coordinates[pick] * weight).sum(1)[taps.inside][told] % 1
     agreement = max(there.mean(), 1 - there.mean())
     for texture in draw.reads:
@@ -71,14 +64,13 @@ def find_mask(part, m, draw, capture):
             continue
         rows, columns = image.shape[:2]
         values = image[(uv[:, 1] * rows).astype(int) % rows, (uv[:, 0] * columns).astype(int) % columns]
-        cuts = sorted(np.linspace(0.05, 0.95, 19), key=lambda cut: abs(cut - 0.5))
-        for channel, cut in itertools.product(range(image.shape[2]), cuts):
+        for channel, cut in itertools.product(range(image.shape[2]), CUTS):
             agrees = ((values[:, channel] >= cut) == there).mean()
             if agrees > agreement + 0.01:
                 part.mask, agreement = (texture, channel, float(cut)), agrees
     if part.mask:
         texture, channel, cut = part.mask
-        print(f'draw {draw.event} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
+        print(f'{draw.name} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
     return not part.mask and there.mean() < 0.95
 
 
@@ -88,59 +80,43 @@ def mask_image(texture, draw, capture):
     return image if capture.gl else image[::-1]
 
 
-def among(rows, known, near):
-    """Which rows lie within `near` of a known one along each axis: they share a cell of a grid, or of one that is moved by half a cell."""
-    odd = np.array([0x9e3779b97f4a7c15, 0xc2b2ae3d27d4eb4f, 0x165667b19e3779f9, 0xd6e8feb86659fd93], 'u8')  # of a hash, modulo 2^64
-    found = np.zeros(len(rows), bool)
-    for moved in itertools.product((0, 0.5), repeat=4):
-        cell = lambda d: (np.floor(d / (4 * near) + moved).astype('i8').astype('u8') * odd).sum(1)
-        found |= np.isin(cell(rows), cell(known))
-    return found
-
-
 def once(parts):
-    """The parts without the triangles that an earlier pass has, by centre and radius."""
-    size = np.linalg.norm(np.ptp(np.concatenate([p.triangles.reshape(-1, 3) for p in parts]), axis=0))
-    known, kept = np.zeros((0, 4)), []
-    for _, mine in itertools.groupby(parts, lambda p: id(p.drawn)):
-        rows = []
-        for part in mine:
-            centre = part.triangles.mean(1)
-            rows.append(np.c_[centre, np.linalg.norm(part.triangles - centre[:, None], axis=2).max(1)])
-            new = ~among(rows[-1], known, SAME_PLACE * size)
-            coordinates = None if part.coordinates is None else part.coordinates[new]
-            kept += [dataclasses.replace(part, triangles=part.triangles[new], coordinates=coordinates)] if new.any() else []
-        known = np.concatenate([known, *rows])
-    return kept
-
-
-def is_on_depths(draw, camera, capture):
-    """Whether it is drawn by the camera: not a sky, nor a full screen."""
-    clip = capture.clip(draw)
-    good = clip[usable(clip)]
-    if camera.orthographic or not len(good):
-        return True
-    return np.median(np.abs(good[:, 2] + camera.clip[2, 2] * good[:, 3] - camera.clip[2, 3]) / np.abs(good[:, 3])) <= 1e-3
+    """The parts without what an earlier pass has: triangles whose centre and radius share a cell of a grid, or of one moved by half."""
+    triangles = np.concatenate([p.triangles for p in parts])
+    order = {drawn: k for k, drawn in enumerate(dict.fromkeys(p.drawn for p in parts))}
+    count = [len(p.triangles) for p in parts]
+    drawn = np.repeat([order[p.drawn] for p in parts], count)
+    centre, again = triangles.mean(1), np.zeros(len(triangles), bool)
+    rows = np.c_[centre, np.linalg.norm(triangles - centre[:, None], axis=2).max(1)]
+    cells = rows / (4 * SAME_PLACE * np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
+    for moved in itertools.product((0, 0.5), repeat=4):
+        cell = np.floor(cells + moved).astype('i8')
+        _, cell = np.unique((cell - cell.min(0)) @ (1 << np.arange(0, 60, 15)), return_inverse=True)  # no axis has 2^15 cells
+        first = np.full(len(cells), len(order))
+        np.minimum.at(first, cell, drawn)
+        again |= first[cell] < drawn
+    return [dataclasses.replace(p, triangles=p.triangles[new], coordinates=p.coordinates[new])
+            for p, new in zip(parts, np.split(~again, np.cumsum(count))) if new.any()]
 
 
 def casters(camera, maps, capture):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
     parts, masked = [], {}
-    for draw in camera.draws:
-        if draw.writes_depth and is_on_depths(draw, camera, capture):
-            parts.append(part_of(draw, camera, np.linalg.inv(camera.clip), capture))
-        elif draw.writes_depth:
-            print(f'draw {draw.event} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
+    for draw in (d for d in camera.draws if d.writes_depth):
+        clip = capture.clip(draw)
+        if camera.orthographic or not usable(clip).any() or np.median(camera.off_depths(clip[usable(clip)])) <= 1e-3:
+            parts.append(part_of(draw, camera, capture))
+        else:
+            print(f'{draw.name} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
     for m in maps:
         masked |= {d.geometry: (m, d) for d in m.draws if d.discards and d.reads}  # what reads nothing drops nothing
-        parts += [part_of(d, m, np.linalg.inv(m.clip), capture) for d in m.draws if d.event not in m.pairs]
+        parts += [part_of(d, m, capture) for d in m.draws if d.event not in m.pairs]
     parts = [p for p in parts if len(p.triangles)]
     if not parts:
         raise Refusal('the frame has no triangles that cast shadows')
     kept, holed = once(parts), []
-    count = lambda parts: sum(len(p.triangles) for p in parts)
-    print(f'{count(kept)} triangles of {len(kept)} draws; {count(p for p in kept if p.drawn is not camera)} of them only in the maps; '
-          f'{count(parts) - count(kept)} are drawn again in other passes')
+    all_of, left, of_maps = (sum(len(p.triangles) for p in some) for some in (parts, kept, [p for p in kept if p.drawn is not camera]))
+    print(f'{left} triangles of {len(kept)} draws; {of_maps} of them only in the maps; {all_of - left} are drawn again in other passes')
     for part in kept:
         m, draw = masked.get(part.draw.geometry, (None, None))
         holed += [str(draw.event)] if m and find_mask(part, m, draw, capture) else []
@@ -176,19 +152,18 @@ def write_glb(path, parts, capture):
     materials = {None: add('materials', doubleSided=True)}
     for part in sorted(parts, key=lambda p: p.draw.event):
         attributes = {}
-        for name, rows in {'POSITION': part.triangles, 'TEXCOORD_0': part.coordinates if part.mask else None}.items():
-            if rows is not None:
-                rows = np.ascontiguousarray(rows.reshape(-1, rows.shape[-1]), '<f4')
-                attributes[name] = add('accessors', bufferView=view(rows.tobytes()), componentType=5126, count=len(rows),
-                                       type=f'VEC{rows.shape[1]}', min=rows.min(0).tolist(), max=rows.max(0).tolist())
+        for name, rows in [('POSITION', part.triangles), ('TEXCOORD_0', part.coordinates)][:2 if part.mask else 1]:
+            rows = np.ascontiguousarray(rows.reshape(-1, rows.shape[-1]), '<f4')
+            attributes[name] = add('accessors', bufferView=view(rows.tobytes()), componentType=5126, count=len(rows),
+                                   type=f'VEC{rows.shape[1]}', min=rows.min(0).tolist(), max=rows.max(0).tolist())
         if part.mask not in materials:
             texture, channel, cut = part.mask
             alpha = mask_image(texture, part.draw, capture)[..., channel]
             texture = add('textures', source=add('images', bufferView=view(png(alpha)), mimeType='image/png'))
             materials[part.mask] = add('materials', doubleSided=True, alphaMode='MASK', alphaCutoff=cut,
                                        pbrMetallicRoughness={'baseColorTexture': {'index': texture}})
-        mesh = add('meshes', name=part.name, primitives=[{'attributes': attributes, 'material': materials[part.mask]}])
-        add('nodes', mesh=mesh, name=part.name)
+        mesh = add('meshes', name=part.draw.name, primitives=[{'attributes': attributes, 'material': materials[part.mask]}])
+        add('nodes', mesh=mesh, name=part.draw.name)
     gltf |= {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(parts)))}],
              'buffers': [{'byteLength': len(blob)}]}
     text = json.dumps(gltf).encode()

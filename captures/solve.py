@@ -3,8 +3,8 @@
 The world is the camera's own axes: right, up, backwards, in the program's unit; `up` of the scene is not known, nor needed.
 A pass is all draws into one depth target, its colour targets and one viewport: a cascade, a cube's face or the picture.
 """
-import collections
 import dataclasses
+import itertools
 
 import numpy as np
 
@@ -16,7 +16,7 @@ ON_LINE = 0.3  # of a pass's vertices, on the depths of one camera: the others a
 SQUARE = 0.05  # cosine between the axes of a map
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Pass:
     """Of a picture or of a map. As a map it is a copy, whose clip space is the light's."""
     draws: list
@@ -26,7 +26,8 @@ class Pass:
     clip: np.ndarray = None  # 4 x 4: clip space from the camera's axes; None where the pass tells no camera
     orthographic: bool = False
     # Of a map:
-    light: dict = None  # frame.json's light
+    along: np.ndarray = None  # the way of the light in the middle of the map, of any length
+    eye: np.ndarray = None  # 4, homogeneous: where the light is, or the way to it
     pairs: dict = None  # event of the map's draw -> draw of the camera's pass
     residual: float = None  # 99 in 100 vertices are nearer to the matrix, in clip units
     depth_off: np.ndarray = None  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
@@ -37,10 +38,8 @@ class Pass:
         self.zero_to_one, self.reversed = self.draws[0].zero_to_one, self.draws[0].reversed
         self.target = self.depth or self.outputs[0]
         self.textures = {t[0] for t in (self.depth, *self.outputs) if t}
-        self.name = f'pass {self.first}-{self.last}' if self.last > self.first else f'draw {self.first}'
-        self.meshes = collections.defaultdict(list)
-        for draw in self.draws:
-            self.meshes[draw.geometry].append(draw)
+        self.name = f'pass {self.first}-{self.last}' if self.last > self.first else self.draws[0].name
+        self.meshes = grouped(self.draws, lambda draw: draw.geometry)
 
     def window(self, place):
         """(u, v, depth) of places, 0 to 1."""
@@ -50,33 +49,31 @@ class Pass:
 
     def place(self, u, v, depth):
         """The reverse of window()."""
-        with np.errstate(all='ignore'):
-            q = with_one(np.c_[2 * u - 1, 2 * v - 1, depth if self.zero_to_one else 2 * depth - 1]) @ np.linalg.inv(self.clip).T
-            return q[:, :3] / q[:, 3:]
+        q = with_one(np.c_[2 * u - 1, 2 * v - 1, depth if self.zero_to_one else 2 * depth - 1]) @ np.linalg.inv(self.clip).T
+        return q[:, :3] / q[:, 3:]
 
     def texel(self, place):
         """The width of a map's texel at places, in units of length."""
-        axis = self.clip[3, :3]
-        across = self.clip[0, :3] - (self.clip[0, :3] @ axis) * axis / (axis @ axis or 1)
-        return 2 * (with_one(place) @ self.clip[3]) / np.linalg.norm(across) / self.depths.shape[1]
+        along = np.linalg.norm(self.clip[3, :3]) or abs(self.clip[3, 3])
+        return 2 * (with_one(place) @ self.clip[3]) / along / aperture(self.clip)[0] / self.depths.shape[1]
+
+    def off_depths(self, clip):
+        """By how much vertices miss the depths that a perspective camera gives to their w, in clip units."""
+        return np.abs(clip[:, 2] + self.clip[2, 2] * clip[:, 3] - self.clip[2, 3]) / np.abs(clip[:, 3])
 
     @property
     def cull(self):
         """map.cull: the side of the triangles that most of the map's draws leave out."""
-        turns = collections.Counter()
-        for draw in self.draws:
-            turns[draw.culls] += draw.count
-        (turn, _), *_ = turns.most_common()
-        mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.reversed
-        return turn if turn == 'none' else 'front' if (turn == 'ccw') != mirrored else 'back'
+        ccw = max((d.culls_ccw for d in self.draws), key=lambda ccw: sum(d.count for d in self.draws if d.culls_ccw == ccw))
+        is_mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.reversed
+        return 'none' if ccw is None else 'front' if ccw != is_mirrored else 'back'
 
 
-def passes_of(draws):
-    found = collections.defaultdict(list)
-    for draw in draws:
-        if draw.count >= 3 and (draw.depth or draw.outputs):
-            found[draw.depth, draw.outputs, draw.viewport].append(draw)
-    return [Pass(d, *key) for key, d in found.items()]
+def grouped(items, key):
+    found = {}
+    for item in items:
+        found.setdefault(key(item), []).append(item)
+    return found
 
 
 # ---- numbers
@@ -93,11 +90,11 @@ def few(rows, most=3000):
 
 
 def fit(source, image):
-    """Least squares for image = M source, columns scaled alike: (M, rank, singular values)."""
+    """Least squares for image = M source, columns scaled alike: (M, whether all of M is told)."""
     scale = np.abs(source).max(0)
     scale[scale == 0] = 1
     x, _, rank, singular = np.linalg.lstsq(source / scale, image, rcond=None)
-    return (x / scale[:, None]).T, rank, singular
+    return (x / scale[:, None]).T, rank == 4 and singular[-1] >= 1e-7 * singular[0]
 
 
 def off(matrix, source, image):
@@ -121,39 +118,41 @@ def centre_of(clip):
     return centre[:3] / centre[3]
 
 
+def aperture(clip):
+    """The lengths of x and y of a clip matrix across its axis, for a w of length 1: neither a pose nor an added w changes them."""
+    axis, size = clip[3, :3], np.linalg.norm(clip[3, :3])
+    across = clip[:2, :3] - np.outer(clip[:2, :3] @ axis, axis) / (size ** 2 or 1)
+    return np.linalg.norm(across, axis=1) / (size or abs(clip[3, 3]) or 1)
+
+
+def skewed(axes):
+    """The largest cosine between any two of three axes."""
+    axes = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    return np.abs(axes @ axes.T - np.eye(3)).max()
+
+
 # ---- the camera of a pass
-def field_of(g, orthographic):
-    """(fx, fy, cx, cy) of the camera that draws an object by clip = g object, if the object's axes stay at right angles; else None."""
-    x, y, along = g[0, :3], g[1, :3], g[2 if orthographic else 3, :3]
-    if not along.any():
-        return None
-    cx, cy = (0, 0) if orthographic else (x @ along / (along @ along), y @ along / (along @ along))
-    axes = np.array([x - cx * along, y - cy * along, along])
-    length = np.linalg.norm(axes, axis=1)
-    is_right = np.abs(axes @ axes.T - np.diag(length ** 2)).max() < 1e-3 * length.min() * length.max()
-    return (length[0] / length[2], length[1] / length[2], cx, cy) if is_right else None
-
-
 def find_camera(drawn, capture):
     """Depth row from all vertices; field of view from rigid draws, whose three axes are of one length."""
-    clips = [few(c[usable(c)]) for c in map(capture.clip, drawn.draws)]
-    clip = np.concatenate(clips)
+    clip = np.concatenate([few(c[usable(c)]) for c in map(capture.clip, drawn.draws)])
     if not len(clip):
         return
     drawn.orthographic = np.ptp(clip[:, 3]) < 1e-5 * np.abs(clip[:, 3]).max()
-    if not drawn.orthographic:
-        a, b = robust_line(clip[:, 3], clip[:, 2])
-        if (np.abs(clip[:, 2] - a * clip[:, 3] - b) < 1e-4 * np.abs(clip[:, 3])).mean() < ON_LINE:
-            return
+    a, b = (0, 0) if drawn.orthographic else robust_line(clip[:, 3], clip[:, 2])
+    if not drawn.orthographic and (np.abs(clip[:, 2] - a * clip[:, 3] - b) < 1e-4 * np.abs(clip[:, 3])).mean() < ON_LINE:
+        return
     found = []
     for draw in sorted(drawn.draws, key=lambda d: -d.count)[:60]:
         c = capture.clip(draw)
-        for place in capture.vertex_inputs(draw) if draw.instances == 1 else []:
-            if len(place) == len(c) > 0 and np.isfinite(place).all():
-                g, rank, _ = fit(with_one(place), c)
-                if rank == 4 and np.abs(with_one(place) @ g.T - c).max() <= 1e-4 * np.abs(c).max():
-                    found.append(field_of(g, drawn.orthographic))
-    found = np.array([f for f in found if f]).reshape(-1, 4)
+        for place in capture.vertex_inputs(draw):
+            g, is_told = fit(place, c)
+            along = g[2 if drawn.orthographic else 3, :3]
+            centre = g[:2, :3] @ along / (along @ along) * (not drawn.orthographic)
+            axes = np.vstack([g[:2, :3] - np.outer(centre, along), along])
+            if is_told and skewed(axes) < 1e-3 and np.abs(place @ g.T - c).max() <= 1e-4 * np.abs(c).max():
+                length = np.linalg.norm(axes, axis=1)
+                found.append([*length[:2] / length[2], *centre])
+    found = np.reshape(found, (-1, 4))  # fx, fy, cx, cy
     square = found[np.abs(found[:, 0] / found[:, 1] / (drawn.viewport[3] / drawn.viewport[2]) - 1) < 5e-3]
     found = square if len(square) else found  # a draw scaled along one axis is not
     agree = found[np.abs(found[:, 0] / np.median(found[:, 0]) - 1) < 1e-3] if len(found) else found
@@ -167,45 +166,36 @@ def find_camera(drawn, capture):
 
 
 # ---- one pass against another
-def on_depth_line(clip, camera):
-    """The clip positions with z from w, in double. Their difference carries the matrix's constant, and rounds away in float
-    where near is small."""
-    if camera.orthographic:
-        return clip
-    z = -camera.clip[2, 2] * clip[:, 3] + camera.clip[2, 3]
-    near = np.abs(z - clip[:, 2]) < 1e-6 * np.abs(clip[:, 3])
-    return np.c_[clip[:, :2], np.where(near, z, clip[:, 2]), clip[:, 3]]
-
-
 def matrix_between(light, camera, capture):
     """(M, pairs, clip of the camera, clip of the light) with light = M camera over draws of both; None if none fits."""
-    theirs, mine = camera.meshes, light.meshes
-    candidates = [(a, b, len(mine[k]) == 1 == len(theirs[k])) for k in mine for a in mine[k][:6] for b in theirs.get(k, [])[:6]]
-    candidates.sort(key=lambda t: (not t[2], -t[0].count))
+    both = [(mine, camera.meshes[mesh]) for mesh, mine in light.meshes.items() if mesh in camera.meshes]
+    pairs = [(a, b, len(mine) == 1 == len(theirs)) for mine, theirs in both for a in mine[:6] for b in theirs[:6]]
     data = []
-    for a, b, sure in candidates[:400]:
+    for a, b, is_sure in sorted(pairs, key=lambda pair: (not pair[2], -pair[0].count))[:400]:
         l, c = capture.clip(a), capture.clip(b)
         keep = usable(l) & usable(c) if len(l) == len(c) else np.zeros(0)
-        if keep.sum() >= 3:
-            data.append((a, b, sure, few(on_depth_line(c[keep], camera)), few(l[keep])))
-        if len(data) > 120:
-            break
-    seeds = [[x for x in data if x[2]]] + [[x] for x in data[:12]] + [[x, y] for x in data[:6] for y in data[:6] if x is not y]
+        if keep.sum() >= 3 and len(data) <= 120:
+            l, c = l[keep], c[keep].copy()
+            # z from w, in double: their difference carries the matrix's constant, and rounds away in float where near is small.
+            near = (not camera.orthographic) & (camera.off_depths(c) < 1e-6)
+            c[near, 2] = camera.clip[2, 3] - camera.clip[2, 2] * c[near, 3]
+            data.append((few(c), few(l), a.event, b, is_sure))
+    joined = lambda some: [np.concatenate(clips) for clips in list(zip(*some))[:2]]
     best = []
-    for seed in filter(None, seeds):
-        m, rank, singular = fit(np.concatenate([x[3] for x in seed]), np.concatenate([x[4] for x in seed]))
-        if rank == 4 and singular[-1] >= 1e-7 * singular[0]:  # flat geometry alone tells no matrix
-            agree = [x for x in data if np.percentile(off(m, x[3], x[4]), 90) < ON_MATRIX]
-            best = max(best, agree, key=lambda of: len({x[0].event for x in of}))
+    for seed in filter(None, [[d for d in data if d[4]], *([d] for d in data[:12]), *itertools.permutations(data[:6], 2)]):
+        m, is_told = fit(*joined(seed))
+        if is_told:  # flat geometry alone tells no matrix
+            agree = [d for d in data if np.percentile(off(m, *d[:2]), 90) < ON_MATRIX]
+            best = max(best, agree, key=lambda some: len({event for *_, event, _, _ in some}))
     if not best:
         return None
-    c, l = (np.concatenate([x[i] for x in best]) for i in (3, 4))
+    c, l = joined(best)
     keep = np.ones(len(c), bool)
     for _ in range(4):  # what moves by itself between the passes is left out
-        m, _, _ = fit(c[keep], l[keep])
+        m, _ = fit(c[keep], l[keep])
         e = off(m, c, l)
         keep = e < max(1e-5, 4 * np.median(e[keep]))
-    return m, {x[0].event: x[1] for x in best}, c[keep], l[keep]
+    return m, {event: b for *_, event, b, _ in best}, c[keep], l[keep]
 
 
 def map_of(light, camera, capture):
@@ -220,30 +210,28 @@ def map_of(light, camera, capture):
     clip = m @ camera.clip
     parallel = np.abs(clip[3, :3]).max() < 1e-4 * abs(clip[3, 3]) * np.linalg.norm(clip[0, :3])
     # The depth row has two numbers only: a bias in the vertex shader of the map bends a free fit.
+    row, t, z, unit = clip[3], l[:, 3], l[:, 2], l[:, 3]
     if parallel:
         clip /= clip[3, 3]
         clip[3] = (0, 0, 0, 1)
         axis = np.cross(clip[0, :3], clip[1, :3])
-        row = np.r_[axis / np.linalg.norm(axis), 0]
-        world = c @ np.linalg.inv(camera.clip).T
-        t, z, unit = world @ row / world[:, 3], l[:, 2] / l[:, 3], 1
-    else:
-        row, t, z, unit = clip[3], l[:, 3], l[:, 2], l[:, 3]
+        row, world = np.r_[axis / np.linalg.norm(axis), 0], c @ np.linalg.inv(camera.clip).T
+        t, z, unit = world @ row / world[:, 3], z / unit, 1
     k, b = robust_line(t, z)
     clip[2] = k * row + (0, 0, 0, b)
     along = (row if not parallel or (k > 0) != light.reversed else -row)[:3]
-    axes = np.array([v / np.linalg.norm(v) for v in (clip[0, :3], clip[1, :3], along)])
-    if np.abs(axes @ axes.T - np.eye(3)).max() > SQUARE:
+    if skewed(np.array([clip[0, :3], clip[1, :3], along])) > SQUARE:
         print(f'{light.name} draws with axes that are not at right angles (a warped map?): its light cannot be told')
         return None
-    found = {'kind': 'directional', 'direction': along.tolist()} if parallel else {
-        'kind': 'spot', 'position': centre_of(clip).tolist(), 'direction': along.tolist(), 'cone_deg': 170.0}
-    return dataclasses.replace(light, clip=clip, light=found, pairs=pairs, residual=float(np.percentile(off(m, c, l), 99)),
+    eye = np.append(-along, 0) if parallel else np.append(centre_of(clip), 1)
+    return dataclasses.replace(light, clip=clip, along=along, eye=eye, pairs=pairs, residual=float(np.percentile(off(m, c, l), 99)),
                                depth_off=np.percentile((z - k * t - b) / unit, [1, 50, 99]))
 
 
-def camera_and_maps(capture, passes):
-    """The pass of the picture, and the passes that draw its meshes from other eyes."""
+def camera_and_maps(capture):
+    """(all passes, the one of the picture, those that draw its meshes from other eyes)."""
+    shown = [d for d in capture.draws if d.count >= 3 and (d.depth or d.outputs)]
+    passes = [Pass(some, *key) for key, some in grouped(shown, lambda d: (d.depth, d.outputs, d.viewport)).items()]
     for drawn in passes:
         if drawn.outputs:
             find_camera(drawn, capture)
@@ -255,7 +243,7 @@ def camera_and_maps(capture, passes):
         maps = [map_of(p, camera, capture) for p in passes
                 if p is not camera and p.first < camera.last and not (p.viewport == camera.viewport and p.depth == camera.depth)]
         if any(maps):
-            return camera, list(filter(None, maps))
+            return passes, camera, list(filter(None, maps))
     raise Refusal('no pass draws the meshes of the picture from another eye: this frame draws no shadow map. Where a map is '
                   'kept over frames, move the light a little while the frame is captured')
 
@@ -263,20 +251,15 @@ def camera_and_maps(capture, passes):
 # ---- the lights
 def lights_of(maps):
     """Maps of one direction or of one place are those of one light."""
-    def is_same(a, b):
-        key = 'direction' if a['kind'] == 'directional' else 'position'
-        return a['kind'] == b['kind'] and np.allclose(a[key], b[key], rtol=0, atol=SAME_LIGHT * max(1, np.abs(a[key]).max()))
-    groups = []
-    while maps:
-        groups.append([m for m in maps if is_same(maps[0].light, m.light)])
-        maps = [m for m in maps if not is_same(maps[0].light, m.light)]
-    return groups
+    is_one = lambda a, b: np.abs(a.eye - b.eye).max() <= SAME_LIGHT * max(1, np.abs(a.eye).max())
+    return list(grouped(maps, lambda m: next(first for first in maps if is_one(first, m))).values())
 
 
 def light_of(group):
     """The light of a group's maps as frame.json has it: a point light if maps of one place look in several directions."""
-    light = group[0].light
-    ways = [np.array(m.light['direction']) for m in group]
-    if light['kind'] == 'spot' and any(way @ ways[0] < 0.5 * ways[0] @ ways[0] for way in ways):
-        return {'kind': 'point', 'position': light['position']}
-    return dict(light)
+    m, place = group[0], {'position': group[0].eye[:3].tolist()}
+    if m.eye[3] == 0:
+        return {'kind': 'directional', 'direction': m.along.tolist()}
+    if any(other.along @ m.along < 0.5 * m.along @ m.along for other in group):
+        return {'kind': 'point'} | place
+    return {'kind': 'spot'} | place | {'direction': m.along.tolist(), 'cone_deg': 170.0}

@@ -38,6 +38,7 @@ struct GivenFrame {
   // The visibility was measured as the share between the same frame with all lit and with all dark. So shading, ambient light
   // and an exchange of light and shadow are no faults that it can have.
   bool normalised = false;
+  double step = 0;  // how far a value may lie from what was drawn, by the steps of the picture that it was read from
   // True if the picture could say "no surface" (-1, NaN or alpha 0) and did so for at least one pixel, or if positions or
   // depths say it. Then its coverage can be compared with the scene's.
   bool marks_no_surface = false;

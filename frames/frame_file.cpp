@@ -362,6 +362,7 @@ FrameFile parse_frame_file(const std::string& path, std::string_view text) {
   visibility.require("file", "the picture that is judged");
   file.visibility = *visibility.text("file");
   file.normalised = visibility.flag("normalised");
+  file.step = visibility.number("step");
   file.encoding = visibility.is("encoding", "srgb") ? ValueEncoding::srgb : ValueEncoding::linear;
   file.world_from_frame = world_from_frame(path, all, json);
   read_camera(all.object("camera"), file);

@@ -38,6 +38,7 @@ struct FrameFile {
   std::string visibility;
   ValueEncoding encoding = ValueEncoding::linear;
   bool normalised = false;
+  std::optional<double> step;
   std::optional<std::string> positions;
   std::optional<std::string> depth;
   DepthMeasure depth_measure = DepthMeasure::window;

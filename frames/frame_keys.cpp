@@ -21,6 +21,7 @@ constexpr NumberRange view_angle_deg{degrees(ranges::view_angle_rad.least), degr
 constexpr NumberRange of_matrix{-1e30, 1e30};
 constexpr NumberRange unit_m{1e-9, 1e6};  // from a nanometre on
 constexpr NumberRange edge_m{1e-9, ranges::coordinate_m.most};
+constexpr NumberRange step{0, 1};
 constexpr NumberRange edge_count{1e-3, 1e6};  // of pixels or texels: from none to all of a picture
 
 // The key is the same quantity as this setting.
@@ -45,6 +46,11 @@ constexpr FrameKey key_rows[] = {
      "sample is at its centre. Required."},
     {"visibility", "encoding", Kind::choice, "Whether the values are linear, or encoded with sRGB's transfer function.",
      "linear|srgb"},
+    within(
+        {"visibility", "step", Kind::number,
+         "How far a value may lie from what was drawn, because the picture that it was read from has steps. The lookup "
+         "of a `map` is the frame's own within it. Default: a step of the file's pixels, 0 of 32-bit floats."},
+        step, ""),
     {"visibility", "normalised", Kind::flag,
      "Whether the values are the share between the same frame with all lit and with all dark. Then shaded, intensity, "
      "inverted and match refuse nothing: what they find is the renderer's own shadow."},

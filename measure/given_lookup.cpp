@@ -36,8 +36,8 @@ double float_step(const MapDepths& exact) {
 // Of the roundings on the way from a receiver to the depth that is compared, in each of two renderers: a row of the matrix, its
 // four products and their sums, the division, the change from clip space, the bias. Each is at most 2^-24 of the lengths in it.
 constexpr double roundings = 2 * 8 * 0x1p-24;
-// Two samplers whose weights have 8 bits along each of two axes. The step of a picture of 8 bits is smaller.
-constexpr double value_step = 2 * 0x1p-8;
+// Two samplers whose weights have 8 bits along each of two axes.
+constexpr double sampler_step = 2 * 0x1p-8;
 // The angle between normals that a file may mean to be the same: it may store them in bytes (KHR_mesh_quantization).
 constexpr double normal_step = 1.0 / 127;
 // As of the checks of a delivery: with fewer receivers there is too little to go on.
@@ -123,7 +123,7 @@ void GivenLookup::Impl::allow_rounding(const GivenPoint& point, GivenClimb& made
     }
     const double shown = ladder.shown()[i];
     ++asked;
-    beyond += shown < least[i] - value_step || shown > most[i] + value_step;
+    beyond += shown < least[i] - sampler_step - point.step || shown > most[i] + sampler_step + point.step;
   }
   if (asked >= enough_receivers) made.beyond_rounding = beyond / asked;
   made.interpolated = left_out / (asked + left_out);

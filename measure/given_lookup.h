@@ -36,6 +36,7 @@ struct GivenPoint {
   Image<uint8_t> missing = {};
   // How far from its place each receiver may lie, beside the rounding of its numbers, in metres. Empty: nowhere.
   Image<float> moved_m = {};
+  double step = 0;  // how far a value of the picture may lie from what was drawn, by its steps
 };
 
 struct GivenClimb {

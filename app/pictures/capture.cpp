@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
-#include <tuple>
 
 #include "base/child_process.h"
 #include "base/error.h"
@@ -19,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* log_name = "capture.log";
+constexpr const char *log_name = "capture.log", *list_name = "capture.json";
 
 // In the build and where it is installed (app/CMakeLists.txt).
 std::string reader_of_program() {
@@ -41,27 +39,12 @@ std::string sentence_of(const std::string& line) {
 
 std::string program_of(const std::string& reader) { return reader + "/capture.py"; }
 
-// light-1.json, light-1-map-1.json, light-2.json ... by their numbers.
-std::vector<std::string> frames_in(const std::string& folder) {
-  std::vector<std::tuple<int, int, std::string>> found;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    int light = 0, map = 0;
-    if (entry.path().extension() == ".json" &&
-        std::sscanf(entry.path().filename().c_str(), "light-%d-map-%d", &light, &map) >= 1)
-      found.emplace_back(light, map, entry.path().string());
-  }
-  std::sort(found.begin(), found.end());
-  std::vector<std::string> frames;
-  for (const auto& [light, map, path] : found) frames.push_back(path);
-  return frames;
-}
-
 }  // namespace
 
 bool is_capture(const std::string& path) { return ends_with_any_case(path, ".rdc"); }
 
 std::vector<std::string> capture_files() {
-  return {log_name, "scene.glb", "light-*.json", "light-*.npy", "light-*.exr", "light-*.png", "depth.npy"};
+  return {log_name, list_name, "scene.glb", "light-*.json", "light-*.npy", "light-*.exr", "light-*.png", "depth.npy"};
 }
 
 std::vector<std::string> capture_command(const std::string& capture, const std::string& reader) {
@@ -95,7 +78,9 @@ std::vector<std::string> read_capture(std::vector<std::string> command, const st
   if (code != 0)
     throw Error(ErrorKind::device,
                 fmt::format("{}: the reader failed (code {}): {}; the whole text is in {}", capture, code, last, log));
-  const std::vector<std::string> frames = frames_in(folder);
+  std::vector<std::string> frames;
+  const nlohmann::json list = nlohmann::json::parse(read_file(folder + "/" + list_name));
+  for (const std::string frame : list.at("frames")) frames.push_back(folder + "/" + frame);
   if (frames.empty()) throw Error(ErrorKind::file, fmt::format("{}: the reader found no light: {}", capture, last));
   return frames;
 }
@@ -108,13 +93,14 @@ void print_line(const std::string& line) {
 std::string missing_for_captures() {
   const std::optional<std::string> python = find_python();
   if (!python) return no_python;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> log(std::tmpfile(), std::fclose);
-  if (!log) return "no temporary file can be made";
-  std::string last;
-  const int code =
-      run_program({*python, "-B", program_of(reader_of_program())},  // which it says before it wants a capture
-                  fmt::format("/proc/self/fd/{}", fileno(log.get())), [&](const std::string& line) { last = line; });
-  return code == static_cast<int>(ErrorKind::device) ? sentence_of(last) : "";
+  std::string missing;
+  for (const std::string module :
+       {"renderdoc", "numpy"})  // each is found, not loaded: RenderDoc's writes files when it is
+    if (run_program(
+            {*python, "-c", "import importlib.util, sys; sys.exit(not importlib.util.find_spec('" + module + "'))"},
+            "/dev/null") != 0)
+      missing += " python3-" + module;
+  return missing.empty() ? "" : "captures need these packages of Debian:" + missing + "; install them with apt";
 }
 
 }  // namespace noonmark

@@ -42,7 +42,11 @@ bool has_surface(const DecodedImage& image, size_t pixel) {
   return alpha == 1;
 }
 
-Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
+// How far two values near 1 lie apart, by the order of StoredAs. A value that is cut off lies by up to as much beside what was drawn.
+constexpr double steps[] = {1.0 / 255, 1.0 / 65535, 0x1p-11, 0};
+
+// With its step.
+std::pair<Image<float>, double> read_visibility(const std::string& path, ValueEncoding encoding) {
   const DecodedImage image = read_image(path, [&](const DecodedImage& head) {
     require_grey_channels(head);
     require_frame_memory(path, head.width, head.height);
@@ -56,7 +60,8 @@ Image<float> read_visibility(const std::string& path, ValueEncoding encoding) {
     else if (encoding == ValueEncoding::srgb && value > 0)  // not the marks
       value = static_cast<float>(linear_of_srgb(value));
   }
-  return visibility;
+  const double step = steps[static_cast<size_t>(image.stored_as)];
+  return {std::move(visibility), encoding == ValueEncoding::srgb ? 1 - linear_of_srgb(1 - step) : step};
 }
 
 // Positions and depths have the pixels of the visibility.
@@ -194,7 +199,7 @@ Scene scene_of(const FrameFile& file) {
 
 GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
   const std::string path = path_in(file, file.visibility);
-  Image<float> visibility = read_visibility(path, file.encoding);
+  auto [visibility, step] = read_visibility(path, file.encoding);
   const int width = visibility.width, height = visibility.height;
   require_frame_memory(path, width, height);
   GivenFrame frame{.name = path,
@@ -214,6 +219,7 @@ GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
   }
   take_marks(frame);
   frame.normalised = file.normalised;
+  frame.step = file.step.value_or(step);
   if (frame.receivers != GivenReceivers::none) frame.marks_no_surface = true;
   frame.not_in_map = file.not_in_map;
   frame.notes = file.notes;
@@ -223,7 +229,8 @@ GivenFrame given_frame(const FrameFile& file, const Scene& scene) {
 
 GivenFrame given_frame(const std::string& picture, ValueEncoding encoding, const Scene& scene,
                        const Settings& settings) {
-  Image<float> visibility = read_visibility(picture, encoding);
+  Image<float> visibility =
+      read_visibility(picture, encoding).first;  // a step is of a lookup, which is not declared here
   ViewSettings view = settings.view;
   view.width_px = visibility.width;
   view.height_px = visibility.height;

@@ -181,7 +181,8 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
                                                 .label = "Lookup (the frame is not the declared lookup of its map)",
                                                 .help = std::string(find_metric(frame_lookup).help)},
                                       .missing = std::move(missing),
-                                      .moved_m = std::move(moved_m)});
+                                      .moved_m = std::move(moved_m),
+                                      .step = frame.step});
   CheckResult check = check_given_map(climbed.map_off_m, climbed.depth_spread_m, climbed.is_scenes_map);
   const std::string undeclared = undeclared_text(climbed, technique.settings, given, map.frame);
   if (check.state == CheckState::failed && !undeclared.empty()) check.says = undeclared;

@@ -29,19 +29,19 @@ clips, draws = {}, {True: [], False: []}
 for event in range(4):
     world = np.c_[random.uniform([-6, -6, -14], [6, 6, -2], (200, 3)), np.ones(200)]
     for of_camera, matrix in ((True, camera), (False, light)):
-        draw = SimpleNamespace(event=2 * event + of_camera, geometry=event, count=200, reversed=False, zero_to_one=False)
+        draw = SimpleNamespace(name="draw", event=2 * event + of_camera, geometry=event, count=200, reversed=False, zero_to_one=False)
         clips[draw.event] = (world @ matrix.T).astype("f4").astype("f8")
         draws[of_camera].append(draw)
 capture = SimpleNamespace(clip=lambda draw: clips[draw.event])
 picture = solve.Pass(draws[True], ("depth", 0), (), (0, 0, 640, 360), camera)
 found = solve.map_of(solve.Pass(draws[False], ("map", 0), (), (0, 0, 1024, 1024)), picture, capture)
-if not found or found.light["kind"] != "directional":
-    sys.exit(f"FAILED: the map of a sun is read as {found and found.light}")
+if not found or found.eye[3] != 0:
+    sys.exit(f"FAILED: the map of a sun is read as {found and found.eye}")
 # Light positions below 1 are rounded to 6e-8. The matrix must not add the rounding of the camera's positions, of which near leaves 0.02 for its constant.
 if found.residual > 2e-7:
     sys.exit(f"FAILED: the matrix leaves {found.residual:.1e} of the clip unit")
 # The scene is 12 m of 470 m, so a direction is known to 470 / 12 roundings.
-off = np.abs(np.array(found.light["direction"]) - toward).max()
+off = np.abs(found.along - toward).max()
 if off > 1e-5:
     sys.exit(f"FAILED: the direction is off by {off:.1e}")
 print(f"direction within {off:.1e}, residual {found.residual:.1e}")

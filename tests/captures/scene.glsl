@@ -74,6 +74,13 @@ uniform sampler2D shadow_map, second_map;
 float read_map(int light, int map, vec3 at) { // at: place in the map and depth, 0 to 1
 #if defined(COMPARE)
   return texture(shadow_map, vec3(at.xy, at.z - bias[light]));
+#elif defined(BOX)
+  float lit = 0.0;
+  for (int tap = 0; tap < 9; tap++) {
+    vec2 to = vec2(tap % 3 - 1, tap / 3 - 1) / vec2(textureSize(shadow_map, 0));
+    lit += at.z - bias[light] <= texture(shadow_map, at.xy + to).x ? 1.0 / 9.0 : 0.0;
+  }
+  return lit;
 #else
 #if defined(POINT)
   vec4 stored = texture(shadow_map, in_world - to_light[light]);

@@ -34,6 +34,7 @@ class Capture : public OwnFrame {
     write("first.json", json.dump());
     return "for name in ('V.exr', 'P.exr'): shutil.copy(name, out)\n"
            "frame = json.load(open('first.json'))\n"
+           "json.dump({'frames': ['light-1.json', 'light-2.json']}, open(out + '/capture.json', 'w'))\n"
            "json.dump(frame, open(out + '/light-1.json', 'w'))\n" +
            change +
            "\njson.dump(frame, open(out + '/light-2.json', 'w'))\n"
@@ -103,7 +104,9 @@ TEST_F(Capture, AReaderThatFailsSaysWhy) {
        {Case{"sys.exit('it is no capture')", 4, "the reader failed (code 1): it is no capture"},
         Case{"print('it is no capture'); sys.exit(2)", 2, "noonmark: it is no capture"},
         Case{"print('renderdoc is missing: install python3-renderdoc'); sys.exit(4)", 4, "python3-renderdoc"},
-        Case{"os.kill(os.getpid(), 11)", 4, "code -11"}, Case{"", 3, "found no light"}}) {
+        Case{"os.kill(os.getpid(), 11)", 4, "code -11"},
+        Case{"open(out + '/capture.json', 'w').write('{\"frames\": []}')", 3, "found no light"},
+        Case{"", 3, "capture.json"}}) {
     reader(std::string(one.lines) + "\n");
     EXPECT_EQ(run(judge_), one.code) << one.lines << output_;
     EXPECT_TRUE(says(one.words)) << output_;

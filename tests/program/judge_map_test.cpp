@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/pictures/given_frame.h"
 #include "app/pictures/image_file.h"
 #include "base/error.h"
 #include "measure/given_lookup.h"
@@ -351,6 +352,42 @@ TEST_F(JudgeWithMap, ALookupThatIsNotTheFramesIsNamed) {
   EXPECT_FALSE(fs::exists(folder_ / "out/frame-causes.png")) << "or drawn";
   frame["map"]["technique"] = {{"bias.constant", 10}};
   judged(frame, 3);
+}
+
+// A visibility that was read from a picture of 8 bits, in which the light makes 30 steps: the lookup is the frame's own as soon as the
+// step is declared, and a lookup without the bias is not.
+TEST_F(JudgeWithMap, ALookupIsTheFramesWithinTheStepOfThePicture) {
+  measure({{"bias.constant", "0.002"}, {"filter.kind", "box"}, {"map.format", "32f"}});
+  settings_.erase("map.format");
+  for (float& v : visibility_.pixels) v = v < 0 ? v : std::floor(30 * v) / 30;
+  nlohmann::json frame = deliver({});
+  judged(frame, 3);
+  EXPECT_TRUE(says("it is not the frame's own")) << output_;
+  frame["visibility"]["step"] = 1.0 / 30;
+  EXPECT_NEAR(judged(frame)["metrics"]["acne"], metrics_.at("acne"), 1e-9);
+  frame["map"]["technique"].erase("bias.constant");
+  judged(frame, 3);
+  frame["visibility"]["step"] = 2;
+  write("frame.json", frame.dump());
+  EXPECT_EQ(run({"judge", "frame.json"}), 3) << output_;
+  EXPECT_TRUE(says("visibility.step")) << output_;
+}
+
+// Without a declaration it is that of the file's pixels.
+TEST_F(JudgeWithMap, TheStepOfAPictureIsThatOfItsPixels) {
+  measure({});
+  nlohmann::json frame = deliver({});
+  write_png((folder_ / "V.png").string(), Image<Color>(width, height, Color(255)));
+  const auto step = [&] {
+    write("frame.json", frame.dump());
+    const FrameFile file = read_frame_file((folder_ / "frame.json").string());
+    return given_frame(file, scene_of(file)).step;
+  };
+  EXPECT_EQ(step(), 0);
+  frame["visibility"]["file"] = "V.png";
+  EXPECT_EQ(step(), 1.0 / 255);
+  frame["visibility"]["encoding"] = "srgb";
+  EXPECT_NEAR(step(), 2.27 / 255, 0.01 / 255);  // the slope of its curve at 1
 }
 
 // A polygon offset lies in the map that is handed over. Not declared, R4 and R5 have two causes that cancel. The last
