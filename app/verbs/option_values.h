@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/definition/share_text.h"
 #include "scenes/number_ranges.h"
 
 namespace noonmark {
@@ -50,8 +51,5 @@ std::vector<std::string> words_of(const std::vector<std::string>& lists);
 
 // For CLI::Option::transform: a share as "0.005" or "0.5%" becomes its number (app/definition/share_text.h).
 CLI::Validator as_share();
-
-// A default share as a user writes it: "0.1%".
-std::string percent_text(double share);
 
 }  // namespace noonmark
