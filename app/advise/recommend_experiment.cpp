@@ -8,7 +8,7 @@
 #include <map>
 
 #include "app/advise/recommend_text.h"
-#include "app/definition/toml_writer.h"
+#include "app/definition/toml_text.h"
 
 namespace noonmark {
 namespace {

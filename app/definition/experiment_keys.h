@@ -3,7 +3,7 @@
 // `noonmark settings --html` (app/verbs/settings_page.h) are made from it.
 //
 //   for (const ExperimentKey& key : experiment_keys("bound")) print(key.name);
-//   for (const ExperimentKey& key : keys_of(bound)) read(key.place);
+//   for (const ExperimentKey& key : keys_of(bound)) use(key.place);
 #pragma once
 #include <optional>
 #include <string>

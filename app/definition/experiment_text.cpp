@@ -9,7 +9,7 @@
 
 #include "app/definition/experiment_file.h"
 #include "app/definition/experiment_keys.h"
-#include "app/definition/toml_writer.h"
+#include "app/definition/toml_text.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "scenes/library.h"

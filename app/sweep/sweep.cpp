@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/definition/definition.h"
-#include "app/sweep/frame_run.h"
 #include "app/sweep/stop_on_signal.h"
 #include "app/sweep/sweep_run.h"
 #include "base/error.h"

@@ -47,15 +47,15 @@ TYPES = {
 }
 # The same where a header means something else by the name.
 OWN_TYPES = {
+    "app/definition/experiment_keys.h": {"bound": "Bound"},
     "app/advise/recommend_around.h": {"advice": "Advice"},
     "app/pictures/picture_files.h": {"picture": "Image<Color>"},
     "app/sweep/failing_pixels.h": {"pictures": "std::vector<SummaryPicture>"},
     "app/sweep/frame_map.h": {"frame": "GivenFrame", "verdict": "FrameVerdict"},
-    "app/sweep/frame_run.h": {"folder": "ResultsFolder"},
     "app/sweep/sweep_progress.h": {"ahead": "SweepProgress::Ahead", "options": "SweepOptions"},
     "app/verbs/capture_arguments.h": {"arguments": "CaptureArguments"},
     "app/verbs/checked_folder.h": {"list": "ExperimentList"},
-    "app/verbs/one_point.h": {"point": "long"},
+    "app/verbs/one_point.h": {"options": "PointOptions"},
     "app/verbs/option_values.h": {"picture": "std::string", "rows": "long"},
     "compare/judge/answers.h": {"points": "std::vector<CostAndError>"},
     "compare/judge/curve_reading.h": {"depth": "double"},
@@ -83,7 +83,6 @@ OWN_TYPES = {
     "measure/flicker_stage.h": {"stages": "Pipeline", "loaded": "SceneStage", "r5": "Image<float>", "truth": "TruthStage", "view": "ViewStage"},
     "measure/memory_estimate.h": {"outside_texels": "double"},
     "measure/placement_stage.h": {"input": "PlacementInput", "part": "const BiasPart*"},
-    "measure/point_work.h": {"before": "Settings", "curve": "CurveOptions"},
     "measure/texel_footprint.h": {"camera": "CameraFrame"},
     "raytrace/drawn_map.h": {"depth": "float", "hit": "uint32_t", "view": "LightView", "x": "glm::dvec3"},
     "raytrace/placement_tracer.h": {"probe": "PlacedProbe"},
