@@ -18,7 +18,6 @@
 #include "app/sweep/frame_map.h"
 #include "app/sweep/identity.h"
 #include "app/sweep/judging.h"
-#include "app/sweep/run_info.h"
 #include "app/sweep/stop_on_signal.h"
 #include "app/sweep/sweep.h"
 #include "base/clock.h"

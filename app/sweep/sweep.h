@@ -67,4 +67,9 @@ void compare_with_baseline(const SweepOptions& options, SweepOutcome& outcome, R
 // "stopped after 3 of 8 points; the same command continues from there"
 std::string stopped_text(const SweepOutcome& outcome);
 
+// What is recorded of a run beside its points: the experiment, the program and the machine. Without what the scene and its notes say. folder: of the results. Throws Error(usage) if a share's experiment can be said by
+// no file (app/definition/definition.h).
+RunInfo run_info(const Experiment& experiment, const std::string& folder, const SweepOptions& options,
+                 const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer);
+
 }  // namespace noonmark

@@ -360,10 +360,8 @@ RunVerb add_check(CLI::App& verb) {
       ->type_name(value_kind::baseline);
   verb.add_flag("--update-baseline", baseline.update,
                 "Write the values of this run to the baseline, instead of comparing with it");
-  verb.add_option("--baseline-times", baseline.times,
-                  "Keep and compare times too: a time may differ by this share of the time before (0.2 or 20%)")
-      ->transform(as_share())
-      ->type_name(value_kind::share);
+  add_share(verb, "--baseline-times", baseline.times,
+            "Keep and compare times too: a time may differ by this share of the time before (0.2 or 20%)", "");
   return [options](const std::string& command) {
     options->arguments.command = command;
     read_sweep_arguments(options->arguments);

@@ -106,15 +106,11 @@ struct MapOptions {
 
 // Of the diagram: the bounds of a usable pair, the texel sizes and the placements.
 void add_phase_options(CLI::App& verb, PhaseOptions& phase) {
-  verb.add_option("--acne", phase.acne_bound,
-                  "The most acne of a usable pair, as a share of the counted receivers: 0.001 or 0.1%")
-      ->transform(as_share())
-      ->type_name(value_kind::share)
-      ->default_str(percent_text(phase.acne_bound));
-  verb.add_option("--peter-panning", phase.peter_panning_bound, "The most Peter Panning of a usable pair")
-      ->transform(as_share())
-      ->type_name(value_kind::share)
-      ->default_str(percent_text(phase.peter_panning_bound));
+  add_share(verb, "--acne", phase.acne_bound,
+            "The most acne of a usable pair, as a share of the counted receivers: 0.001 or 0.1%",
+            percent_text(phase.acne_bound));
+  add_share(verb, "--peter-panning", phase.peter_panning_bound, "The most Peter Panning of a usable pair",
+            percent_text(phase.peter_panning_bound));
   verb.add_option("--from", phase.coarsest, "The coarsest texels: resolution at the present extent")
       ->check(whole_number(4, 16384))
       ->capture_default_str();

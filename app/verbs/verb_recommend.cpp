@@ -293,14 +293,11 @@ int recommend(const RecommendOptions& options) {
 // Of the search: the bounds, what the answer is to be, and the views.
 void add_search_options(CLI::App& verb, RecommendOptions& options) {
   const CurveOptions bounds;  // of a scene, and of an experiment whose [curve] gives none
-  const auto add_most = [&](std::optional<double>& most, const char* name, const char* help, const std::string& unset) {
-    verb.add_option(name, most, help)->transform(as_share())->type_name(value_kind::share)->default_str(unset);
-  };
-  add_most(options.acne, "--acne", "The most acne, as a share of the counted receivers: 0.001 or 0.1%",
-           percent_text(bounds.acne_bound) + ", or acne_bound of the experiment's [curve]");
-  add_most(options.peter_panning, "--peter-panning", "The most Peter Panning",
-           percent_text(bounds.peter_panning_bound) + ", or peter_panning_bound of the experiment's [curve]");
-  add_most(options.error, "--error", "The most error", "no bound");
+  add_share(verb, "--acne", options.acne, "The most acne, as a share of the counted receivers: 0.001 or 0.1%",
+            percent_text(bounds.acne_bound) + ", or acne_bound of the experiment's [curve]");
+  add_share(verb, "--peter-panning", options.peter_panning, "The most Peter Panning",
+            percent_text(bounds.peter_panning_bound) + ", or peter_panning_bound of the experiment's [curve]");
+  add_share(verb, "--error", options.error, "The most error", "no bound");
   verb.add_option("--budget", options.budget,
                   "The most texels written and texture instructions a frame (the metric texel_work) that an answer may "
                   "cost")
@@ -318,8 +315,9 @@ void add_search_options(CLI::App& verb, RecommendOptions& options) {
       ->check(above_zero())
       ->type_name(value_kind::number)
       ->default_str(fmt::format("{}, or a bound of the experiment on {}", most_edge_pixels, edge_metric));
-  add_most(options.patch, "--patch", "The largest patch of wrong pixels, as a share of the picture at the given view",
-           fmt::format("{}, or a bound of the experiment on {}", percent_text(most_wrong_patch), patch_metric));
+  add_share(verb, "--patch", options.patch,
+            "The largest patch of wrong pixels, as a share of the picture at the given view",
+            fmt::format("{}, or a bound of the experiment on {}", percent_text(most_wrong_patch), patch_metric));
   std::vector<std::string> kinds;
   for (AnswerKind kind : answer_kinds) kinds.push_back(answer_name(kind));
   verb.add_option_function<std::string>(

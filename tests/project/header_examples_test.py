@@ -79,7 +79,7 @@ OWN_TYPES = {
     "frames/judge.h": {"frame": "GivenFrame"},
     "frames/value_curve.h": {"evidence": "CheckEvidence"},
     "gl/spare_maps.h": {"map": "TiledMaps"},
-    "measure/map_offset.h": {"given": "Image<float>"},
+    "measure/given_lookup.h": {"given": "Image<float>"},
     "measure/flicker_stage.h": {"stages": "Pipeline", "loaded": "SceneStage", "r5": "Image<float>", "truth": "TruthStage", "view": "ViewStage"},
     "measure/memory_estimate.h": {"outside_texels": "double"},
     "measure/placement_stage.h": {"input": "PlacementInput", "part": "const BiasPart*"},
