@@ -68,8 +68,6 @@ Markup numbers_section(std::string_view id, const Markup& title, std::span<const
   return section(id, title, tabled(heads({"Name", "Unit", "Meaning"}), rows));
 }
 
-std::string with_bars(const std::vector<std::string_view>& words) { return fmt::format("{}", fmt::join(words, " | ")); }
-
 Markup experiment_section() {
   using namespace report;
   constexpr std::pair<std::string_view, std::string_view> tables[] = {
@@ -91,18 +89,6 @@ Markup experiment_section() {
     all += group_heading(fmt::format("key-{}", name), title) + tabled(heads({"Key", "Takes", "Meaning"}), rows);
   }
   return section("experiment", "Keys of an experiment file", all);
-}
-
-std::string taken_by(const FrameKey& key) {
-  constexpr std::string_view kinds[] = {// in the order of FrameKeyKind
-                                        "object",        "text",       "",           "number",           "boolean",
-                                        "three numbers", "three axes", "16 numbers", "settings by name", "1",
-                                        "list of texts"};
-  std::string kind(kinds[static_cast<size_t>(key.kind)]);
-  if (key.kind == FrameKeyKind::choice) kind = with_bars(choices_of(key));
-  if (key.kind == FrameKeyKind::number) kind += ", " + range_of(key).text();
-  if (key.kind == FrameKeyKind::vector3 || key.kind == FrameKeyKind::matrix) kind += ", each " + range_of(key).text();
-  return kind;
 }
 
 Markup frame_section() {
