@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "frames/frame_keys.h"
-#include "frames/frame_memory.h"
+#include "frames/frame.h"
 #include "frames/judge.h"
 #include "frames/noonmark.h"
 #include "scenes/library.h"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/memory.h"
 #include "scenes/scene.h"
 #include "scenes/view_matrix.h"
 
@@ -54,5 +55,13 @@ struct GivenFrame {
 // Takes the marks out of a visibility as it was delivered: -1 or NaN where there is no surface, -2 at a surface that is not
 // judged. Sets not_judged, and marks_no_surface if there is a mark of the first kind.
 void take_marks(GivenFrame& frame);
+
+// What judging a frame of this size takes beside its scene, in bytes, an upper bound: receivers, truth, classes, the values
+// that the checks sort, and the files that are written. Without the frame's own shadow map.
+double frame_bytes(int width, int height);
+
+// Throws Error(file) if it does not fit. name: of the frame, for the message.
+void require_frame_memory(const std::string& name, int width, int height,
+                          const AvailableMemory& available = available_memory());
 
 }  // namespace noonmark

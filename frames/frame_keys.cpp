@@ -1,11 +1,14 @@
 #include "frames/frame_keys.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <stdexcept>
 
 #include "base/error.h"
+#include "frames/frame_file.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -189,6 +192,80 @@ std::vector<std::string_view> choices_of(const FrameKey& key) {
     if (end == rest.npos) return choices;
     rest.remove_prefix(end + 1);
   }
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A length has the renderer's unit, and its range is in metres.
+Json number_schema(const FrameRange& range) {
+  if (!range.is_length())
+    return {{"type", "number"}, {"minimum", range.numbers.least}, {"maximum", range.numbers.most}};
+  if (range.numbers.least > 0) return {{"type", "number"}, {"exclusiveMinimum", 0}};
+  if (range.numbers.least == 0) return {{"type", "number"}, {"minimum", 0}};
+  return {{"type", "number"}};
+}
+
+Json list_schema(Json items, size_t count) {
+  return {{"type", "array"}, {"items", std::move(items)}, {"minItems", count}, {"maxItems", count}};
+}
+
+struct Form {
+  std::string words;
+  Json schema;
+};
+
+Form form_of(const FrameKey& key) {
+  switch (key.kind) {
+    case Kind::object:
+      return {"object", {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}}};
+    case Kind::text:
+      return {"text", {{"type", "string"}, {"minLength", 1}}};
+    case Kind::choice: {
+      const std::vector<std::string_view> words = choices_of(key);
+      return {fmt::format("{}", fmt::join(words, " | ")), {{"enum", words}}};
+    }
+    case Kind::number:
+      return {"number, " + range_of(key).text(), number_schema(range_of(key))};
+    case Kind::flag:
+      return {"boolean", {{"type", "boolean"}}};
+    case Kind::vector3:
+      return {"three numbers, each " + range_of(key).text(), list_schema(number_schema(range_of(key)), 3)};
+    case Kind::axes:
+      return {"three axes", list_schema({{"enum", {"x", "y", "z", "-x", "-y", "-z", "+x", "+y", "+z"}}}, 3)};
+    case Kind::matrix:
+      return {"16 numbers, each " + range_of(key).text(), list_schema(number_schema(range_of(key)), 16)};
+    case Kind::settings:
+      return {"settings by name",
+              {{"type", "object"}, {"additionalProperties", {{"type", {"string", "number", "boolean", "array"}}}}}};
+    case Kind::version:
+      return {"1", {{"const", 1}}};
+    case Kind::texts:
+      return {"list of texts", {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}}};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string taken_by(const FrameKey& key) { return form_of(key).words; }
+
+std::string frame_schema() {
+  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+              {"title", "frame.json of Noonmark: the frame of another renderer"},
+              {"type", "object"},
+              {"additionalProperties", false},
+              {"required", {"noonmark_frame", "visibility"}},
+              {"properties", Json::object()}};
+  for (const FrameKey& key : frame_keys()) {
+    Json& owner = key.object.empty() ? schema : schema["properties"][std::string(key.object)];
+    Json one = form_of(key).schema;
+    one["description"] = key.help;
+    owner["properties"][std::string(key.name)] = std::move(one);
+    if (!key.object.empty() && key.name == "file") owner["required"].push_back("file");
+  }
+  return schema.dump(2) + "\n";
 }
 
 }  // namespace noonmark

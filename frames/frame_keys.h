@@ -39,6 +39,7 @@ struct FrameKey {
 
 std::span<const FrameKey> frame_keys();
 std::vector<std::string_view> choices_of(const FrameKey& key);
+std::string taken_by(const FrameKey& key);  // in words: "number, 1 ... 170 deg"
 
 // Of one number of the key. A length is given in the renderer's unit, and its range is in metres.
 struct FrameRange {

@@ -14,7 +14,7 @@
 #include "frames/alignment.h"
 #include "frames/check_statistics.h"
 #include "frames/frame_keys.h"
-#include "frames/frame_memory.h"
+#include "frames/frame.h"
 #include "scenes/number_ranges.h"
 #include "technique/settings.h"
 

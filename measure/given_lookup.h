@@ -7,6 +7,7 @@
 //   climb.metrics.at("acne");
 //   Image<float> ours = lookup.visibility(receivers, eye, techniques_of(scene, settings));
 #pragma once
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,13 +17,33 @@
 #include "base/image.h"
 #include "compare/ladder/ladder.h"
 #include "compare/results/records.h"
-#include "measure/map_offset.h"
 #include "raytrace/tracer.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
+#include "technique/map_depths.h"
+#include "technique/settings.h"
 #include "technique/technique.h"
 
 namespace noonmark {
+
+// The offset that lies in the depths of a handed map: how its texels differ from an exact map's, as a polygon offset does. A polygon
+// offset moves a triangle's window depth by factor * m + units * r. m is the steepest slope of its plane in depth per texel, and r a
+// step of the map's format. So the differences of a map from an exact one are a line over m: the factor is its slope, the units are
+// its height at m = 0. A bias along the light that the casters' shader adds is such a height too.
+struct MapOffset {
+  double factor = 0;                      // beside what the exact map has already
+  double constant = 0;                    // window depth
+  DepthFormat format = DepthFormat::d24;  // whose units the constant is in
+  size_t texels = 0;                      // that the line was fitted to
+  double unsure = 0;                      // window depth: how far what moves each surface by itself can move `constant`
+  // Whether the offset is more than what rounding and a rasteriser's grid do to a map without one.
+  bool in_map() const;
+};
+
+// Of the texels of `exact` where the given map has the slope of one plane. The line of the least sum of absolute differences,
+// each as a share of what rounding and a rasteriser's grid can move that texel, so that silhouettes and other surfaces do not
+// bend it. Without enough of such texels: no offset.
+MapOffset map_offset(const Image<float>& given, const MapDepths& exact, DepthFormat format);
 
 struct GivenPoint {
   ReceiverImage receivers;

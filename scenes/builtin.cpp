@@ -7,12 +7,9 @@
 #include <utility>
 
 #include "scenes/camera_frame.h"
-#include "scenes/filtered.h"
 #include "scenes/foliage.h"
-#include "scenes/lab.h"
 #include "scenes/library.h"
 #include "scenes/shapes.h"
-#include "scenes/walks.h"
 
 namespace noonmark {
 namespace {

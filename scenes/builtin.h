@@ -18,4 +18,15 @@ struct BuiltinScene {
 
 std::span<const BuiltinScene> builtin_scenes();
 
+// The scenes with files of their own. Of these, layers, crease and stairs show where a filtered map leaks and where it is too dark:
+// the light shines straight down, and the floor is square to it at three quarters of the map's depth, which a float holds
+// exactly. street and hills-walk are 80 m deep, seen at eye height along their length: one shadow map of all of it has texels
+// that are too large near the camera. lab is a room with several lights.
+Scene layers(const SceneSettings& settings);
+Scene crease(const SceneSettings& settings);
+Scene stairs(const SceneSettings& settings);
+Scene street(const SceneSettings& settings);
+Scene hills_walk(const SceneSettings& settings);
+Scene lab(const SceneSettings& settings);
+
 }  // namespace noonmark

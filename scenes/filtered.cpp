@@ -1,4 +1,4 @@
-#include "scenes/filtered.h"
+#include "scenes/builtin.h"
 
 #include <algorithm>
 #include <cmath>

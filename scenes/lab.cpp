@@ -1,4 +1,4 @@
-#include "scenes/lab.h"
+#include "scenes/builtin.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,4 +1,4 @@
-#include "scenes/walks.h"
+#include "scenes/builtin.h"
 
 #include <algorithm>
 #include <cmath>

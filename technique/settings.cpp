@@ -25,7 +25,7 @@ Stages stages_of_group(std::string_view group) {
   if (group == "map" || group == "cascades") return {Stage::map, Stage::lookup};
   if (group == "bias" || group == "filter" || group == "lookup") return {Stage::lookup};
   if (group == "truth") return {Stage::truth};
-  if (group == "given") return {Stage::scene};  // another frame is another scene (app/sweep/frame_run.h)
+  if (group == "given") return {Stage::scene};  // another frame is another scene (app/sweep/frame_run.cpp)
   throw std::logic_error("no stage reads the group of settings '" + std::string(group) + "'");
 }
 

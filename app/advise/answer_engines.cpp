@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/advise/engine_promise.h"
-#include "app/advise/seen_depths.h"
+#include "app/advise/map_places.h"
 #include "technique/light_frame.h"
 
 namespace noonmark {

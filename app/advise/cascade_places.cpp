@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "app/advise/recommend_space.h"
-#include "app/advise/seen_depths.h"
+#include "app/advise/map_places.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 #include "scenes/camera_fit.h"

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "app/advise/engines/engine_settings.h"
+#include "measure/workbench.h"
 #include "scenes/scene.h"
 #include "technique/light_frame.h"
 #include "technique/settings.h"
@@ -38,5 +40,8 @@ MapPlace place_as_given(bool in_texels = false);
 inline constexpr double places_differ = 1.12;  // its square, 1.25, is what a map of equal texels saves
 std::vector<MapPlace> map_places(const Scene& scene, std::span<const Settings> conditions,
                                  std::span<const Settings> views);
+
+// Of what these conditions show. Throws Error.
+SeenDepths depths_in_views(Workbench& bench, std::span<const Settings> conditions);
 
 }  // namespace noonmark

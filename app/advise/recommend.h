@@ -71,7 +71,7 @@ struct AdviceRequest {
   std::optional<double> error;   // the most of `accuracy`
   std::optional<double> budget;  // the most texel_work; empty: budget_of_least times that of `least`
   AnswerKind answer = AnswerKind::least;
-  std::vector<std::string> about;    // what it is asked for, as sentences (app/advise/recommend_about.h)
+  std::vector<std::string> about;    // what it is asked for, as sentences (app/advise/recommend_request.h)
   std::string given;                 // what the user gave that decides the answer, for a sentence; empty: nothing
   std::string source_of_bounds;      // for a sentence: "the defaults of recommend"; empty: it is not said
   int width_px = least_searched_px;  // of the pictures that are searched on

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "app/advise/recommend_text.h"
-#include "app/definition/toml_writer.h"
+#include "app/definition/toml_text.h"
 
 namespace noonmark {
 namespace {
@@ -26,27 +26,26 @@ bool relies_on(std::string_view setting, bool filtered) {
 
 // The line of a bound that holds at the first condition alone; empty if there is one condition.
 std::string where_of_first(const AdviceRequest& request) {
-  std::vector<std::map<std::string, std::string>> all;
-  for (const Settings& condition : request.conditions) all.push_back(settings_map(condition));
   std::vector<std::string> parts;
-  for (const Setting& row : settings_table()) {
-    const std::string name(row.name);
-    if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != all.front().at(name); }))
-      parts.push_back(fmt::format("\"{}\" = {}", name, toml_value(row, all.front().at(name))));
-  }
+  for (const Setting* row : differing_settings(request.conditions))
+    parts.push_back(fmt::format("\"{}\" = {}", row->name, toml_value(*row, row->get(request.conditions.front()))));
   return parts.empty() ? "" : fmt::format("where = {{{}}}\n", fmt::join(parts, ", "));
 }
 
 }  // namespace
 
+std::vector<const Setting*> differing_settings(std::span<const Settings> conditions) {
+  std::vector<const Setting*> found;
+  for (const Setting& row : settings_table())
+    if (std::any_of(conditions.begin(), conditions.end(),
+                    [&](const Settings& other) { return row.get(other) != row.get(conditions.front()); }))
+      found.push_back(&row);
+  return found;
+}
+
 std::string advice_experiment(const Answer& chosen, const Advice& advice, const std::string& folder) {
   const Tried& answer = chosen.tried;
-  std::vector<std::map<std::string, std::string>> conditions;
-  for (const Settings& condition : advice.request.conditions) conditions.push_back(settings_map(condition));
-  const auto is_condition = [&](const std::string& name) {
-    return std::any_of(conditions.begin(), conditions.end(),
-                       [&](const auto& other) { return other.at(name) != conditions.front().at(name); });
-  };
+  const std::vector<const Setting*> varied = differing_settings(advice.request.conditions);
   Settings settings = answer.settings;
   const auto acts = [&](const Setting& row) {
     return !row.why_idle || row.why_idle(settings, advice.request.light).empty();
@@ -62,10 +61,10 @@ std::string advice_experiment(const Answer& chosen, const Advice& advice, const 
   for (const Setting& row : settings_table()) {
     const std::string name(row.name), value = row.get(settings);
     const size_t dot = name.find('.');
-    if (is_condition(name)) {
+    if (std::find(varied.begin(), varied.end(), &row) != varied.end()) {
       std::vector<std::string> values;
-      for (const auto& condition : conditions)
-        if (const std::string one = toml_value(row, condition.at(name));
+      for (const Settings& condition : advice.request.conditions)
+        if (const std::string one = toml_value(row, row.get(condition));
             std::find(values.begin(), values.end(), one) == values.end())
           values.push_back(one);
       over += fmt::format("{} = [{}]\n", name, fmt::join(values, ", "));

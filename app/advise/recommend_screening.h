@@ -12,10 +12,16 @@
 #include <vector>
 
 #include "app/advise/recommend.h"
-#include "app/advise/recommend_cost.h"
 #include "app/advise/recommend_verify.h"
 
 namespace noonmark {
+
+// What a view and a light have in common for all settings.
+struct SeenShare {
+  double facing = 0;  // share of the pixels that look up
+  // Texels of a map, in squares of map.resolution: 6 for a cube; of several maps that of one of them.
+  double map_squares = 1;
+};
 
 // A bias of more parts, or a map that holds for some views alone, must be this factor better, or it does not pay.
 inline constexpr double factor_that_pays = 1.25;

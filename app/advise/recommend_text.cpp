@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 
 #include "app/advise/engine_forms.h"
 #include "app/advise/recommend_filtered.h"
@@ -170,13 +169,8 @@ std::string constant_text(int least_resolution) {
 // The conditions that this one differs in from the others: "view.eye_m = 1,2,3". Empty if there is one condition.
 std::string condition_text(const PointRecord& point, const AdviceRequest& request) {
   std::vector<std::string> words;
-  std::vector<std::map<std::string, std::string>> all;
-  for (const Settings& condition : request.conditions) all.push_back(settings_map(condition));
-  for (const auto& first : all.front()) {
-    const std::string& name = first.first;
-    if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != first.second; }))
-      words.push_back(fmt::format("{} = {}", name, setting_text(setting_of(point, name))));
-  }
+  for (const Setting* row : differing_settings(request.conditions))
+    words.push_back(fmt::format("{} = {}", row->name, setting_text(setting_of(point, std::string(row->name)))));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 

@@ -1,5 +1,6 @@
 // The recommendation for its readers: as sentences, as an experiment file, and as JSON.
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ std::vector<std::string> rejected_text(const Advice& advice);
 // An experiment that `noonmark check` passes: the settings of one of the answers, the conditions, the placements and the bounds.
 // folder: where the file will stand; the path of a scene's file is relative to it.
 std::string advice_experiment(const Answer& answer, const Advice& advice, const std::string& folder);
+
+// The settings that are not the same in all of these conditions.
+std::vector<const Setting*> differing_settings(std::span<const Settings> conditions);
 
 // What to type into one engine, and as a comment what error it gives, or why there is nothing to type. If the lines break a bound, the
 // first comment says so.

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/advise/recommend_text.h"
-#include "app/definition/toml_writer.h"
+#include "app/definition/toml_text.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "compare/judge/curve_reading.h"

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <tuple>
 
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_keys.h"
 #include "app/definition/promise_reader.h"
-#include "app/definition/settings_reader.h"
+#include "app/definition/toml_reader.h"
 #include "app/definition/toml_text.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -41,60 +42,44 @@ class Reader : private SettingsReader {
         sets_(sets) {}
 
   Experiment read(const toml::table& root) {
+    const std::vector<ExperimentKey> keys = keys_of(experiment_);
     for (const Item& item : items(root)) {
-      if (in_part_ && item.key == "name")
-        experiment_.part = string(*item.node, "name");
-      else if (!in_part_ && item.key == "title")
-        experiment_.title = string(*item.node, "title");
-      else if (!in_part_ && item.key == "pictures") {
-        experiment_.pictures_given = true;
-        experiment_.pictures = one_of(*item.node, "pictures", key_choices("root", "pictures"));
-      } else if (!in_part_ && item.key == "exr")
-        experiment_.exr = boolean(*item.node, "exr");
-      else if (!in_part_ && item.key == "times")
-        times_ = item.node;
-      else if (!in_part_ && item.key == "plot")
-        read_plot(table(*item.node, "[plot]"));
-      else if (!in_part_ && item.key == "part")
-        parts_ = item.node;
-      else if (!in_part_ && item.key == "lights")
-        lights_ = item.node;
-      else if (item.key == "scene" && item.node->is_string())
+      const auto key = std::find_if(keys.begin(), keys.end(), [&](const ExperimentKey& one) {
+        return one.name == item.key && (in_part_ ? one.in_part : one.in_root);
+      });
+      if (key != keys.end()) {
+        fill(*key, *item.node, item.key);
+        keys_.emplace(item.key, item.node);
+      } else if (item.key == "scene" && item.node->is_string()) {
         fix("scene.name", *item.node);
-      else if (item.key == "sweep")
-        sweep_ = &table(*item.node, "[sweep]");
-      else if (item.key == "over")
-        over_ = &table(*item.node, "[over]");
-      else if (!in_part_ && item.key == "answer")
-        read_answer(table(*item.node, "[answer]"));
-      else if (item.key == "curve")
-        read_curve(table(*item.node, "[curve]"));
-      else if (item.key == "phase")
-        read_phase(table(*item.node, "[phase]"));
-      else if (item.key == "let")
-        promises_.read_let(table(*item.node, "[let]"));
-      else if (!in_part_ && item.key == "frame")
-        frames_ = item.node;
-      else if (item.key == "bound")
-        bounds_ = item.node;
-      else if (item.key == "law")
-        laws_ = item.node;
-      else if (is_group(item.key))
+      } else if (is_group(item.key)) {
         read_settings(table(*item.node, "[" + item.key + "]"), item.key,
                       [this](const auto&... value) { fix(value...); });
-      else
-        unknown(item, "key", root_keys(), in_part_ ? "part." : "");
+      } else {
+        unknown(item, "key", with_groups(key_names(keys, in_part_)), in_part_ ? "part." : "");
+      }
     }
-    if (frames_) read_frames(root, *frames_);
+    experiment_.pictures_given = experiment_.pictures_given || given("pictures");
+    if (const toml::table* plot = table_of("plot")) read_keys(*plot, plot_keys(experiment_), "plot.", "plot.");
+    if (const toml::table* answer = table_of("answer"))
+      read_keys(*answer, answer_keys(experiment_), "answer.", "answer.");
+    if (const toml::table* curve = table_of("curve")) read_curve(*curve);
+    if (const toml::table* phase = table_of("phase")) {
+      experiment_.phase.enabled = true;
+      read_keys(*phase, keys_of(experiment_.phase), "phase.", "phase.");
+    }
+    if (const toml::table* let = table_of("let")) promises_.read_let(*let);
+    if (const toml::node* frames = given("frame")) read_frames(root, *frames);
     if (in_part_ && experiment_.part.empty()) fail(root, "a [[part]] needs a name");
-    if (parts_) {
-      for (const toml::node* inside :
-           {static_cast<const toml::node*>(sweep_), static_cast<const toml::node*>(over_), bounds_, laws_})
-        if (inside) fail(*inside, "in a file with parts, sweep, over, bounds and laws must stand inside a [[part]]");
-      experiment_.sweep_location = location_text(parts_->source());
-      read_parts(*parts_);
-      if (lights_) read_parts_as_lights(*lights_);
-      if (times_) read_times(*times_);
+    const toml::node *parts = given("part"), *lights = given("lights"), *times = given("times");
+    if (parts) {
+      for (const char* inside : {"sweep", "over", "bound", "law"})
+        if (const toml::node* node = given(inside))
+          fail(*node, "in a file with parts, sweep, over, bounds and laws must stand inside a [[part]]");
+      experiment_.sweep_location = location_text(parts->source());
+      read_parts(*parts);
+      if (lights) read_parts_as_lights(*lights);
+      if (times) read_times(*times);
       take_sets();
       points(experiment_);
       require_curve_over();
@@ -102,12 +87,12 @@ class Reader : private SettingsReader {
     }
     // These are read last, because they depend on the fixed settings, which may stand anywhere in the file.
     read_sweeps();
-    if (bounds_) promises_.read_bounds(*bounds_);
-    if (laws_) promises_.read_laws(*laws_);
-    if (times_) read_times(*times_);
+    if (const toml::node* bounds = given("bound")) promises_.read_bounds(*bounds);
+    if (const toml::node* laws = given("law")) promises_.read_laws(*laws);
+    if (times) read_times(*times);
     take_sets();
     if (!in_part_) points(experiment_);
-    if (lights_) read_lights(*lights_);
+    if (lights) read_lights(*lights);
     require_curve_over();
     return std::move(experiment_);
   }
@@ -131,22 +116,25 @@ class Reader : private SettingsReader {
               fix(key, value);
             });
       else
-        unknown(item, "key", light_keys(), "lights.");
+        unknown(item, "key", with_groups(key_names(keys_of_light(name))), "lights.");
     }
     if (name.empty()) fail(root, "a [[lights]] needs the name of a light");
     return named_light(name, root);
   }
 
  private:
-  std::vector<std::string_view> root_keys() const {
-    std::vector<std::string_view> names = groups();
-    for (std::string_view key : key_names("root", in_part_)) names.push_back(key);
-    return names;
+  // A key of the table that is read; null: it is not given.
+  const toml::node* given(const char* key) const {
+    const auto found = keys_.find(key);
+    return found == keys_.end() ? nullptr : found->second;
   }
-
-  std::vector<std::string_view> light_keys() const {
+  const toml::table* table_of(const char* key) const {
+    const toml::node* node = given(key);
+    return node ? &table(*node, fmt::format("[{}]", key)) : nullptr;
+  }
+  static std::vector<std::string_view> with_groups(const std::vector<std::string_view>& keys) {
     std::vector<std::string_view> names = groups();
-    for (std::string_view key : key_names("lights")) names.push_back(key);
+    names.insert(names.end(), keys.begin(), keys.end());
     return names;
   }
 
@@ -164,7 +152,8 @@ class Reader : private SettingsReader {
   }
 
   void read_lights(const toml::node& node) {
-    if (laws_) fail(*laws_, "in a file with lights, laws must stand inside a [[part]], with lights = \"parts\"");
+    if (const toml::node* laws = given("law"))
+      fail(*laws, "in a file with lights, laws must stand inside a [[part]], with lights = \"parts\"");
     for (const char* chooses : {"light.name", "light.index", "light.kind"})
       if (given_.contains(chooses))
         fail(node, fmt::format("lights and {} both choose what is measured; leave one of them out", chooses));
@@ -209,12 +198,11 @@ class Reader : private SettingsReader {
              fmt::format("a file with frames has title, pictures, exr, plot and bounds beside them, and no {}; each "
                          "frame.json says scene, camera and light",
                          item.key));
-    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "frames are written as [[frame]], one for each");
     Swept names{"given.frame", {}};
-    for (const toml::node& element : *node.as_array()) {
-      const FrameRequest frame = read_frame(*element.as_table());
+    for (const toml::table* one : tables(node, "frames", "frame")) {
+      const FrameRequest frame = read_frame(*one);
       if (std::find(names.values.begin(), names.values.end(), frame.name) != names.values.end())
-        fail(element, fmt::format("two frames have the name '{}'", frame.name));
+        fail(*one, fmt::format("two frames have the name '{}'", frame.name));
       names.values.push_back(frame.name);
       experiment_.frames.push_back(frame);
     }
@@ -226,28 +214,15 @@ class Reader : private SettingsReader {
   }
   FrameRequest read_frame(const toml::table& table) {
     FrameRequest frame;
-    for (const Item& item : items(table)) {
-      if (item.key == "file") {
-        const std::string named = string(*item.node, "frame.file");
-        const std::filesystem::path file(named);
-        frame.file = (file.is_absolute() ? file : std::filesystem::path(path()).parent_path() / file)
-                         .lexically_normal()
-                         .string();
-        if (frame.name.empty()) frame.name = named;
-      } else if (item.key == "name") {
-        frame.name = string(*item.node, "frame.name");
-      } else if (item.key == "accept") {
-        for (const toml::node* one : list(*item.node, "frame.accept")) {
-          frame.accepted.push_back(string(*one, "frame.accept"));
-          at(one->source(), [&] { require_check(frame.accepted.back()); });
-        }
-      } else if (item.key == "without_map") {
-        frame.without_map = boolean(*item.node, "frame.without_map");
-      } else {
-        unknown(item, "key", key_names("frame"), "frame.");
-      }
-    }
+    const toml::node* accept = nullptr;
+    read_keys(table, keys_of(frame), "frame.", "frame.", [&](const ExperimentKey& key, const Item& item) {
+      if (key.name == "accept") accept = item.node;
+    });
+    for (const std::string& name : frame.accepted) at(accept->source(), [&] { require_check(name); });
     if (frame.file.empty()) fail(table, "a [[frame]] needs a file");
+    if (frame.name.empty()) frame.name = frame.file;
+    const std::filesystem::path file(frame.file), folder = std::filesystem::path(path()).parent_path();
+    frame.file = (file.is_absolute() ? file : folder / file).lexically_normal().string();
     if (frame.name.empty() || frame.name == GivenSettings().frame) fail(table, "a [[frame]] needs another name");
     return frame;
   }
@@ -255,16 +230,15 @@ class Reader : private SettingsReader {
   // ---- [[part]]
 
   void read_parts(const toml::node& node) {
-    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "parts are written as [[part]], one for each");
     std::vector<Experiment> parts;
     std::vector<std::string> notes;
-    for (const toml::node& element : *node.as_array()) {
-      Experiment part = Reader(experiment_, sets_).read(*element.as_table());
+    for (const toml::table* one : tables(node, "parts", "part")) {
+      Experiment part = Reader(experiment_, sets_).read(*one);
       for (const Experiment& other : parts) {
-        if (other.part == part.part) fail(element, fmt::format("two parts have the name '{}'", part.part));
+        if (other.part == part.part) fail(*one, fmt::format("two parts have the name '{}'", part.part));
         for (const Law& law : part.laws)
           for (const Law& there : other.laws)
-            if (there.name == law.name) fail(element, fmt::format("two laws have the name '{}'", law.name));
+            if (there.name == law.name) fail(*one, fmt::format("two laws have the name '{}'", law.name));
       }
       notes.insert(notes.end(), part.notes.begin(), part.notes.end());
       parts.push_back(std::move(part));
@@ -287,11 +261,13 @@ class Reader : private SettingsReader {
   // ---- [sweep] [over]
 
   void read_sweeps() {
-    for (const toml::table* table : {over_, sweep_}) {
+    for (const char* key : {"over", "sweep"}) {
+      const toml::table* const table = table_of(key);
       if (!table) continue;
       experiment_.sweep_location = location_text(table->source());
-      read_settings(*table, "", [this, table](const std::string& name, const toml::node& value) {
-        sweep(name, value, table == over_);
+      const bool condition = key == std::string_view("over");
+      read_settings(*table, "", [this, condition](const std::string& name, const toml::node& value) {
+        sweep(name, value, condition);
       });
     }
     std::stable_sort(sweep_order_.begin(), sweep_order_.end());
@@ -337,65 +313,25 @@ class Reader : private SettingsReader {
       fail(node, fmt::format("times = false, but the experiment asks for {}", asked));
   }
 
-  // ---- [plot] [answer] [curve] [phase]
-
-  void read_plot(const toml::table& table) {
-    for (const Item& item : items(table)) {
-      if (item.key != "metrics") unknown(item, "key", key_names("plot"), "plot.");
-      for (const toml::node* node : list(*item.node, "plot.metrics")) {
-        const std::string name = stored_name(string(*node, "plot.metrics"));
-        at(node->source(), [&] { find_quantity(name); });
-        if (std::find(experiment_.plot.begin(), experiment_.plot.end(), name) != experiment_.plot.end())
-          fail(*node, fmt::format("plot.metrics names '{}' twice", name));
-        experiment_.plot.push_back(name);
-      }
-    }
-  }
-
-  void read_answer(const toml::table& table) {
-    const auto metric = [this](const toml::node& node, const std::string& name) {
-      const std::string text = stored_name(string(node, name));
-      at(node.source(), [&] { find_metric(text); });
-      return text;
-    };
-    for (const Item& item : items(table)) {
-      if (item.key == "cost")
-        experiment_.cost = metric(*item.node, "answer.cost");
-      else if (item.key == "accuracy")
-        experiment_.accuracy = metric(*item.node, "answer.accuracy");
-      else if (item.key == "choose")
-        for (const toml::node* node : list(*item.node, "answer.choose")) {
-          const std::string name = one_of(*node, "answer.choose", key_choices("answer", "choose"));
-          if (std::find(experiment_.choose.begin(), experiment_.choose.end(), name) != experiment_.choose.end())
-            fail(*node, fmt::format("answer.choose names '{}' twice", name));
-          experiment_.choose.push_back(name);
-        }
-      else
-        unknown(item, "key", key_names("answer"), "answer.");
-    }
-  }
+  // ---- [curve]
 
   void read_curve(const toml::table& table) {
+    const toml::node *biases = nullptr, *over_values = nullptr;
+    read_keys(table, curve_keys(experiment_), "curve.", "curve.", [&](const ExperimentKey& key, const Item& item) {
+      if (key.name == "bias_depth") biases = item.node;
+      if (key.name == "over") curve_over_ = item.node;
+      if (key.name == "over_values") over_values = item.node;
+    });
     CurveOptions& curve = experiment_.curve;
-    const toml::node* over_values = nullptr;
-    for (const Item& item : items(table)) {
-      const std::string name = "curve." + item.key;
-      if (item.key == "enabled")
-        experiment_.curve_enabled = boolean(*item.node, name);
-      else if (item.key == "acne_bound")
-        curve.acne_bound = fraction(*item.node, name);
-      else if (item.key == "peter_panning_bound")
-        curve.peter_panning_bound = fraction(*item.node, name);
-      else if (item.key == "bias_depth")
-        read_biases(*item.node, name);
-      else if (item.key == "over")
-        curve.over = {one_of(*(curve_over_ = item.node), name, key_choices("curve", "over")), {}};
-      else if (item.key == "over_values")
-        over_values = item.node;
-      else
-        unknown(item, "key", key_names("curve"), "curve.");
+    if (biases) {
+      require_values(*biases, "curve.bias_depth", "bias.constant", curve.bias_depth);
+      if (curve.bias_depth.front() != 0)
+        curve.bias_depth.insert(curve.bias_depth.begin(), 0.0);  // starts without a bias
     }
-    if (over_values) read_over_values(*over_values);
+    if (!over_values) return;
+    if (curve.over.setting.empty())
+      fail(*over_values, "curve.over_values are values of curve.over, which is not given");
+    require_values(*over_values, "curve.over_values", curve.over.setting, curve.over.values);
   }
   // Before what the settings mean together is checked.
   void take_sets() {
@@ -424,14 +360,6 @@ class Reader : private SettingsReader {
                        "without cascades that blend",
                        over));
   }
-  // The values of curve.over, each in the range of its setting.
-  void read_over_values(const toml::node& node) {
-    const std::string name = "curve.over_values";
-    ParameterValues& over = experiment_.curve.over;
-    if (over.setting.empty()) fail(node, name + " are values of curve.over, which is not given");
-    over.values = amounts(node, name);
-    require_values(node, name, over.setting, over.values);
-  }
   // The values are those of a setting.
   void require_values(const toml::node& node, const std::string& name, std::string_view setting,
                       const std::vector<double>& values) const {
@@ -443,70 +371,14 @@ class Reader : private SettingsReader {
       }
     }
   }
-  void read_phase(const toml::table& table) {
-    PhaseRequest& phase = experiment_.phase;
-    phase.enabled = true;
-    for (const Item& item : items(table)) {
-      const std::string name = "phase." + item.key;
-      if (item.key == "enabled")
-        phase.enabled = boolean(*item.node, name);
-      else if (item.key == "acne_bound")
-        phase.acne_bound = fraction(*item.node, name);
-      else if (item.key == "peter_panning_bound")
-        phase.peter_panning_bound = fraction(*item.node, name);
-      else if (item.key == "placements")
-        phase.placements = integer(*item.node, name, 1, Placements::most);
-      else if (item.key == "texel_sizes")
-        phase.texel_sizes = integer(*item.node, name, 2, most_phase_rows);
-      else if (item.key == "width_px")
-        phase.width_px = integer(*item.node, name, 1, 8192);
-      else
-        unknown(item, "key", key_names("phase"), "phase.");
-    }
-  }
-  int integer(const toml::node& node, const std::string& name, int least, int most) const {
-    const int64_t value = node.is_integer() ? node.as_integer()->get() : int64_t{least} - 1;
-    if (value < least || value > most) fail(node, fmt::format("{} must be an integer, {} ... {}", name, least, most));
-    return static_cast<int>(value);
-  }
-  double fraction(const toml::node& node, const std::string& name) const {
-    const double value = share(node, name);
-    if (value > 1) fail(node, fmt::format("{} = {}", name, above_every_share(value, written(node, value))));
-    if (value < 0) fail(node, fmt::format("{} = {} must be a share, 0 ... 1", name, written(node, value)));
-    return value;
-  }
-  // A list, or a table that describes one.
-  std::vector<double> amounts(const toml::node& node, const std::string& name) const {
-    std::vector<double> values;
-    if (const toml::table* range_table = node.as_table()) {
-      values = range(*range_table, name);
-    } else {
-      for (const toml::node* element : list(node, name)) values.push_back(number(*element, name));
-    }
-    if (!std::is_sorted(values.begin(), values.end(), std::less_equal<>()) || values.front() < 0)
-      fail(node, fmt::format("{} must be 0 or more and ascend, each value once", name));
-    return values;
-  }
-  void read_biases(const toml::node& node, const std::string& name) {
-    std::vector<double>& biases = experiment_.curve.bias_depth;
-    biases = amounts(node, name);
-    require_values(node, name, "bias.constant", biases);
-    if (biases.front() != 0) biases.insert(biases.begin(), 0.0);  // a curve starts without a bias
-  }
 
   Experiment experiment_;
   PromiseReader promises_;
   bool in_part_ = false;
   const std::vector<std::string>& sets_;
-  std::set<std::string> given_;  // the settings that this part of the file gives
-  const toml::node* times_ = nullptr;
-  const toml::node* parts_ = nullptr;
-  const toml::node* laws_ = nullptr;
-  const toml::node* frames_ = nullptr;
-  const toml::node* lights_ = nullptr;
+  std::set<std::string> given_;                                 // the settings that this part of the file gives
+  std::map<std::string, const toml::node*, std::less<>> keys_;  // of the table, beside settings
   const toml::node* curve_over_ = nullptr;
-  const toml::table *sweep_ = nullptr, *over_ = nullptr;
-  const toml::node* bounds_ = nullptr;
   // Whether it is a choice, line, column, index into experiment_.swept. Conditions come first, because scene, view and
   // light are the most costly to change from point to point.
   std::vector<std::tuple<bool, uint32_t, uint32_t, size_t>> sweep_order_;

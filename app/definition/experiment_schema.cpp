@@ -1,4 +1,5 @@
-#include "app/definition/experiment_schema.h"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,55 +27,53 @@ bool is_number(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-Json form_of(const Setting& row) {
-  Json form;
+Json plain_form_of(const Setting& row) {
   switch (row.type) {
     case ValueType::integer:
-    case ValueType::real:
-      form["type"] = row.type == ValueType::integer ? "integer" : "number";
+    case ValueType::real: {
+      Json form = {{"type", row.type == ValueType::integer ? "integer" : "number"}};
       if (std::isfinite(row.min)) form["minimum"] = row.min;
       if (std::isfinite(row.max)) form["maximum"] = row.max;
-      break;
+      return form;
+    }
     case ValueType::flag:
-      form["type"] = "boolean";
-      break;
+      return {{"type", "boolean"}};
     case ValueType::choice: {
       Json words = Json::array();
       for (std::string_view choice : row.choices) {
         words.push_back(choice);
         if (is_number(choice)) words.push_back(std::stoll(std::string(choice)));  // format = 16
       }
-      form["enum"] = words;
-      break;
+      return {{"enum", words}};
     }
     case ValueType::text:
-      form = {{"type", "string"}, {"minLength", 1}};
-      break;
+      return {{"type", "string"}, {"minLength", 1}};
     case ValueType::point:
-      form = any_of({{{"type", "array"},
+      return any_of({{{"type", "array"},
                       {"items", {{"type", "number"}, {"minimum", row.min}, {"maximum", row.max}}},
                       {"minItems", 3},
                       {"maxItems", 3}},
                      {{"type", "string"}, {"pattern", "^[^,]+,[^,]+,[^,]+$"}}});
-      break;
     case ValueType::list:
     case ValueType::whole_list:
     case ValueType::real_list: {
       const char* const type = row.type == ValueType::whole_list ? "integer" : "number";
       const Json number = {{"type", type}, {"minimum", row.min}, {"maximum", row.max}};
-      form = any_of({{{"type", "array"}, {"items", number}, {"minItems", 1}},
+      return any_of({{{"type", "array"}, {"items", number}, {"minItems", 1}},
                      number,
                      {{"type", "string"}, {"pattern", "^[^,]+(,[^,]+)*$"}}});
-      break;
     }
   }
-  if (row.may_be_auto) form = any_of({form, {{"const", "auto"}}});
+  return {};
+}
+
+Json form_of(const Setting& row) {
   if (row.name == "scene.name") {
     Json names = Json::array();
     for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
-    form = any_of({{{"enum", names}}, {{"type", "string"}, {"pattern", "\\.([gG][lL][tT][fF]|[gG][lL][bB])$"}}});
+    return any_of({{{"enum", names}}, {{"type", "string"}, {"pattern", "\\.([gG][lL][tT][fF]|[gG][lL][bB])$"}}});
   }
-  return form;
+  return row.may_be_auto ? any_of({plain_form_of(row), {{"const", "auto"}}}) : plain_form_of(row);
 }
 
 Json described(Json form, const std::string& help) {
@@ -124,83 +123,78 @@ Json condition_form(const Setting& row) {
 // A share in percent.
 Json percent_form() { return {{"type", "string"}, {"pattern", "^[0-9.]+([eE][+-]?[0-9]+)? *%$"}}; }
 
-Json form_of(const ExperimentKey& key) {
-  Json form;
+Json list_form(const Json& items, bool each_once) {
+  Json form = {{"type", "array"}, {"items", items}, {"minItems", 1}};
+  if (each_once) form["uniqueItems"] = true;
+  return form;
+}
+
+std::string with_bars(const std::vector<std::string_view>& words) { return fmt::format("{}", fmt::join(words, " | ")); }
+
+struct Form {
+  std::string words;
+  Json schema;
+};
+
+Form form_of(const ExperimentKey& key) {
+  const std::string name(key.name);
   switch (key.kind) {
     case Kind::text:
-      form = {{"type", "string"}};
-      break;
-    case Kind::names:
-      form = {{"type", "array"}, {"items", {{"type", "string"}}}, {"uniqueItems", true}};
-      if (!key.choices.empty()) form["items"] = {{"enum", key.choices}};
-      break;
+      return {"text", {{"type", "string"}}};
+    case Kind::names: {
+      const Json one = key.choices.empty() ? Json{{"type", "string"}} : Json{{"enum", key.choices}};
+      return {key.choices.empty() ? "a list of texts" : "a list of " + with_bars(key.choices),
+              {{"type", "array"}, {"items", one}, {"uniqueItems", true}}};
+    }
     case Kind::choice:
-      form["enum"] = key.choices;
-      break;
+      return {with_bars(key.choices), {{"enum", key.choices}}};
     case Kind::flag:
-      form = {{"type", "boolean"}};
-      break;
+      return {"true | false", {{"type", "boolean"}}};
     case Kind::number:
-      form = {{"type", "number"}};
-      if (key.least > -1e300) form["minimum"] = key.least;
-      break;
+      if (key.least == any_number) return {"a number", {{"type", "number"}}};
+      return {fmt::format("a number, {} or more", key.least), {{"type", "number"}, {"minimum", key.least}}};
     case Kind::fraction:
-      form = any_of({{{"type", "number"}, {"minimum", 0}, {"maximum", 1}}, percent_form()});
-      break;
+      return {"0 ... 1, or text with %",
+              any_of({{{"type", "number"}, {"minimum", 0}, {"maximum", 1}}, percent_form()})};
     case Kind::limit:
-      form = any_of({{{"type", "number"}}, percent_form()});
-      break;
+      return {"a number; of a share also text with %", any_of({{{"type", "number"}}, percent_form()})};
     case Kind::whole:
-      form = {{"type", "integer"}, {"minimum", key.least}, {"maximum", key.most}};
-      break;
-    case Kind::quantity:
-      form = reference("quantity");
-      break;
+      return {fmt::format("a whole number, {} ... {}", key.least, key.most),
+              {{"type", "integer"}, {"minimum", key.least}, {"maximum", key.most}}};
     case Kind::quantities:
-      form = {{"type", "array"}, {"items", reference("quantity")}, {"minItems", 1}, {"uniqueItems", true}};
-      break;
+      return {"a list of metrics or quantities of the curve", list_form(reference("quantity"), true)};
     case Kind::pattern:
-      form = any_of({reference("quantity"), {{"type", "string"}, {"pattern", "[*?]"}}});
-      break;
+      return {"a metric, a quantity of the curve, or a pattern",
+              any_of({reference("quantity"), {{"type", "string"}, {"pattern", "[*?]"}}})};
     case Kind::metric:
-      form = reference("metric");
-      break;
+      return {"a metric", reference("metric")};
     case Kind::formula:
-      form = {{"type", Json::array({"string", "number"})}};
-      break;
+      return {"a formula or a number", {{"type", {"string", "number"}}}};
     case Kind::formulas:
-      form = {{"type", "object"}, {"additionalProperties", {{"type", {"string", "number"}}}}};
-      break;
+      return {"a table of formulas", {{"type", "object"}, {"additionalProperties", {{"type", {"string", "number"}}}}}};
     case Kind::setting: {
       Json names = Json::array();
       for (const Setting& row : settings_table()) names.push_back(row.name);
-      form["enum"] = names;
-      break;
+      return {"a setting", {{"enum", names}}};
     }
     case Kind::sweep:
-      form = reference("sweep");
-      break;
+      return {"a table of settings, each with a list or a range", reference("sweep")};
     case Kind::conditions:
-      form = reference("conditions");
-      break;
+      return {"a table of settings, each with a value or a list", reference("conditions")};
     case Kind::amounts:
-      form = any_of(
-          {{{"type", "array"}, {"items", {{"type", "number"}, {"minimum", 0}}}, {"minItems", 1}}, reference("range")});
-      break;
+      return {"a list of numbers, or a range",
+              any_of({list_form({{"type", "number"}, {"minimum", 0}}, false), reference("range")})};
     case Kind::table:
-      form = reference(std::string(key.name));
-      break;
+      return {fmt::format("a table [{}]", name), reference(name)};
     case Kind::tables:
-      form = {{"type", "array"}, {"items", reference(std::string(key.name))}, {"minItems", 1}};
-      break;
-    case Kind::lights: {
-      const Json names = {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}, {"uniqueItems", true}};
-      const Json tables = {{"type", "array"}, {"items", reference("lights")}, {"minItems", 1}};
-      form = any_of({{{"enum", Json::array({"all", "parts"})}}, names, tables});
-      break;
-    }
+      return {fmt::format("tables [[{}]]", name), list_form(reference(name), false)};
+    case Kind::lights:
+      return {"\"all\", \"parts\", a list of names, or tables [[lights]]",
+              any_of({{{"enum", {"all", "parts"}}},
+                      list_form({{"type", "string"}}, true),
+                      list_form(reference("lights"), false)})};
   }
-  return described(std::move(form), std::string(key.help));
+  return {};
 }
 
 // in_part: of the table "root", the keys of a part.
@@ -208,7 +202,7 @@ Json table_of(std::string_view table, bool in_part = false) {
   Json properties = Json::object(), required = Json::array();
   for (const ExperimentKey& key : experiment_keys(table)) {
     if (!(in_part ? key.in_part : key.in_root)) continue;
-    properties[std::string(key.name)] = form_of(key);
+    properties[std::string(key.name)] = described(form_of(key).schema, std::string(key.help));
     if (key.required) required.push_back(key.name);
   }
   Json form = closed(std::move(properties));
@@ -234,6 +228,8 @@ Json experiment_table(bool in_part) {
 }
 
 }  // namespace
+
+std::string taken_by(const ExperimentKey& key) { return form_of(key).words; }
 
 std::string experiment_schema() {
   const Settings defaults;

@@ -8,7 +8,8 @@
 #include <string_view>
 
 #include "app/definition/experiment_file.h"
-#include "app/definition/toml_writer.h"
+#include "app/definition/experiment_keys.h"
+#include "app/definition/toml_text.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "scenes/library.h"
@@ -36,6 +37,23 @@ std::string path_from_folder(const std::string& path, const std::filesystem::pat
   return std::filesystem::absolute(scene, none).string();
 }
 
+// What stands behind a key. Empty: it is left out.
+std::string text_of(std::monostate) { return ""; }
+std::string text_of(const std::string* text) { return text->empty() ? "" : toml_string(*text); }
+std::string text_of(const std::optional<double>* number) { return *number ? fmt::format("{}", **number) : ""; }
+std::string text_of(const std::vector<double>* numbers) {
+  return numbers->empty() ? "" : fmt::format("[{}]", fmt::join(*numbers, ", "));
+}
+std::string text_of(const std::vector<std::string>* names) {
+  std::vector<std::string> texts;
+  for (const std::string& name : *names) texts.push_back(toml_string(name));
+  return texts.empty() ? "" : fmt::format("[{}]", fmt::join(texts, ", "));
+}
+template <class Value>  // a number or a flag
+std::string text_of(const Value* value) {
+  return fmt::format("{}", *value);
+}
+
 class Writer {
  public:
   explicit Writer(const Experiment& experiment) : folder_(std::filesystem::path(experiment.path).parent_path()) {}
@@ -48,25 +66,22 @@ class Writer {
     if (e.frames.empty()) line("exr", e.exr ? "true" : "false");
     if (e.lights) line("lights", toml_string("parts"));
     if (e.frames.empty()) line("times", times_measured(e) ? "true" : "false");
+    Experiment written = e;  // the rows of the keys point into it
     if (!e.plot.empty()) {
       header("[plot]");
-      line("metrics", names(e.plot));
+      lines(plot_keys(written));
     }
     if (e.frames.empty()) {
       header("[answer]");
-      line("cost", toml_string(e.cost));
-      line("accuracy", toml_string(e.accuracy));
-      if (!e.choose.empty()) line("choose", names(e.choose));
+      lines(answer_keys(written));
     }
-    for (const FrameRequest& frame : e.frames) {
+    for (FrameRequest& frame : written.frames) {
+      frame.file = from_folder(frame.file);
       header("[[frame]]");
-      line("file", toml_string(from_folder(frame.file)));
-      line("name", toml_string(frame.name));
-      if (!frame.accepted.empty()) line("accept", names(frame.accepted));
-      if (frame.without_map) line("without_map", "true");
+      lines(keys_of(frame));
     }
     if (!e.frames.empty())
-      for (const Bound& bound : e.bounds) write_bound(bound, "");
+      for (Bound bound : e.bounds) write_bound(bound, "");
     else if (e.parts.empty())
       points_of(e, "");
     for (const Experiment& part : e.parts) {
@@ -81,10 +96,17 @@ class Writer {
   void header(const std::string& name) { text_ += "\n" + name + "\n"; }
   void line(std::string_view key, const std::string& value) { text_ += fmt::format("{} = {}\n", key, value); }
 
-  static std::string names(const std::vector<std::string>& list) {
-    std::vector<std::string> texts;
-    for (const std::string& name : list) texts.push_back(toml_string(name));
-    return fmt::format("[{}]", fmt::join(texts, ", "));
+  // A line for each key that has a value. Calls without(name) for the others.
+  template <class Without>
+  void lines(const std::vector<ExperimentKey>& keys, const Without& without) {
+    for (const ExperimentKey& key : keys)
+      if (const std::string text = std::visit([](auto place) { return text_of(place); }, key.place); !text.empty())
+        line(key.name, text);
+      else
+        without(key.name);
+  }
+  void lines(const std::vector<ExperimentKey>& keys) {
+    lines(keys, [](std::string_view) {});
   }
 
   std::string value(const Setting& row, const std::string& canonical) const {
@@ -117,26 +139,19 @@ class Writer {
       }
     }
     header(fmt::format("[{}curve]", prefix));
-    line("enabled", e.curve_enabled ? "true" : "false");
-    line("acne_bound", fmt::format("{}", e.curve.acne_bound));
-    line("peter_panning_bound", fmt::format("{}", e.curve.peter_panning_bound));
-    if (e.curve.bias_depth.empty())
-      text_ += "# bias_depth: 0, then 20 values a decade from 1e-7 to 1\n";
-    else
-      line("bias_depth", fmt::format("[{}]", fmt::join(e.curve.bias_depth, ", ")));
-    if (!e.curve.over.setting.empty()) line("over", toml_string(e.curve.over.setting));
-    if (!e.curve.over.values.empty()) line("over_values", fmt::format("[{}]", fmt::join(e.curve.over.values, ", ")));
+    Experiment written = e;  // the rows of the keys point into it
+    lines(curve_keys(written), [&](std::string_view key) {
+      if (key == "bias_depth") text_ += "# bias_depth: 0, then 20 values a decade from 1e-7 to 1\n";
+    });
     header(fmt::format("[{}phase]", prefix));
-    line("enabled", e.phase.enabled ? "true" : "false");
-    line("acne_bound", fmt::format("{}", e.phase.acne_bound.value_or(e.curve.acne_bound)));
-    line("peter_panning_bound", fmt::format("{}", e.phase.peter_panning_bound.value_or(e.curve.peter_panning_bound)));
-    line("placements", fmt::format("{}", e.phase.placements));
-    line("texel_sizes", fmt::format("{}", e.phase.texel_sizes));
-    line("width_px", fmt::format("{}", e.phase.width_px));
+    PhaseRequest& phase = written.phase;
+    phase.acne_bound = phase.acne_bound.value_or(e.curve.acne_bound);
+    phase.peter_panning_bound = phase.peter_panning_bound.value_or(e.curve.peter_panning_bound);
+    lines(keys_of(phase));
     if (!e.let.empty()) header(fmt::format("[{}let]", prefix));
     for (const auto& [name, formula] : e.let) line(toml_string(name), toml_string(formula));
-    for (const Bound& bound : e.bounds) write_bound(bound, prefix);
-    for (const Law& law : e.laws) write_law(law, prefix);
+    for (Bound bound : e.bounds) write_bound(bound, prefix);
+    for (Law law : e.laws) write_law(law, prefix);
   }
 
   std::string list(const Setting& row, const std::vector<std::string>& values) const {
@@ -153,33 +168,23 @@ class Writer {
     line(key, fmt::format("{{{}}}", fmt::join(texts, ", ")));
   }
 
-  void write_bound(const Bound& bound, const std::string& prefix) {
+  void write_bound(Bound& bound, const std::string& prefix) {
     header(fmt::format("[[{}bound]]", prefix));
-    line("metric", toml_string(bound.metric));
-    if (bound.max) line("max", fmt::format("{}", *bound.max));
-    if (bound.min) line("min", fmt::format("{}", *bound.min));
-    line("join", toml_string(bound.join));
-    line("placement", toml_string(bound.placement));
-    line("level", toml_string(bound.level));
-    write_where("where", bound.where);
+    lines(keys_of(bound), [&](std::string_view key) {
+      if (key == "where") write_where(key, bound.where);
+    });
   }
 
-  void write_law(const Law& law, const std::string& prefix) {
+  void write_law(Law& law, const std::string& prefix) {
+    const char* const relation = law.relation == LawRelation::equal     ? "equals"
+                                 : law.relation == LawRelation::at_most ? "at_most"
+                                                                        : "at_least";
     header(fmt::format("[[{}law]]", prefix));
-    line("name", toml_string(law.name));
-    if (!law.says.empty()) line("says", toml_string(law.says));
-    if (!law.found.empty()) line("found", toml_string(law.found));
-    line("measured", toml_string(law.measured));
-    line(law.relation == LawRelation::equal     ? "equals"
-         : law.relation == LawRelation::at_most ? "at_most"
-                                                : "at_least",
-         toml_string(law.predicted));
-    line("within", fmt::format("{}", law.within));
-    if (!law.slack.empty()) line("slack", toml_string(law.slack));
-    line("join", toml_string(law.join));
-    if (!law.over.empty()) line("over", toml_string(law.over));
-    write_where("where", law.where);
-    write_where("against", law.against);
+    lines(keys_of(law), [&](std::string_view key) {
+      if (key == relation) line(key, toml_string(law.predicted));
+      if (key == "where") write_where(key, law.where);
+      if (key == "against") write_where(key, law.against);
+    });
   }
 
   std::filesystem::path folder_;

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "app/definition/toml_writer.h"
+#include "app/definition/toml_text.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "scenes/fit.h"

@@ -8,42 +8,28 @@
 
 #include "app/definition/frame_metrics.h"
 #include "base/error.h"
-#include "compare/judge/formula.h"
 #include "compare/results/quantities.h"
 
 namespace noonmark {
 
 void PromiseReader::read_bounds(const toml::node& node) {
-  if (!node.is_array() || !node.is_array_of_tables()) fail(node, "bounds are written as [[bound]], one for each");
-  for (const toml::node& element : *node.as_array()) read_bound(*element.as_table());
+  for (const toml::table* one : tables(node, "bounds", "bound")) read_bound(*one);
 }
 
 void PromiseReader::read_bound(const toml::table& table) {
   Bound bound;
   const toml::node *max = nullptr, *min = nullptr;  // read when the metric is known
-  for (const Item& item : items(table)) {
-    if (item.key == "metric") {
-      bound.metric = stored_name(string(*item.node, "metric"));
-      const std::vector<QuantityInfo> named = at(item.node->source(), [&] { return quantities_named(bound.metric); });
-      if (!experiment_.frames.empty()) at(item.node->source(), [&] { require_frame_metric(bound.metric); });
-      const auto of_curve = [](const QuantityInfo& info) { return info.of_curve; };
-      if (!experiment_.curve_enabled && std::all_of(named.begin(), named.end(), of_curve))
-        fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", bound.metric));
-    } else if (item.key == "max")
-      max = item.node;
-    else if (item.key == "min")
-      min = item.node;
-    else if (item.key == "join")
-      bound.join = one_of(*item.node, "join", key_choices("bound", "join"));
-    else if (item.key == "placement")
-      bound.placement = one_of(*item.node, "placement", key_choices("bound", "placement"));
-    else if (item.key == "level")
-      bound.level = one_of(*item.node, "level", key_choices("bound", "level"));
-    else if (item.key == "where")
-      bound.where = read_conditions(*item.node, "where");
-    else
-      unknown(item, "key", key_names("bound"), "bound.");
-  }
+  read_keys(table, keys_of(bound), "bound.", "", [&](const ExperimentKey& key, const Item& item) {
+    if (key.name == "max") max = item.node;
+    if (key.name == "min") min = item.node;
+    if (key.name == "where") bound.where = read_conditions(*item.node, "where");
+    if (key.name != "metric") return;
+    const std::vector<QuantityInfo> named = at(item.node->source(), [&] { return quantities_named(bound.metric); });
+    if (!experiment_.frames.empty()) at(item.node->source(), [&] { require_frame_metric(bound.metric); });
+    const auto of_curve = [](const QuantityInfo& info) { return info.of_curve; };
+    if (!experiment_.curve_enabled && std::all_of(named.begin(), named.end(), of_curve))
+      fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", bound.metric));
+  });
   if (bound.metric.empty()) fail(table, "a [[bound]] needs a metric");
   const std::vector<QuantityInfo> named = quantities_named(bound.metric);
   const bool of_shares =
@@ -102,51 +88,20 @@ std::vector<std::string> PromiseReader::values_of(const Setting& row) const {
 
 // ---- [let] [[law]]
 
-// Reads a formula, or a number as a formula.
-std::string PromiseReader::formula(const toml::node& node, const std::string& name) const {
-  if (node.is_number()) return fmt::format("{}", number(node, name));
-  const std::string text = string(node, name);
-  at(node.source(), [&] { Formula read(text); });
-  return text;
-}
-
 void PromiseReader::read_law(const toml::table& table) {
+  constexpr std::pair<std::string_view, LawRelation> relations[] = {
+      {"equals", LawRelation::equal}, {"at_most", LawRelation::at_most}, {"at_least", LawRelation::at_least}};
   Law law;
-  const auto relate = [&](const Item& item, LawRelation relation) {
-    if (!law.predicted.empty()) fail(item.where, "a law has one of equals, at_most and at_least");
-    law.predicted = formula(*item.node, item.key);
-    law.relation = relation;
-  };
-  for (const Item& item : items(table)) {
-    if (item.key == "name")
-      law.name = string(*item.node, "name");
-    else if (item.key == "says")
-      law.says = string(*item.node, "says");
-    else if (item.key == "found")
-      law.found = string(*item.node, "found");
-    else if (item.key == "measured")
-      law.measured = formula(*item.node, "measured");
-    else if (item.key == "equals")
-      relate(item, LawRelation::equal);
-    else if (item.key == "at_most")
-      relate(item, LawRelation::at_most);
-    else if (item.key == "at_least")
-      relate(item, LawRelation::at_least);
-    else if (item.key == "within")
-      law.within = number(*item.node, "within");
-    else if (item.key == "slack")
-      law.slack = formula(*item.node, "slack");
-    else if (item.key == "join")
-      law.join = one_of(*item.node, "join", key_choices("law", "join"));
-    else if (item.key == "over")
-      law.over = string(*item.node, "over");
-    else if (item.key == "where")
-      law.where = read_conditions(*item.node, "where");
-    else if (item.key == "against")
-      law.against = read_conditions(*item.node, "against");
-    else
-      unknown(item, "key", key_names("law"), "law.");
-  }
+  read_keys(table, keys_of(law), "law.", "", [&](const ExperimentKey& key, const Item& item) {
+    if (key.name == "where") law.where = read_conditions(*item.node, "where");
+    if (key.name == "against") law.against = read_conditions(*item.node, "against");
+    for (const auto& [name, relation] : relations) {
+      if (key.name != name) continue;
+      if (!law.predicted.empty()) fail(item.where, "a law has one of equals, at_most and at_least");
+      law.predicted = formula(*item.node, item.key);
+      law.relation = relation;
+    }
+  });
   law.let = experiment_.let;
   at(table.source(), [&] { check_law(law); });
   if (!experiment_.curve_enabled)
@@ -169,8 +124,7 @@ void PromiseReader::read_let(const toml::table& table) {
 }
 
 void PromiseReader::read_laws(const toml::node& node) {
-  if (!node.is_array() || !node.is_array_of_tables()) fail(node, "laws are written as [[law]], one for each");
-  for (const toml::node& element : *node.as_array()) read_law(*element.as_table());
+  for (const toml::table* one : tables(node, "laws", "law")) read_law(*one);
 }
 
 }  // namespace noonmark

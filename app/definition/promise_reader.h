@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/definition/experiment.h"
-#include "app/definition/settings_reader.h"
+#include "app/definition/toml_reader.h"
 
 namespace noonmark {
 
@@ -24,7 +24,6 @@ class PromiseReader : private SettingsReader {
   Conditions read_conditions(const toml::node& node, const std::string& name);
   void condition(const std::string& name, const toml::node& value);
   std::vector<std::string> values_of(const Setting& row) const;
-  std::string formula(const toml::node& node, const std::string& name) const;
   void read_law(const toml::table& table);
 
   Experiment& experiment_;

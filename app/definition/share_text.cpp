@@ -27,6 +27,8 @@ std::optional<double> share_from(std::string_view text) {
   return percent ? std::optional(*percent / 100) : std::nullopt;
 }
 
+std::string percent_text(double share) { return fmt::format("{:g}%", 100 * share); }
+
 std::string above_every_share(double value, std::string_view text) {
   const std::string written = fmt::format("{} is above every share, which is at most 1 (100%)", text);
   if (text.ends_with('%') || value > 100) return written;

@@ -12,6 +12,9 @@ namespace noonmark {
 // A number, or a number of percent. Empty if the text is neither, or not finite.
 std::optional<double> share_from(std::string_view text);
 
+// A share in percent: "0.1%".
+std::string percent_text(double share);
+
 // value: above 1, as it was written in `text`. Shares are at most 1, so percent were meant.
 std::string above_every_share(double value, std::string_view text);
 

@@ -10,7 +10,7 @@
 #include "app/pictures/image_file.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "frames/frame_memory.h"
+#include "frames/frame.h"
 #include "frames/map_frame.h"
 #include "frames/value_curve.h"
 #include "scenes/camera_fit.h"

@@ -12,12 +12,11 @@
 #include <new>
 #include <stdexcept>
 
-#include "app/pictures/animated_png.h"
+#include "app/pictures/png_encoder.h"
 #include "app/pictures/exr_encoder.h"
 #include "app/pictures/image_codec.h"
 #include "app/pictures/image_head.h"
 #include "app/pictures/npy.h"
-#include "app/pictures/png_encoder.h"
 #include "base/digest.h"
 #include "base/error.h"
 #include "base/file.h"

@@ -22,7 +22,7 @@ using Color = glm::u8vec3;  // sRGB
 // All of them return the digest of the file (digest_of, base/digest.h).
 std::string write_png(const std::string& path, const Image<Color>& picture);
 
-// An animated PNG (app/pictures/animated_png.h). The frames are of one size.
+// An animated PNG (app/pictures/png_encoder.h). The frames are of one size.
 std::string write_animated_png(const std::string& path, const std::vector<Image<Color>>& frames, int frame_ms);
 
 // One named channel of an EXR. Values are stored as 32-bit floats, row 0 on top.

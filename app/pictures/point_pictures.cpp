@@ -1,14 +1,17 @@
 #include "app/pictures/point_pictures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
 
+#include "app/pictures/picture_files.h"
 #include "app/pictures/pictures.h"
 #include "app/pictures/point_files.h"
 #include "base/digest.h"
@@ -204,6 +207,15 @@ void remove_pictures(const PointPictures& pictures, const std::string& out) {
   for (const ImageRecord& image : pictures.images) remove(image.path);
 }
 
+bool remove_those(PointPictures& point, const std::function<bool(const PictureRecord&)>& which,
+                  const std::string& out) {
+  PointPictures old;
+  std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), which);
+  remove_pictures(old, out);
+  std::erase_if(point.pictures, which);
+  return !old.pictures.empty();
+}
+
 std::string why_not_as_written(const PointRecord& point, const std::string& out) {
   std::string why;
   const auto check = [&](const std::string& path, const std::string& digest) {
@@ -236,6 +248,27 @@ std::string read_picture(const std::string& out, const std::string& path, const 
     for (const PictureRecord& picture : point.pictures)
       if (picture.path == path && picture.digest == digest) return bytes;
   throw Error(ErrorKind::file, "it is not the file that was written; run the experiment into this folder again");
+}
+
+std::vector<PictureRecord> keep_lights(const LightsFrame& frame, const std::vector<std::string>& names, int64_t id,
+                                       const std::string& out) {
+  make_folder_in(out, "images");
+  std::vector<std::string> colors;
+  for (size_t l = 0; l < names.size(); ++l) colors.push_back(fmt::format("{}: {}", names[l], most_wrong_color(l).name));
+  const struct {
+    const char* name;
+    const Image<Color>& picture;
+    std::string caption;
+  } pictures[] = {
+      {"shown", frame.shown, "The frame of all lights, as the shadow maps show it."},
+      {"truth", frame.truth, "The same frame with the true shadows."},
+      {"most-wrong", frame.most_wrong,
+       fmt::format("Which light makes the largest part of the frame's error at each pixel ({}); black: none.",
+                   fmt::join(colors, ", "))}};
+  PictureFiles files(out + "/images", "images", fmt::format("p{:04}", id));
+  for (const auto& one : pictures)
+    files.add(std::string(lights_prefix) + one.name, one.caption, [&one] { return one.picture; });
+  return files.write();
 }
 
 }  // namespace noonmark

@@ -8,12 +8,15 @@
 //     if (!why_not_as_written(*find_point(results.points, id), out).empty()) keep_pictures(measurement, id, out, formats);
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/pictures/image_file.h"
+#include "compare/report/lights_section.h"
 #include "compare/results/records.h"
+#include "measure/lights_frame.h"
 #include "measure/workbench.h"
 
 namespace noonmark {
@@ -67,6 +70,8 @@ void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, c
 
 // Removes the files of a point that has no pictures any more.
 void remove_pictures(const PointPictures& pictures, const std::string& out);
+// The same of those that `which` names, with their records. Whether there were any.
+bool remove_those(PointPictures& point, const std::function<bool(const PictureRecord&)>& which, const std::string& out);
 
 // "out/images/p0003-map.png is not the file that was written", for the first file that is lost or changed; otherwise
 // empty.
@@ -75,5 +80,13 @@ std::string why_not_as_written(const PointRecord& point, const std::string& out)
 // For the report: returns the bytes of the picture or the image with this path. It must have the digest that one of the
 // points has for it, and a picture must be a PNG. Throws Error(file).
 std::string read_picture(const std::string& out, const std::string& path, const std::vector<PointRecord>& points);
+
+inline constexpr std::string_view lights_prefix = report::lights_pictures;  // of their names
+
+inline bool is_lights_picture(const PictureRecord& picture) { return picture.name.starts_with(lights_prefix); }
+
+// Writes them below out/images. id: of the point. names: of the lights, in order.
+std::vector<PictureRecord> keep_lights(const LightsFrame& frame, const std::vector<std::string>& names, int64_t id,
+                                       const std::string& out);
 
 }  // namespace noonmark

@@ -1,5 +1,3 @@
-#include "app/sweep/frame_run.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -20,8 +18,8 @@
 #include "app/sweep/frame_map.h"
 #include "app/sweep/identity.h"
 #include "app/sweep/judging.h"
-#include "app/sweep/run_info.h"
 #include "app/sweep/stop_on_signal.h"
+#include "app/sweep/sweep.h"
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"

@@ -9,10 +9,19 @@
 #include <span>
 #include <string>
 #include <string_view>
-
-#include "app/sweep/verb_outputs.h"
+#include <vector>
 
 namespace noonmark {
+
+struct VerbOutputs {
+  std::string folder;
+  std::vector<std::string> files;  // in the folder: all that the verb may write
+
+  std::string inner = {};                     // a folder in the folder; empty: none
+  std::vector<std::string> inner_files = {};  // in that one and its folders; patterns of fnmatch
+
+  std::vector<std::string> all() const;  // `files` and `inner`
+};
 
 // make_folder (base/file.h) for a folder from the command line. Throws Error(usage).
 void make_output_folder(const std::string& path);
@@ -87,5 +96,9 @@ class OutputFolder {
 // After an error of the command line: removes the files of an earlier run that are listed, unless another run is writing. Throws
 // Error(file).
 void retract(const VerbOutputs& outputs);
+
+// subject: the experiment, scene, model or frame of the command line. out: the value of --out; without one, the default folder,
+// but `recommend` and its --texels ("texels") have --out only.
+VerbOutputs outputs_of(std::string_view verb, const std::string& subject, const std::string& out);
 
 }  // namespace noonmark

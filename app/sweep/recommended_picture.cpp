@@ -46,14 +46,10 @@ void keep_recommended_picture(Results& results, ResultStore& store, const std::s
                               const std::function<Measurement(int64_t, const Settings&)>& measure) {
   const report::Opening opened = report::opening(results, compared_groups(results), recommend(results));
   for (PointRecord& point : results.points) {
-    PointPictures old;
-    std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), is_at_bias);
-    const bool wanted = opened.bias && opened.point == &point;
-    if (wanted && !old.pictures.empty() && report::bias_in_name(old.pictures.front().name)->bias == *opened.bias)
-      continue;
-    if (!wanted && old.pictures.empty()) continue;
-    remove_pictures(old, out);
-    std::erase_if(point.pictures, is_at_bias);
+    const auto old = std::find_if(point.pictures.begin(), point.pictures.end(), is_at_bias);
+    const bool wanted = opened.bias && opened.point == &point, there = old != point.pictures.end();
+    if (wanted && there && report::bias_in_name(old->name)->bias == *opened.bias) continue;
+    if (!remove_those(point, is_at_bias, out) && !wanted) continue;
     if (wanted) {
       Settings settings = settings_of(point);
       settings.map.placements = 1;  // the picture is of the point's own

@@ -6,7 +6,7 @@
 //
 // Points that share scene, view, light and map are a group and stay together, so that no truth is traced on two machines. A
 // share is a run of groups, in the order in which the experiment first has them; its points are listed group by group. The
-// shares are those whose largest cost is the least possible. The cost (measure/point_work.h) comes from the settings alone. So
+// shares are those whose largest cost is the least possible. The cost of a point comes from the settings alone. So
 // the split depends on the experiment and n, and on nothing else. A lost share can be measured again on any machine.
 #pragma once
 #include <cstdint>

@@ -53,10 +53,23 @@ struct SweepOutcome {
 // point keeps the machine that measured it.
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
 
+// The same of an experiment with frames ([[frame]]), which run_sweep() hands on: each is a point of the store, the report and the
+// verdict. Only a frame's own shadow map needs OpenGL. Frames are judged anew each time: a frame takes a second or two, and its
+// pictures change without a change of their names. A frame that cannot be read, or of whose delivery a check failed, is refused:
+// its record says why (PointRecord::Delivery), and the other frames are judged. Throws Error(usage) if the folder holds the
+// results of another experiment, or if a bound needs the map of a frame that has none; Error(device) if a frame has a map and
+// there is no OpenGL.
+SweepOutcome run_frames(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
+
 // Sets the comparison with the baseline, and keeps it in the store.
 void compare_with_baseline(const SweepOptions& options, SweepOutcome& outcome, ResultStore& store);
 
 // "stopped after 3 of 8 points; the same command continues from there"
 std::string stopped_text(const SweepOutcome& outcome);
+
+// What is recorded of a run beside its points: the experiment, the program and the machine. Without what the scene and its notes say. folder: of the results. Throws Error(usage) if a share's experiment can be said by
+// no file (app/definition/definition.h).
+RunInfo run_info(const Experiment& experiment, const std::string& folder, const SweepOptions& options,
+                 const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer);
 
 }  // namespace noonmark

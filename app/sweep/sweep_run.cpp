@@ -12,7 +12,6 @@
 #include "app/pictures/image_file.h"
 #include "app/sweep/judging.h"
 #include "app/sweep/kept_points.h"
-#include "app/sweep/run_info.h"
 #include "app/sweep/stop_on_signal.h"
 #include "base/clock.h"
 #include "base/error.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pictures/lights_pictures.h"
+#include "app/pictures/point_pictures.h"
 #include "app/sweep/sweep_run.h"
 
 namespace noonmark {
@@ -67,12 +67,9 @@ void SweepRun::picture_lights() {
   bool changed = false;
   for (const PointRecord& point : outcome_.results.points) {
     PointPictures now = point;
-    PointPictures old;
-    std::copy_if(now.pictures.begin(), now.pictures.end(), std::back_inserter(old.pictures), is_lights_picture);
-    std::erase_if(now.pictures, is_lights_picture);
+    const bool had_some = remove_those(now, is_lights_picture, folder_.path());
     const auto shown = shown_frames_.find(point.id);
-    if (old.pictures.empty() && shown == shown_frames_.end()) continue;
-    remove_pictures(old, folder_.path());
+    if (!had_some && shown == shown_frames_.end()) continue;
     if (shown != shown_frames_.end())
       for (PictureRecord& picture : keep_lights(shown->second, names, point.id, folder_.path()))
         now.pictures.push_back(std::move(picture));

@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
-#include "app/pictures/lights_pictures.h"
 #include "app/pictures/pictures.h"
+#include "app/pictures/point_pictures.h"
 #include "app/sweep/failing_pixels.h"
 #include "app/sweep/judging.h"
 #include "app/sweep/recommended_picture.h"
@@ -24,14 +23,6 @@ bool has_motion(const PointPictures& point) {
 }
 
 bool is_at_recommended_bias(const PictureRecord& picture) { return report::bias_in_name(picture.name).has_value(); }
-
-template <class Which>
-void remove_those(PointPictures& point, const Which& which, const std::string& out) {
-  PointPictures old;
-  std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), which);
-  remove_pictures(old, out);
-  std::erase_if(point.pictures, which);
-}
 
 // The values of the free setting that the point's own curve names, in the parameter's unit: the best one and the ends of the
 // usable window. Those that depend on other points would differ from share to share.

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "app/definition/default_folder.h"
 #include "app/definition/experiment_file.h"
 #include "app/verbs/option_values.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "scenes/library.h"
 
 namespace noonmark {
 
@@ -64,6 +62,12 @@ void add_out(CLI::App& verb, ExperimentArguments& arguments, const char* what, c
       ->check(not_empty())
       ->type_name(value_kind::folder)
       ->default_str(by_default);
+}
+
+void add_out_file(CLI::App& verb, ExperimentArguments& arguments, const char* what, const char* kind,
+                  const std::string& by_default) {
+  verb.add_option("--out", arguments.out, what)->check(not_empty())->type_name(kind)->default_str(by_default);
+  verb.add_flag("--overwrite", arguments.overwrite, "Replace the file if it is there already");
 }
 
 void add_results_folder(CLI::App& verb, ExperimentArguments& arguments, const char* what) {
@@ -147,21 +151,6 @@ Experiment experiment_from(const std::string& path, const ExperimentArguments& a
                fit_of_cascades);
   if (const std::string note = note_on_offsets(experiment); !note.empty()) fmt::print(stderr, "note: {}\n", note);
   return experiment;
-}
-
-CLI::Option* add_scene_or_experiment(CLI::App& verb, std::string& what, const char* help) {
-  return verb.add_option("what", what, help)
-      ->check(not_empty())
-      ->type_name("SCENE|FILE.gltf|FILE.glb|FILE.vrm|FILE.toml");
-}
-
-Experiment scene_or_experiment(const std::string& what, ExperimentArguments arguments) {
-  std::error_code none;
-  const std::filesystem::path path(what);
-  const bool experiment =
-      what.empty() || path.extension() == ".toml" || (std::filesystem::exists(path, none) && !names_file(what));
-  if (!experiment) take_scene(arguments, what);
-  return experiment_from(experiment ? what : "", arguments);
 }
 
 }  // namespace noonmark

@@ -44,6 +44,10 @@ void add_json(CLI::App& verb, ExperimentArguments& arguments, const char* what);
 // by_default: where the verb writes without the option, for the help.
 void add_out(CLI::App& verb, ExperimentArguments& arguments, const char* what, const std::string& by_default);
 
+// The same of a verb that writes one file, and --overwrite. kind: "FILE.glb".
+void add_out_file(CLI::App& verb, ExperimentArguments& arguments, const char* what, const char* kind,
+                  const std::string& by_default);
+
 // --out of the verbs that carry out an experiment.
 void add_results_folder(CLI::App& verb, ExperimentArguments& arguments, const char* what);
 // Of these verbs too: --overwrite, --shard, --dry-run, --json, --quiet, --print-config.
@@ -58,10 +62,5 @@ std::string folders_of(std::initializer_list<const char*> subjects,
 
 // The experiment with its overrides. An empty path: the default settings.
 Experiment experiment_from(const std::string& path, const ExperimentArguments& arguments);
-
-// Of verbs for one point: their argument is an experiment's file, a built-in scene, or a model's file. A scene or a model has the
-// default settings.
-CLI::Option* add_scene_or_experiment(CLI::App& verb, std::string& what, const char* help);  // not required
-Experiment scene_or_experiment(const std::string& what, ExperimentArguments arguments);
 
 }  // namespace noonmark

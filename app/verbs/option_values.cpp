@@ -11,7 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include "app/definition/share_text.h"
 #include "base/suggestion.h"
 
 namespace noonmark {
@@ -108,7 +107,5 @@ CLI::Validator as_share() {
     return "";
   });
 }
-
-std::string percent_text(double share) { return fmt::format("{:g}%", 100 * share); }
 
 }  // namespace noonmark

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/definition/share_text.h"
 #include "scenes/number_ranges.h"
 
 namespace noonmark {
@@ -51,7 +52,11 @@ std::vector<std::string> words_of(const std::vector<std::string>& lists);
 // For CLI::Option::transform: a share as "0.005" or "0.5%" becomes its number (app/definition/share_text.h).
 CLI::Validator as_share();
 
-// A default share as a user writes it: "0.1%".
-std::string percent_text(double share);
+// An option for a share, whose value in `share` is a number from 0 to 1. unset: what the help says is taken without it; empty: nothing.
+template <class Share>  // double, or an optional one
+void add_share(CLI::App& verb, const char* name, Share& share, const std::string& help, const std::string& unset) {
+  CLI::Option* const option = verb.add_option(name, share, help)->transform(as_share())->type_name(value_kind::share);
+  if (!unset.empty()) option->default_str(unset);
+}
 
 }  // namespace noonmark

@@ -68,57 +68,6 @@ Markup numbers_section(std::string_view id, const Markup& title, std::span<const
   return section(id, title, tabled(heads({"Name", "Unit", "Meaning"}), rows));
 }
 
-std::string with_bars(const std::vector<std::string_view>& words) { return fmt::format("{}", fmt::join(words, " | ")); }
-
-std::string taken_by(const ExperimentKey& key) {
-  using Kind = ExperimentKey::Kind;
-  switch (key.kind) {
-    case Kind::text:
-      return "text";
-    case Kind::names:
-      return key.choices.empty() ? "a list of texts" : "a list of " + with_bars(key.choices);
-    case Kind::choice:
-      return with_bars(key.choices);
-    case Kind::flag:
-      return "true | false";
-    case Kind::number:
-      return key.least > -1e300 ? fmt::format("a number, {} or more", key.least) : "a number";
-    case Kind::fraction:
-      return "0 ... 1, or text with %";
-    case Kind::limit:
-      return "a number; of a share also text with %";
-    case Kind::whole:
-      return fmt::format("a whole number, {} ... {}", key.least, key.most);
-    case Kind::quantity:
-      return "a metric or a quantity of the curve";
-    case Kind::quantities:
-      return "a list of metrics or quantities of the curve";
-    case Kind::pattern:
-      return "a metric, a quantity of the curve, or a pattern";
-    case Kind::metric:
-      return "a metric";
-    case Kind::formula:
-      return "a formula or a number";
-    case Kind::formulas:
-      return "a table of formulas";
-    case Kind::setting:
-      return "a setting";
-    case Kind::sweep:
-      return "a table of settings, each with a list or a range";
-    case Kind::conditions:
-      return "a table of settings, each with a value or a list";
-    case Kind::amounts:
-      return "a list of numbers, or a range";
-    case Kind::table:
-      return fmt::format("a table [{}]", key.name);
-    case Kind::tables:
-      return fmt::format("tables [[{}]]", key.name);
-    case Kind::lights:
-      return "\"all\", \"parts\", a list of names, or tables [[lights]]";
-  }
-  return "";
-}
-
 Markup experiment_section() {
   using namespace report;
   constexpr std::pair<std::string_view, std::string_view> tables[] = {
@@ -140,18 +89,6 @@ Markup experiment_section() {
     all += group_heading(fmt::format("key-{}", name), title) + tabled(heads({"Key", "Takes", "Meaning"}), rows);
   }
   return section("experiment", "Keys of an experiment file", all);
-}
-
-std::string taken_by(const FrameKey& key) {
-  constexpr std::string_view kinds[] = {// in the order of FrameKeyKind
-                                        "object",        "text",       "",           "number",           "boolean",
-                                        "three numbers", "three axes", "16 numbers", "settings by name", "1",
-                                        "list of texts"};
-  std::string kind(kinds[static_cast<size_t>(key.kind)]);
-  if (key.kind == FrameKeyKind::choice) kind = with_bars(choices_of(key));
-  if (key.kind == FrameKeyKind::number) kind += ", " + range_of(key).text();
-  if (key.kind == FrameKeyKind::vector3 || key.kind == FrameKeyKind::matrix) kind += ", each " + range_of(key).text();
-  return kind;
 }
 
 Markup frame_section() {

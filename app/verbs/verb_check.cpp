@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "app/definition/experiment_list.h"
 #include "app/definition/experiment_text.h"
-#include "app/sweep/annotations.h"
 #include "app/sweep/baseline_file.h"
 #include "app/sweep/judging.h"
 #include "app/sweep/plan.h"
@@ -25,6 +26,9 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "compare/judge/bounds.h"
+#include "compare/judge/deliveries.h"
+#include "compare/judge/laws.h"
 #include "compare/judge/verdict.h"
 #include "compare/report/index_page.h"
 #include "compare/report/junit.h"
@@ -34,6 +38,55 @@ namespace noonmark {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A message may have several lines; a property ends at a comma or a colon.
+std::string escaped(std::string_view text, bool property) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ',')))
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    else
+      out += c;
+  }
+  return out;
+}
+
+// location: "file:line:column"; empty: the file is named without a line.
+std::string annotation(std::string_view kind, const std::string& file, const std::string& location,
+                       std::string_view title, std::string_view message) {
+  std::string line;
+  if (const size_t column = location.rfind(':'); column != location.npos && column > 0)
+    if (const size_t before = location.rfind(':', column - 1); before != location.npos)
+      line = fmt::format(",line={}", location.substr(before + 1, column - before - 1));
+  return fmt::format("::{} file={}{},title={}::{}\n", kind, escaped(file, true), line, escaped(title, true),
+                     escaped(message, false));
+}
+
+// Whether this process is a step of GitHub Actions, which sets GITHUB_ACTIONS to "true".
+bool under_github_actions() {
+  const char* const set = std::getenv("GITHUB_ACTIONS");
+  return set != nullptr && std::string_view(set) == "true";
+}
+
+// One workflow command a line: ::error for a broken bound, law or baseline and for a refused frame, ::warning for a bound that
+// warns. Format and escapes: "Workflow commands for GitHub Actions", docs.github.com. experiment: its path, as seen from the
+// root of the repository.
+std::string github_annotations(const std::string& experiment, const Results& results) {
+  std::string text;
+  for (const PointRecord* frame : refused_frames(results.points))
+    text += annotation("error", experiment, "", "frame refused", why_refused(*frame));
+  for (const BoundResult& bound : results.bounds)
+    if (!bound.held)
+      text += annotation(bound.warns ? "warning" : "error", experiment, bound.location, bound_text(bound),
+                         describe(bound, find_point(results.points, bound.point), results.info.swept));
+  for (const LawResult& law : results.laws)
+    if (!law.held)
+      text += annotation("error", experiment, "", "law broken", fmt::format("{}: {}", law.name, law_text(law)));
+  if (results.baseline)
+    for (const std::string& line : results.baseline->worse)
+      text += annotation("error", experiment, "", "baseline", line);
+  return text;
+}
 
 struct CheckOptions {
   std::vector<std::string> paths;  // experiment files, or folders, whose *.toml files are all checked
@@ -307,10 +360,8 @@ RunVerb add_check(CLI::App& verb) {
       ->type_name(value_kind::baseline);
   verb.add_flag("--update-baseline", baseline.update,
                 "Write the values of this run to the baseline, instead of comparing with it");
-  verb.add_option("--baseline-times", baseline.times,
-                  "Keep and compare times too: a time may differ by this share of the time before (0.2 or 20%)")
-      ->transform(as_share())
-      ->type_name(value_kind::share);
+  add_share(verb, "--baseline-times", baseline.times,
+            "Keep and compare times too: a time may differ by this share of the time before (0.2 or 20%)", "");
   return [options](const std::string& command) {
     options->arguments.command = command;
     read_sweep_arguments(options->arguments);

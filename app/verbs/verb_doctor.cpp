@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <functional>
+#include <optional>
+
 #include "app/pictures/capture.h"
 #include "app/pictures/image_file.h"
 #include "app/verbs/verbs.h"
@@ -36,52 +39,44 @@ std::string truth_methods_agree() {
       quantity_text(1 - found.by_rays, "fraction", 3), settings.scene.name);
 }
 
+// Runs what prints a line of the answer. If it throws, prints that instead, and returns of what kind the fault is.
+std::optional<ErrorKind> fault_of(const char* part, const std::function<void()>& print_line) {
+  try {
+    print_line();
+    return std::nullopt;
+  } catch (const Error& error) {
+    fmt::print("{:<10}NOT USABLE: {}\n", part, printable(error.what()));
+    return error.kind();
+  }
+}
+
 int examine_machine() {
   const BuildFacts& facts = build_facts();
   fmt::print("noonmark  {} (commit {}, {}, {})\n", facts.version, facts.commit, facts.compiler, facts.build_type);
-  bool can_measure = true, can_read_pictures = true, agree = true;
-  try {
+  const bool room = !fault_of("Machine", [] {
     const ThreadLimit limit(0);
     require_room_to_start(true);
-  } catch (const Error& error) {
-    fmt::print("Machine   NOT USABLE: {}\n", printable(error.what()));
-    can_measure = false;
-  }
-  const bool room = can_measure;
-  try {
+  });
+  const bool draws = !fault_of("OpenGL", [] {
     gl::Renderer renderer(gl::DebugMode::off);
     const gl::DeviceInfo& device = renderer.info();
     fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
     fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform,
                device.software ? "software" : "hardware", device.max_map_resolution);
     fmt::print("          times by {}\n", gl::text_of(device.times));
-  } catch (const Error& error) {
-    fmt::print("OpenGL    NOT USABLE: {}\n", printable(error.what()));
-    can_measure = false;
-  }
-  try {
+  });
+  const bool traces = !fault_of("Embree", [] {
     const raytrace::TracerInfo tracer = raytrace::tracer_info();
     fmt::print("Embree    {}, ISA {} (pinned)\n", tracer.version, tracer.isa);
-  } catch (const Error& error) {
-    fmt::print("Embree    NOT USABLE: {}\n", printable(error.what()));
-    can_measure = false;
-  }
-  if (can_measure) try {
-      fmt::print("Truth     {}\n", truth_methods_agree());
-    } catch (const Error& error) {
-      fmt::print("Truth     NOT USABLE: {}\n", printable(error.what()));
-      can_measure = false;
-      agree = error.kind() != ErrorKind::defect;
-    }
-  try {
-    if (room) {  // without room, loading the library ends the program
-      require_image_reader();
-      fmt::print("Pictures  OpenImageIO reads those of other programs\n");
-    }
-  } catch (const Error& error) {
-    fmt::print("Pictures  NOT USABLE: {}\n", printable(error.what()));
-    can_read_pictures = false;
-  }
+  });
+  std::optional<ErrorKind> truth;
+  if (room && draws && traces) truth = fault_of("Truth", [] { fmt::print("Truth     {}\n", truth_methods_agree()); });
+  const bool can_measure = room && draws && traces && !truth;
+  // Without room, loading the library ends the program.
+  const bool can_read_pictures = !room || !fault_of("Pictures", [] {
+    require_image_reader();
+    fmt::print("Pictures  OpenImageIO reads those of other programs\n");
+  });
   // Nothing else needs what these do.
   const std::string missing = missing_for_captures();
   fmt::print("Captures  {}\n", missing.empty() ? "RenderDoc's can be read" : "NOT USABLE: " + printable(missing));
@@ -94,7 +89,7 @@ int examine_machine() {
              : !can_read_pictures
                  ? "All can be measured here; PNG and EXR files of other programs cannot be read until this is fixed."
                  : "Everything that a measurement needs is here.");
-  if (!agree) return static_cast<int>(ErrorKind::defect);
+  if (truth == ErrorKind::defect) return static_cast<int>(ErrorKind::defect);
   return can_measure && can_read_pictures ? 0 : static_cast<int>(ErrorKind::device);
 }
 

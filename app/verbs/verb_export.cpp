@@ -74,11 +74,8 @@ RunVerb add_export(CLI::App& verb) {
       ->check(not_empty())
       ->type_name(value_kind::scene);
   add_sets(verb, options->arguments);
-  verb.add_option("--out", options->arguments.out, "The file that is written")
-      ->check(not_empty())
-      ->type_name("FILE.glb")
-      ->default_str(fmt::format("{} for cube-room", glb_file_of("cube-room")));
-  verb.add_flag("--overwrite", options->arguments.overwrite, "Replace the file if it is there already");
+  add_out_file(verb, options->arguments, "The file that is written", "FILE.glb",
+               fmt::format("{} for cube-room", glb_file_of("cube-room")));
   return [options](const std::string&) { return write_scene(*options); };
 }
 

@@ -24,6 +24,7 @@
 #include "base/threads.h"
 #include "compare/results/metrics.h"
 #include "frames/frame_keys.h"
+#include "technique/setting_json.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -125,7 +126,7 @@ nlohmann::ordered_json head_json(const JudgeOptions& options, Verdict whole) {
 }
 
 void write_judge_json(const JudgeOptions& options, const std::string& folder, const nlohmann::ordered_json& json) {
-  const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const std::string text = readable_json(json) + "\n";
   write_file_atomically(folder + "/judge.json", text);
   if (options.arguments.json) fmt::print("{}", text);
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +19,7 @@
 #include "measure/workbench.h"
 #include "scenes/library.h"
 #include "technique/placements.h"
+#include "technique/setting_json.h"
 
 namespace noonmark {
 namespace {
@@ -27,15 +27,13 @@ namespace {
 // What the page and the CSV say of each texel size, and where they are. docs/reference/command-line.md describes the keys.
 std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
   using Json = nlohmann::ordered_json;
-  const auto number = [](double value) {
-    return std::isfinite(value) ? Json(value) : Json(std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
-  };
   Json rows = Json::array();
   for (const PhaseRow& row : diagram.rows) {
     const Interval usable = diagram.usable(row);
-    Json one{
-        {"resolution", row.resolution}, {"texel_m", number(row.texel_m)}, {"last_acne_m", number(row.last_acne_m)}};
-    one["usable_m"] = usable.empty() ? Json() : Json{number(usable.low), number(usable.high)};
+    Json one{{"resolution", row.resolution},
+             {"texel_m", number_json(row.texel_m)},
+             {"last_acne_m", number_json(row.last_acne_m)}};
+    one["usable_m"] = usable.empty() ? Json() : Json{number_json(usable.low), number_json(usable.high)};
     rows.push_back(std::move(one));
   }
   const Json all{{"noonmark", diagram.version},
@@ -52,7 +50,7 @@ std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
                  {"notes", diagram.notes.empty() ? Json::array() : Json{diagram.notes}},
                  {"page", out + "/phase.html"},
                  {"csv", out + "/phase.csv"}};
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return readable_json(all) + "\n";
 }
 
 int draw_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments) {
@@ -108,15 +106,11 @@ struct MapOptions {
 
 // Of the diagram: the bounds of a usable pair, the texel sizes and the placements.
 void add_phase_options(CLI::App& verb, PhaseOptions& phase) {
-  verb.add_option("--acne", phase.acne_bound,
-                  "The most acne of a usable pair, as a share of the counted receivers: 0.001 or 0.1%")
-      ->transform(as_share())
-      ->type_name(value_kind::share)
-      ->default_str(percent_text(phase.acne_bound));
-  verb.add_option("--peter-panning", phase.peter_panning_bound, "The most Peter Panning of a usable pair")
-      ->transform(as_share())
-      ->type_name(value_kind::share)
-      ->default_str(percent_text(phase.peter_panning_bound));
+  add_share(verb, "--acne", phase.acne_bound,
+            "The most acne of a usable pair, as a share of the counted receivers: 0.001 or 0.1%",
+            percent_text(phase.acne_bound));
+  add_share(verb, "--peter-panning", phase.peter_panning_bound, "The most Peter Panning of a usable pair",
+            percent_text(phase.peter_panning_bound));
   verb.add_option("--from", phase.coarsest, "The coarsest texels: resolution at the present extent")
       ->check(whole_number(4, 16384))
       ->capture_default_str();

@@ -4,104 +4,149 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <memory>
-#include <optional>
 #include <set>
 
 #include "app/advise/answer_engines.h"
 #include "app/advise/cascade_places.h"
-#include "app/advise/engine_promise.h"
 #include "app/advise/engine_trial.h"
-#include "app/advise/recommend_about.h"
 #include "app/advise/recommend_filtered.h"
+#include "app/advise/recommend_request.h"
 #include "app/advise/recommend_text.h"
+#include "app/advise/texel_budget.h"
 #include "app/definition/default_folder.h"
-#include "app/pictures/image_file.h"
 #include "app/pictures/pictures.h"
 #include "app/sweep/output_folder.h"
 #include "app/verbs/experiment_arguments.h"
 #include "app/verbs/option_values.h"
-#include "app/verbs/recommend_output.h"
-#include "app/verbs/recommend_texels.h"
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
+#include "base/shell_words.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "compare/judge/choices.h"
-#include "compare/results/number_text.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
-#include "technique/lookups.h"
-#include "technique/setting_rules.h"
-#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
 
+// Without --out the folder is named after the file or the scene alone. An answer for another scene of that name stays.
+void require_own(const std::string& folder, const char* name, const char* what, const std::string& subject) {
+  constexpr uint64_t most_bytes = 1 << 28;
+  const std::string file = folder + "/" + name;
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return;
+  if (const std::string other = subject_in(read_file(file, most_bytes)); !other.empty() && other != subject)
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: holds {} for another scene ({}); give --out, or remove it", folder, what, other));
+}
+
+// The lights of a frame, each with its settings, in a picture that is quick to measure.
+std::vector<std::pair<std::string, Settings>> lights_of(const Experiment& experiment) {
+  constexpr int most_width_px = 480;
+  const std::vector<Settings> all = points(experiment);
+  if (all.size() != experiment.parts.size())
+    throw Error(ErrorKind::usage,
+                "--texels divides the texels of one frame, and the experiment sweeps; fix its settings");
+  std::vector<std::pair<std::string, Settings>> lights;
+  for (size_t i = 0; i < all.size(); ++i) {
+    Settings light = all[i];
+    if (light.view.width_px > most_width_px) {
+      light.view.height_px = std::max(1, light.view.height_px * most_width_px / light.view.width_px);
+      light.view.width_px = most_width_px;
+    }
+    lights.emplace_back(experiment.parts[i].part, std::move(light));
+  }
+  return lights;
+}
+
+// whole: with the lights of one frame as its parts, or without parts: then all lights of its scene. Writes texels.toml and
+// texels.json into `out` and prints the answer. Returns the exit code. Throws Error.
+int recommend_texels(Experiment whole, int64_t texels, const ExperimentArguments& arguments, const std::string& out) {
+  if (whole.parts.empty()) {
+    whole.all_lights = true;
+    take_all_lights(whole);
+  } else if (!whole.lights) {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--texels: the parts of {} are not the lights of one frame; write lights = \"parts\"", whole.path));
+  }
+  const std::vector<std::pair<std::string, Settings>> lights = lights_of(whole);
+  if (arguments.out.empty()) require_own(out, "texels.json", "a division of texels", subject_of(lights.front().second));
+  OutputFolder folder(outputs_of("texels", "", out));
+  Workbench bench(gl::DebugMode::log);
+  Progress progress(arguments.quiet);
+  const TexelBudget found =
+      divide_texels(bench, lights, texels, [&](const std::string& step) { progress.say(printable(step)); });
+  progress.end_line();
+  folder.make();
+  write_file_atomically(out + "/texels.toml", budget_experiment(found, out));
+  write_file_atomically(out + "/texels.json", budget_json(found));
+  if (arguments.json) {
+    fmt::print("{}", budget_json(found));
+    return 0;
+  }
+  for (const std::string& line : budget_text(found)) fmt::print("{}\n", printable(line));
+  fmt::print("\n{0}/texels.toml (measure it: noonmark run {0}/texels.toml) and {0}/texels.json are written\n",
+             printable(out));
+  return 0;
+}
+
+// Of recommended.txt: the whole text of an answer, also why what is simpler does not do.
+std::string whole_text(const Advice& advice) {
+  std::string text;
+  for (const auto& lines : {answer_text(advice), reasons_text(advice), rejected_text(advice)})
+    for (const std::string& line : lines) text += printable(line) + "\n";
+  return text;
+}
+
+// What to type into the engines that are shown, each with what it gave in the engine itself, and where the others are.
+void print_lines(const std::vector<EngineAdvice>& engines, std::span<const std::string> shown, const std::string& out) {
+  std::vector<std::string> others;
+  for (const EngineAdvice& engine : engines) {
+    const std::string word = engine_word(engine.engine);
+    if (std::find(shown.begin(), shown.end(), word) == shown.end()) {
+      others.push_back(fmt::format("{} ({})", engine.engine, word));
+      continue;
+    }
+    fmt::print("\nWhat to type into {} ({}):\n", engine.engine, engine.version);
+    for (const std::string& line : engine_lines(engine)) fmt::print("  {}\n", line);
+    for (const std::string& line : trial_text(engine)) fmt::print("{}\n", printable(line));
+  }
+  if (!others.empty())
+    fmt::print("\nLines for {}: {}/engines.txt, or --lines NAME\n", fmt::join(others, ", "), printable(out));
+}
+
+// Prints, for each engine in `shown`, the lines to type into it, and the error that the engine itself had with them if it was
+// run. Then it prints where the lines of the other engines are, notes about the scenes, and the files that are written.
+// shown: names as engine_word() gives them. no_lines: the reason if there are no lines; otherwise empty.
+void print_advice(const Advice& advice, const std::vector<EngineAdvice>& engines, std::span<const std::string> shown,
+                  const std::string& no_lines, Workbench& bench, const std::string& out) {
+  const AdviceRequest& request = advice.request;
+  if (no_lines.empty())
+    print_lines(engines, shown, out);
+  else
+    fmt::print("\n{}.\n", printable(no_lines));
+  if (const std::string note = notes_line(bench.scene(request.conditions.front().scene)); !note.empty())
+    fmt::print("note: {}\n", printable(note));
+  std::set<std::string> of_lights;  // conditions may be lights that stand elsewhere
+  for (const Settings& condition : request.conditions)
+    for (const std::string& note : light_notes(bench.scene(condition.scene), condition)) of_lights.insert(note);
+  for (const std::string& note : of_lights) fmt::print("note: {}\n", printable(note));
+  fmt::print("Why, and what simpler settings miss: {0}/recommended.txt; pictures: {0}/recommended-*.png\n",
+             printable(out));
+  for (const Answer& answer : advice.answers)
+    if (&answer != advice.answer())
+      fmt::print("The answer \"{0}\": {1}/recommended-{0}.toml; --answer {0} makes it the first\n",
+                 answer_name(answer.kinds.front()), printable(out));
+  fmt::print("Next: noonmark check {}/recommended.toml\n", printable(shell_quoted(out)));
+}
+
 constexpr const char* recommend_prefix = "recommend-";  // of the default folder
 
-// What says where a map lies.
-constexpr std::string_view settings_of_place[] = {
-    "map.fit",          "map.extent_m",    "map.extent_scale", "map.near_m",         "map.far_m",
-    "map.snap",         "map.depth_range", "map.reach_m",      "map.shift_u_texels", "map.shift_v_texels",
-    "light.position_m", "light.target_m"};
-
 bool is_experiment(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
-
-// Whether [answer] choose of the experiment leaves a setting to the recommendation. What the command line gives stays.
-bool leaves_open(const Experiment& experiment, const std::string& setting) {
-  const auto is_of = [&](const std::string& group) {
-    if (group == "map.fit")
-      return std::find(std::begin(settings_of_place), std::end(settings_of_place), setting) !=
-             std::end(settings_of_place);
-    return setting == group || setting.starts_with(group + ".");
-  };
-  const std::vector<std::string>& given = experiment.overridden;
-  return std::any_of(experiment.choose.begin(), experiment.choose.end(), is_of) &&
-         std::find(given.begin(), given.end(), setting) == given.end();
-}
-
-// Whether the user said what a setting with this beginning is, fixed or swept. The unit of the bias is none of it.
-bool gives(const Experiment& experiment, std::string_view begin) {
-  return std::any_of(experiment.locations.begin(), experiment.locations.end(), [&](const auto& given) {
-    return given.first.starts_with(begin) && given.first != "bias.unit" && !leaves_open(experiment, given.first);
-  });
-}
-
-// The points of the conditions alone: each choice of the sweep has its first value.
-std::vector<Settings> conditions_of(Experiment experiment) {
-  std::erase_if(experiment.swept, [](const Swept& swept) { return !swept.condition; });
-  const Settings unset;
-  for (const auto& [name, location] : experiment.locations)
-    if (name.starts_with("map.") && leaves_open(experiment, name)) {
-      const Setting& row = find_setting(name);
-      row.set(experiment.base, row.get(unset));
-    }
-  return points(experiment);
-}
-
-// What the experiment fixes or sweeps of resolution and filter is what may be recommended.
-void take_choices(AdviceRequest& request, const Experiment& experiment) {
-  std::map<std::string, FilterSettings> filters;
-  std::set<int> resolutions;
-  for (const Settings& point : points(experiment)) {
-    std::string key;
-    for (const Setting& row : settings_table())
-      if (row.name.starts_with("filter.")) key += row.get(point) + '\n';
-    filters.emplace(key, point.filter);
-    resolutions.insert(point.map.resolution);
-  }
-  if (gives(experiment, "map.resolution")) request.resolutions.assign(resolutions.begin(), resolutions.end());
-  if (!gives(experiment, "filter.")) return;
-  request.filters.clear();
-  for (const auto& [key, filter] : filters) request.filters.push_back(filter);
-  const auto reach = [](const FilterSettings& filter) { return tap_pattern(filter).reach_texels(); };
-  std::stable_sort(request.filters.begin(), request.filters.end(),
-                   [&](const auto& a, const auto& b) { return reach(a) < reach(b); });
-}
 
 // The experiment, or the part that was chosen. Each part is an experiment of its own, with its own conditions and bounds, so
 // one answer cannot hold for several.
@@ -120,150 +165,20 @@ const Experiment& only_part(const Experiment& experiment) {
                   experiment.path, experiment.parts.size(), names));
 }
 
-// Without --out the folder is named after the file or the scene alone. An answer for another scene of that name stays.
-void require_own_advice(const std::string& folder, const std::string& subject) {
-  constexpr uint64_t most_bytes = 1 << 28;
-  const std::string file = folder + "/recommended.json";
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) return;
-  if (const std::string other = subject_in(read_file(file, most_bytes)); !other.empty() && other != subject)
-    throw Error(ErrorKind::usage, fmt::format("{}: holds the recommendation for another scene ({}); give --out, or "
-                                              "remove it",
-                                              folder, other));
-}
-
 // A model's file is named after itself alone, as `noonmark init` names its experiment, so that both have one folder.
 std::string folder_of_advice(const std::string& what) {
   return default_folder(is_experiment(what) ? what : std::filesystem::path(what).filename().string(), recommend_prefix);
 }
 
-struct RecommendOptions {
-  std::string what;                           // an experiment's *.toml, a built-in scene, or a model's file
-  std::optional<double> acne, peter_panning;  // bounds; empty: the experiment's
-  std::optional<double> error, budget;        // AdviceRequest
-  std::optional<double> edges, patch;         // bounds for the eye
-  std::optional<int64_t> texels;              // recommend_texels() is asked for
-  std::optional<AnswerKind> answer;           // empty: best with a budget, otherwise least
-  int views = 5;                              // of a scene; 1: its own only
-  std::vector<std::string> lookups;           // searched_lookups() to try; empty: those that compare
-  bool cascades = false;                      // also tries cascade_counts
-  std::vector<std::string> engines;           // to try the lines in
-  std::vector<std::string> held_in;           // engine_words() in which the answer must hold
+struct RecommendOptions : AdviceWishes {
+  std::string what;                  // an experiment's *.toml, a built-in scene, or a model's file
+  std::optional<int64_t> texels;     // recommend_texels() is asked for
+  std::vector<std::string> run_in;   // engine_adapters() to try the lines in
+  std::vector<std::string> held_in;  // engine_words() in which the answer must hold
   std::optional<std::string> lines;  // the engine whose lines are printed; empty: the above, otherwise three.js
   std::string adapters;              // their folder; empty: the program's own
   ExperimentArguments arguments;
 };
-
-// The bounds for the eye: those of the experiment, the options' in their place, and the default of what neither gives.
-std::vector<Bound> eye_bounds(const Experiment& experiment, const RecommendOptions& options) {
-  std::vector<Bound> bounds;
-  std::copy_if(experiment.bounds.begin(), experiment.bounds.end(), std::back_inserter(bounds), is_eye_bound);
-  for (Bound& bound : bounds)  // which choices it is about is known only to an experiment that sweeps them
-    std::erase_if(bound.where, [](const auto& one) { return !decides_what_is_seen(one.first); });
-  for (const Bound& usual : default_eye_bounds()) {
-    const std::optional<double> given = usual.metric == edge_metric ? options.edges : options.patch;
-    const auto same = [&](const Bound& bound) { return bound.metric == usual.metric; };
-    if (given) std::erase_if(bounds, same);
-    if (std::any_of(bounds.begin(), bounds.end(), same)) continue;
-    bounds.push_back(usual);
-    if (given) bounds.back().max = *given;
-  }
-  return bounds;
-}
-
-// A setting of the map's place that the user gave; empty: none. How far cascades reach says nothing of one map.
-std::string given_place(const Experiment& experiment) {
-  for (const std::string_view name : settings_of_place)
-    if (name != "map.reach_m" && gives(experiment, name)) return std::string(name);
-  return "";
-}
-
-// Where the map may lie: if the user says nothing of it, also elsewhere than the settings lay it.
-std::vector<MapPlace> places_of(const Experiment& experiment, const AdviceRequest& request, const Scene& scene,
-                                std::span<const Settings> views) {
-  if (request.conditions.front().cascades.count > 1) return {place_as_given(!gives(experiment, "bias."))};
-  return given_place(experiment).empty() ? map_places(scene, request.conditions, views) : std::vector{place_as_given()};
-}
-
-// What was given that decides the answer, beside the scene: "scene.floor = true, map.resolution = 512 | 1024". Empty: nothing.
-// Another answer for the same scene differs in one of these. What has its default decides nothing, but for what the search would choose.
-std::string given_text(const Experiment& experiment, const AdviceRequest& request) {
-  const Settings& first = request.conditions.front();
-  const Settings unset;
-  std::vector<std::string> parts;
-  for (const Setting& row : settings_table()) {
-    const std::string name(row.name), value = row.get(first);
-    if (name == "scene.name" || !experiment.locations.contains(name) || leaves_open(experiment, name)) continue;
-    const auto swept = std::find_if(experiment.swept.begin(), experiment.swept.end(),
-                                    [&](const Swept& one) { return one.name == name; });
-    std::vector<std::string> values;
-    if (swept != experiment.swept.end())
-      for (const std::string& one : swept->values) values.push_back(setting_text(one));
-    else if (value != row.get(unset) || name == "map.resolution" || name == "map.fit" || name == "filter.kind")
-      values.push_back(setting_text(value));
-    if (!values.empty()) parts.push_back(fmt::format("{} = {}", name, fmt::join(values, " | ")));
-  }
-  const CurveOptions bounds;
-  if (request.curve.acne_bound != bounds.acne_bound)
-    parts.push_back("acne within " + percent_text(request.curve.acne_bound));
-  if (request.curve.peter_panning_bound != bounds.peter_panning_bound)
-    parts.push_back("Peter Panning within " + percent_text(request.curve.peter_panning_bound));
-  return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-// Where the bounds are from, for a sentence.
-std::string source_of_bounds(const Experiment& experiment, const RecommendOptions& options) {
-  const CurveOptions usual;
-  std::vector<std::string> sources;
-  if (options.acne || options.peter_panning || options.edges || options.patch) sources.emplace_back("the options");
-  if (experiment.curve.acne_bound != usual.acne_bound ||
-      experiment.curve.peter_panning_bound != usual.peter_panning_bound ||
-      std::any_of(experiment.bounds.begin(), experiment.bounds.end(), is_eye_bound))
-    sources.push_back(printable(experiment.path));
-  return sources.empty() ? "the defaults of recommend" : fmt::format("{}", fmt::join(sources, ", then "));
-}
-
-// --cascades: beside one map, several counts of them.
-void add_cascades(AdviceRequest& request, const Experiment& experiment, std::span<const std::string> engines,
-                  Workbench& bench, const std::function<void(const std::string&)>& say) {
-  const std::string given = gives(experiment, "cascades.count") ? "cascades.count" : given_place(experiment);
-  if (!given.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("--cascades lays the maps itself, and {} is given too; leave one of them out", given));
-  if (request.conditions.front().cascades.depths != CascadeDepths::planes)
-    throw SettingConflict("cascades.depths",
-                          "--cascades searches ends that are numbers, the same in every view; leave "
-                          "cascades.depths = visible out, or leave out --cascades and give cascades.count");
-  CascadePlaces cascades = cascade_places(bench, request.conditions, cascade_counts, engines, request.width_px, say);
-  if (cascades.places.empty())
-    throw Error(ErrorKind::usage, fmt::format("--cascades: {}; leave it out", cascades.why_not));
-  for (MapPlace& place : cascades.places) request.places.push_back(std::move(place));
-}
-
-// --lookups: beside lookups that compare, or in their place, filtered maps.
-void add_lookups(AdviceRequest& request, const Experiment& experiment, const std::vector<std::string>& lookups) {
-  for (auto one = lookups.begin(); one != lookups.end(); ++one)
-    if (std::find(lookups.begin(), one, *one) != one)
-      throw Error(ErrorKind::usage, fmt::format("--lookups names '{}' twice; name each lookup once", *one));
-  for (const char* group : {"lookup.", "bias.", "map.moments", "filter."})
-    if (gives(experiment, group))
-      throw Error(
-          ErrorKind::usage,
-          fmt::format(
-              "--lookups chooses the lookup, its blur and its bias itself, and a setting {} is given; leave one of "
-              "them out",
-              std::string_view(group).ends_with('.') ? std::string(group) + "*" : group));
-  if (request.conditions.front().cascades.count > 1)
-    throw Error(ErrorKind::usage, "--lookups is of one map; set cascades.count = 1, or leave it out");
-  if (std::find(lookups.begin(), lookups.end(), "compare") == lookups.end()) request.levels.clear();
-  for (BiasLevel& level : filtered_levels(lookups, searched_bounds(request.curve))) {
-    if (kind_of_light(request.light).map_shape() == MapShape::cube)
-      throw Error(ErrorKind::usage,
-                  fmt::format("--lookups {}: a point light's cube map has lookup.kind = compare alone; leave it out",
-                              level.lookup));
-    request.levels.push_back(std::move(level));
-  }
-}
 
 // --for and --engine.
 std::vector<WantedEngine> wanted_engines(const RecommendOptions& options) {
@@ -273,55 +188,8 @@ std::vector<WantedEngine> wanted_engines(const RecommendOptions& options) {
     if (std::none_of(wanted.begin(), wanted.end(), same)) wanted.push_back({std::move(engine), is_run});
   };
   for (const std::string& word : options.held_in) add(engine_of_word(word), false);
-  for (const std::string& name : options.engines) add(std::string(engine_adapter(name).engine), true);
+  for (const std::string& name : options.run_in) add(std::string(engine_adapter(name).engine), true);
   return wanted;
-}
-
-// What is searched: the conditions, the settings to try, and the bounds.
-AdviceRequest request_of(const Experiment& experiment, const RecommendOptions& options, Workbench& bench,
-                         const std::function<void(const std::string&)>& say) {
-  AdviceRequest request;
-  request.conditions = conditions_of(experiment);
-  for (const Settings& condition : request.conditions)
-    if (!compares(condition))
-      throw SettingConflict(
-          "lookup.kind",
-          fmt::format("recommend chooses the lookup: leave lookup.kind = {} out, and name it with --lookups",
-                      condition.lookup.kind));
-  const Settings first = request.conditions.front();
-  const Scene& scene = bench.scene(first.scene);
-  if (request.conditions.size() == 1 && options.views > 1) {
-    request.conditions = turned_views(first, scene);
-    request.conditions.resize(std::min(request.conditions.size(), static_cast<size_t>(options.views)));
-  }
-  const bool turned = request.conditions.size() > 1 && conditions_of(experiment).size() == 1;
-  request.places = places_of(experiment, request, scene, turned ? views_between(first, scene) : request.conditions);
-  const LightKind light = make_light_frame(scene, request.conditions.front()).kind;
-  if (!gives(experiment, "bias.")) request.levels = bias_levels();
-  request.filters = filters_to_try(light);
-  for (int resolution = 256; resolution <= 8192; resolution *= 2) request.resolutions.push_back(resolution);
-  request.light = light;
-  request.between = light == LightKind::directional && !gives(experiment, "map.resolution");
-  take_choices(request, experiment);
-  request.width_px = searched_width_px(bench, request.conditions.front());
-  request.curve = experiment.curve;
-  if (options.acne) request.curve.acne_bound = *options.acne;
-  if (options.peter_panning) request.curve.peter_panning_bound = *options.peter_panning;
-  if (!options.lookups.empty()) add_lookups(request, experiment, options.lookups);
-  if (options.cascades) {
-    std::vector<std::string> engines;
-    for (const WantedEngine& one : wanted_engines(options)) engines.push_back(one.engine);
-    add_cascades(request, experiment, engines, bench, say);
-  }
-  request.eye = eye_bounds(experiment, options);
-  request.accuracy = experiment.accuracy;
-  request.error = options.error;
-  request.budget = options.budget;
-  request.about = about_text(experiment, request.conditions, scene);
-  request.given = given_text(experiment, request);
-  request.source_of_bounds = source_of_bounds(experiment, options);
-  request.answer = options.answer.value_or(options.budget ? AnswerKind::best : AnswerKind::least);
-  return request;
 }
 
 // The lines of an engine lay a square map along the light's own axes. Empty: so do the settings.
@@ -353,7 +221,7 @@ int recommend(const RecommendOptions& options) {
   const std::string out = arguments.out.empty() ? folder_of_advice(what) : arguments.out;
   if (options.texels && (options.acne || options.peter_panning || options.error || options.budget || options.edges ||
                          options.patch || options.answer || options.lines || options.cascades ||
-                         !options.lookups.empty() || !options.engines.empty() || !options.held_in.empty()))
+                         !options.lookups.empty() || !options.run_in.empty() || !options.held_in.empty()))
     throw Error(
         ErrorKind::usage,
         "--texels divides texels and searches nothing else; leave out the bounds, --budget, --answer, --cascades, "
@@ -367,16 +235,17 @@ int recommend(const RecommendOptions& options) {
   Workbench bench(gl::DebugMode::log);
   Progress progress(arguments.quiet);  // shows no remaining time, because each result decides what is tried next
   const auto say = [&](const std::string& step) { progress.say(printable(step)); };
-  AdviceRequest request = request_of(experiment, options, bench, say);
-  if (arguments.out.empty()) require_own_advice(out, subject_of(request.conditions.front()));
+  const std::vector<WantedEngine> wanted = wanted_engines(options);
+  AdviceWishes wishes = options;
+  for (const WantedEngine& one : wanted) wishes.engines.push_back(one.engine);
+  AdviceRequest request = request_of(experiment, wishes, bench, say);
+  if (arguments.out.empty())
+    require_own(out, "recommended.json", "the recommendation", subject_of(request.conditions.front()));
   const std::string no_lines = why_no_engine_lines(request.conditions);
-  if (!no_lines.empty() && (options.lines || !options.engines.empty() || !options.held_in.empty()))
+  if (!no_lines.empty() && (options.lines || !options.run_in.empty() || !options.held_in.empty()))
     throw Error(ErrorKind::usage, fmt::format("{}; leave it out, or leave out --lines, --for and --engine", no_lines));
   std::optional<TrialPlan> plan;
-  if (!options.engines.empty()) {
-    plan = plan_trial(bench, request.conditions, options.engines, options.adapters);
-  }
-  const std::vector<WantedEngine> wanted = wanted_engines(options);
+  if (!options.run_in.empty()) plan = plan_trial(bench, request.conditions, options.run_in, options.adapters);
   for (const WantedEngine& one : wanted)
     if (!one.is_run) request.held_in.push_back(one.engine);
   if (const std::string never = why_never_in_engines(bench, wanted, request.conditions.front()); !never.empty())
@@ -424,14 +293,11 @@ int recommend(const RecommendOptions& options) {
 // Of the search: the bounds, what the answer is to be, and the views.
 void add_search_options(CLI::App& verb, RecommendOptions& options) {
   const CurveOptions bounds;  // of a scene, and of an experiment whose [curve] gives none
-  const auto add_most = [&](std::optional<double>& most, const char* name, const char* help, const std::string& unset) {
-    verb.add_option(name, most, help)->transform(as_share())->type_name(value_kind::share)->default_str(unset);
-  };
-  add_most(options.acne, "--acne", "The most acne, as a share of the counted receivers: 0.001 or 0.1%",
-           percent_text(bounds.acne_bound) + ", or acne_bound of the experiment's [curve]");
-  add_most(options.peter_panning, "--peter-panning", "The most Peter Panning",
-           percent_text(bounds.peter_panning_bound) + ", or peter_panning_bound of the experiment's [curve]");
-  add_most(options.error, "--error", "The most error", "no bound");
+  add_share(verb, "--acne", options.acne, "The most acne, as a share of the counted receivers: 0.001 or 0.1%",
+            percent_text(bounds.acne_bound) + ", or acne_bound of the experiment's [curve]");
+  add_share(verb, "--peter-panning", options.peter_panning, "The most Peter Panning",
+            percent_text(bounds.peter_panning_bound) + ", or peter_panning_bound of the experiment's [curve]");
+  add_share(verb, "--error", options.error, "The most error", "no bound");
   verb.add_option("--budget", options.budget,
                   "The most texels written and texture instructions a frame (the metric texel_work) that an answer may "
                   "cost")
@@ -449,8 +315,9 @@ void add_search_options(CLI::App& verb, RecommendOptions& options) {
       ->check(above_zero())
       ->type_name(value_kind::number)
       ->default_str(fmt::format("{}, or a bound of the experiment on {}", most_edge_pixels, edge_metric));
-  add_most(options.patch, "--patch", "The largest patch of wrong pixels, as a share of the picture at the given view",
-           fmt::format("{}, or a bound of the experiment on {}", percent_text(most_wrong_patch), patch_metric));
+  add_share(verb, "--patch", options.patch,
+            "The largest patch of wrong pixels, as a share of the picture at the given view",
+            fmt::format("{}, or a bound of the experiment on {}", percent_text(most_wrong_patch), patch_metric));
   std::vector<std::string> kinds;
   for (AnswerKind kind : answer_kinds) kinds.push_back(answer_name(kind));
   verb.add_option_function<std::string>(
@@ -500,7 +367,7 @@ RunVerb add_recommend(CLI::App& verb) {
       ->default_str("compare");
   std::vector<std::string> names;
   for (const EngineAdapter& adapter : engine_adapters()) names.emplace_back(adapter.name);
-  verb.add_option("--engine", options->engines,
+  verb.add_option("--engine", options->run_in,
                   "Also run the lines in this engine, in headless Chromium, and judge its own frames in each view "
                   "(repeatable; or a list with commas)")
       ->expected(1)
@@ -531,7 +398,7 @@ RunVerb add_recommend(CLI::App& verb) {
   return [options](const std::string& command) {
     options->arguments.command = command;
     options->lookups = words_of(options->lookups);
-    options->engines = words_of(options->engines);
+    options->run_in = words_of(options->run_in);
     options->held_in = words_of(options->held_in);
     const ThreadLimit limit(options->arguments.threads);
     return recommend(*options);

@@ -7,9 +7,7 @@
 #include "app/pictures/pictures.h"
 #include "app/pictures/point_files.h"
 #include "app/sweep/output_folder.h"
-#include "app/verbs/experiment_arguments.h"
 #include "app/verbs/one_point.h"
-#include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -268,32 +266,25 @@ void print_ladder(const Measurement& m, const char* clock) {
     fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
 }
 
-struct RenderOptions {
-  std::string experiment;  // empty: the default settings
-  long point = -1;         // of the experiment's sweep; -1: the sweep must have one point only
-  bool times = false;      // also without a wish of the experiment
-  ExperimentArguments arguments;
+struct RenderOptions : PointOptions {
+  bool times = false;  // also without a wish of the experiment
 };
 
 int render_point(const RenderOptions& options) {
-  const std::string& path = options.experiment;
-  const long point = options.point;
   const ExperimentArguments& arguments = options.arguments;
-  const VerbOutputs outputs = outputs_of("render", path, arguments.out);
+  const VerbOutputs outputs = outputs_of("render", options.what, arguments.out);
   OutputFolder folder(outputs);
-  const Experiment experiment = scene_or_experiment(path, arguments);
-  const Settings settings = the_point(experiment, point, "render");
+  const OnePoint point = chosen_point(options, "render");
+  const Settings& settings = point.settings;
   const std::string& out = outputs.folder;
   folder.make();
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
-  const Experiment& part = part_of_point(experiment, std::max(point, 0L));
+  const Experiment& part = part_of_point(point.experiment, point.id);
   const bool curve = part.curve_enabled;
-  const MemoryEstimate memory =
-      at_point(experiment, std::max(point, 0L), [&] { return bench.memory(settings, curve, true); });
-  require_memory(memory, bench.memory_of_program(true), "this point");
+  require_room(bench, point, curve, true);
   TimeMetrics times;
-  if (options.times || times_measured(experiment)) times = time_passes(bench, settings);
+  if (options.times || times_measured(point.experiment)) times = time_passes(bench, settings);
   Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt);
   m.record.metrics.merge(times);
   write_pictures(m, out, ".", "point");
@@ -301,8 +292,7 @@ int render_point(const RenderOptions& options) {
   write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m, gl::text_of(bench.device().times));
-  if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
-  for (const std::string& note : light_notes(m.scene, settings)) fmt::print("  note: {}\n", printable(note));
+  print_notes(m.scene, settings);
   for (const IdleSetting& idle : idle_settings(m.technique.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
   if (!part.bounds.empty() || !part.laws.empty())
@@ -313,16 +303,10 @@ int render_point(const RenderOptions& options) {
 
 RunVerb add_render(CLI::App& verb) {
   const auto options = std::make_shared<RenderOptions>();
-  ExperimentArguments& arguments = options->arguments;
-  add_scene_or_experiment(verb, options->experiment,
-                          "A built-in scene, a model, or an experiment's TOML file; without one, the default settings");
-  add_point(verb, options->point);
-  add_sets(verb, arguments);
-  add_parts(verb, arguments);
-  add_threads(verb, arguments);
+  add_point_options(verb, *options, true);
   verb.add_flag("--times", options->times,
                 "Measure times too; an experiment that names one, or says times = true, has them without it");
-  add_out(verb, arguments, "Folder for the files", outputs_of("render", "", "").folder);
+  add_out(verb, options->arguments, "Folder for the files", outputs_of("render", "", "").folder);
   return [options](const std::string& command) {
     options->arguments.command = command;
     const ThreadLimit limit(options->arguments.threads);

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "app/definition/experiment_schema.h"
+#include "app/definition/experiment_keys.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
 #include "frames/frame_file.h"

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "app/sweep/output_folder.h"
-#include "app/verbs/experiment_arguments.h"
 #include "app/verbs/one_point.h"
 #include "app/verbs/option_values.h"
 #include "app/verbs/verbs.h"
@@ -29,14 +28,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct SectionOptions {
-  std::string experiment;  // empty: the default settings
-  long point = -1;
+struct SectionOptions : PointOptions {
   std::string pixel, worst;  // --pixel and --worst; both empty: pixel_of_largest_cause()
   std::string theme = report::section_themes.front();
-  std::string out = "section.svg";
-  ExperimentArguments arguments;
 };
+
+constexpr const char* section_file = "section.svg";
 
 glm::ivec2 pixel_from(const std::string& text) {
   glm::ivec2 pixel{0};
@@ -104,17 +101,15 @@ int draw_section(const SectionOptions& options) {
   if (!options.pixel.empty() && !options.worst.empty())
     throw Error(ErrorKind::usage, "--pixel and --worst both choose the pixel; give one of them");
   if (!options.pixel.empty()) (void)pixel_from(options.pixel);
-  require_new_file(options.out, ".svg", options.arguments.overwrite);
-  const Experiment experiment = scene_or_experiment(options.experiment, options.arguments);
-  const Settings settings = the_point(experiment, options.point, "section");
-  require_compared(settings, "a section");
+  const std::string file = options.arguments.out.empty() ? section_file : options.arguments.out;
+  require_new_file(file, ".svg", options.arguments.overwrite);
+  const OnePoint point = chosen_point(options, "section");
+  require_compared(point.settings, "a section");
   if (!options.worst.empty()) (void)find_quantity(stored_name(options.worst));
   require_room_to_start(false);
   Workbench bench(gl::DebugMode::log);
-  const MemoryEstimate memory =
-      at_point(experiment, std::max(options.point, 0L), [&] { return bench.memory(settings, false, false); });
-  require_memory(memory, bench.memory_of_program(false), "this point");
-  const Measurement m = bench.measure(settings, std::nullopt, MetricSet::searched);
+  require_room(bench, point, false, false);
+  const Measurement m = bench.measure(point.settings, std::nullopt, MetricSet::searched);
   const ChosenPixel pixel = chosen_pixel(options, m);
   ReceiverSection section = bench.sections(m, std::array{pixel.at}).front();
   for (int cause = 1; cause < compared_cause_count; ++cause)
@@ -122,23 +117,19 @@ int draw_section(const SectionOptions& options) {
   const auto theme = static_cast<report::SectionTheme>(
       std::find(report::section_themes.begin(), report::section_themes.end(), options.theme) -
       report::section_themes.begin());
-  make_folder_above(options.out);
-  write_file_atomically(options.out, report::section_svg(section, theme));
+  make_folder_above(file);
+  write_file_atomically(file, report::section_svg(section, theme));
   fmt::print("{}, pixel {},{}{}: {}\n\n", printable(m.scene.name), pixel.at.x, pixel.at.y,
              pixel.why.empty() ? "" : " (" + pixel.why + ")", report::section_title(section));
   for (const std::string& paragraph : report::section_words(section)) fmt::print("  {}\n", paragraph);
   for (const std::string& note : {ambiguous_note(m.record), notes_line(m.scene)})
     if (!note.empty()) fmt::print("\n  note: {}\n", printable(note));
-  fmt::print("\n{} is written\n", printable(options.out));
+  fmt::print("\n{} is written\n", printable(file));
   return 0;
 }
 
 RunVerb add_section(CLI::App& verb) {
   const auto options = std::make_shared<SectionOptions>();
-  ExperimentArguments& arguments = options->arguments;
-  add_scene_or_experiment(verb, options->experiment,
-                          "A built-in scene, a model, or an experiment's TOML file; without one, the default settings");
-  add_point(verb, options->point);
   verb.add_option("--pixel", options->pixel,
                   "The pixel: column and row from 0,0 at the top left. Without it and without --worst, one in the "
                   "middle of the largest patch of the largest cause")
@@ -156,14 +147,8 @@ RunVerb add_section(CLI::App& verb) {
       ->check(one_of(report::section_themes))
       ->type_name(joined(report::section_themes))
       ->capture_default_str();
-  add_sets(verb, arguments);
-  add_parts(verb, arguments);
-  add_threads(verb, arguments);
-  verb.add_option("--out", options->out, "The file that is written")
-      ->check(not_empty())
-      ->type_name("FILE.svg")
-      ->capture_default_str();
-  verb.add_flag("--overwrite", arguments.overwrite, "Replace the file if it is there already");
+  add_point_options(verb, *options, true);
+  add_out_file(verb, options->arguments, "The file that is written", "FILE.svg", section_file);
   return [options](const std::string& command) {
     options->arguments.command = command;
     const ThreadLimit limit(options->arguments.threads);

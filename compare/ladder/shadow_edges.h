@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/image.h"
 #include "compare/ladder/ladder.h"
 #include "scenes/receivers.h"
 
@@ -26,5 +27,10 @@ struct EdgeDisplacements {
 // displacement that 95% of the edge pixels do not exceed. All are NaN if the visibility of a counted receiver is NaN.
 EdgeDisplacements edge_displacements(const Ladder& ladder, const ReceiverImage& receivers,
                                      std::span<const uint32_t> surfaces);
+
+// For every pixel, the distance to the nearest pixel whose mask is not 0; infinity if the mask is 0 everywhere. Method:
+// Felzenszwalb and Huttenlocher 2012, "Distance transforms of sampled functions". Float is precise enough for distances
+// in a picture, and squares of whole pixels up to 4096 are exact.
+Image<float> distance_to(const Image<uint8_t>& mask);
 
 }  // namespace noonmark

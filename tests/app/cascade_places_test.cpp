@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "app/advise/recommend.h"
-#include "app/advise/seen_depths.h"
+#include "app/advise/map_places.h"
 #include "technique/cascades.h"
 
 namespace noonmark {

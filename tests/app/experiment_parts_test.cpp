@@ -5,7 +5,7 @@
 
 #include "app/definition/experiment.h"
 #include "app/definition/experiment_file.h"
-#include "app/definition/idle_notes.h"
+#include "app/sweep/survey.h"
 #include "base/error.h"
 #include "tests/support/kind_thrown.h"
 

@@ -11,6 +11,7 @@
 
 #include "app/definition/definition.h"
 #include "app/definition/experiment_file.h"
+#include "app/definition/experiment_keys.h"
 #include "base/error.h"
 #include "tests/support/source_dir.h"
 
@@ -195,6 +196,25 @@ TEST(ExperimentText, CascadesHaveAFitWhereNoneIsGiven) {
   apply_override(typed, "map.fit=scene");
   EXPECT_FALSE(fits_cascades(typed));
   EXPECT_THROW(points(typed), Error);
+}
+
+// A new row is copied from a neighbour, and its member with it.
+TEST(ExperimentKeys, EachFillsAMemberOfItsOwn) {
+  Experiment experiment;
+  FrameRequest frame;
+  Bound bound;
+  Law law;
+  RangeOfValues range;
+  for (const std::vector<ExperimentKey>& keys :
+       {keys_of(experiment), plot_keys(experiment), answer_keys(experiment), curve_keys(experiment),
+        keys_of(experiment.phase), keys_of(frame), keys_of(bound), keys_of(law), keys_of(range)}) {
+    std::vector<ExperimentKey::Place> filled;
+    for (const ExperimentKey& key : keys) {
+      if (std::holds_alternative<std::monostate>(key.place)) continue;
+      EXPECT_EQ(std::count(filled.begin(), filled.end(), key.place), 0) << key.name;
+      filled.push_back(key.place);
+    }
+  }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What the first lines of a recommendation say: what it is for, and that lines which break a bound are no answer.
-#include "app/advise/recommend_about.h"
+#include "app/advise/recommend_request.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

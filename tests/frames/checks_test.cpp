@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "frames/check_statistics.h"
-#include "frames/frame_memory.h"
+#include "frames/frame.h"
 #include "tests/frames/wrong_delivery.h"
 #include "tests/support/kind_thrown.h"
 

@@ -1,5 +1,5 @@
 // The offset that lies in the depths of a handed map, of maps that are made by hand.
-#include "measure/map_offset.h"
+#include "measure/given_lookup.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The files of render, map and inspect: those of an earlier run do not outlive a run that fails, and no others are lost.
 #include <set>
 
-#include "app/sweep/verb_outputs.h"
+#include "app/sweep/output_folder.h"
 #include "tests/program/fixture.h"
 
 namespace noonmark::acceptance {

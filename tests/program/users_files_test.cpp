@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "app/sweep/verb_outputs.h"
+#include "app/sweep/output_folder.h"
 #include "tests/program/fixture.h"
 
 namespace noonmark::acceptance {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "app/advise/recommend_text.h"
-#include "app/advise/seen_depths.h"
+#include "app/advise/map_places.h"
 #include "measure/workbench.h"
 #include "technique/light_frame.h"
 #include "technique/settings.h"

@@ -1,5 +1,5 @@
 // Distances to the nearest marked pixel, compared with trying every pixel.
-#include "compare/ladder/distance.h"
+#include "compare/ladder/shadow_edges.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
