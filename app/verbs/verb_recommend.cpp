@@ -38,9 +38,11 @@ void require_own(const std::string& folder, const char* name, const char* what, 
   const std::string file = folder + "/" + name;
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) return;
-  if (const std::string other = subject_in(read_file(file, most_bytes)); !other.empty() && other != subject)
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: holds {} for another scene ({}); give --out, or remove it", folder, what, other));
+  if (const std::string other = subject_in(read_file(file, most_bytes)); other != subject)
+    throw Error(ErrorKind::usage, other.empty()
+                                      ? fmt::format("{}: is no file of noonmark; give --out, or remove it", file)
+                                      : fmt::format("{}: holds {} for another scene ({}); give --out, or remove it",
+                                                    folder, what, other));
 }
 
 // The lights of a frame, each with its settings, in a picture that is quick to measure.
