@@ -33,19 +33,16 @@ double nearest_lambda(double near_m, std::span<const double> ends_m);
 std::string missed_ends(const AdvisedCascades& cascades, double lambda);
 
 // The settings with the maps that the engine lays for these ends.
-Settings laid_by(const EngineCascades& engine, Settings settings, double near_m, std::span<const double> ends_m);
+Settings laid_by(const Engine& engine, Settings settings, double near_m, std::span<const double> ends_m);
 
 // cascades.blend, if the engine can blend so, evenly; otherwise 0.
 double blend_in(const EngineCascades& engine, const CascadeSettings& asked);
 
-// Of what the engine does otherwise when it chooses and blends cascades; empty sentences if nothing.
-std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const AdvisedCascades& cascades);
-
-// How the engine fits its maps, and how wide their texels are.
-std::string fitted_cascades(const EngineCascades& engine, const AdvisedCascades& cascades);
+// Of what the engine does otherwise when it chooses, blends and fits cascades, and how wide their texels are.
+std::vector<std::string> unexpressed_cascades(const Engine& engine, const AdvisedCascades& cascades);
 
 // Of a field that is there once: what its greatest number is too much by in the cascade that needs least. Empty if all need
 // the same. typed: of each cascade.
-std::string one_for_all(const std::string& field, std::span<const double> typed);
+std::string one_for_all(std::string_view field, std::span<const double> typed);
 
 }  // namespace noonmark

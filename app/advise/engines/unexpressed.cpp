@@ -16,7 +16,7 @@ std::string of_the_field(const AdvisedPart& part, const EngineKnob& knob) {
       "bias.{} acts on {}, {} on {}. On planes both give the same depth along the light. Near edges they differ: an "
       "offset along the normal moves a shadow's outline, and a moved caster can let light pass at the foot of a thin "
       "wall.",
-      part.part->name, place_name(part.part->acts_on), knob.field, place_name(knob.target));
+      part.part->name, place_name(part.part->acts_on), knob.field, place_name(knob.target()));
 }
 
 std::vector<std::string> unexpressed_lookup(const AdvicePlace& place) {
@@ -31,7 +31,7 @@ std::vector<std::string> unexpressed_lookup(const AdvicePlace& place) {
   if (!place.filter.same)
     said.push_back(
         fmt::format("filter.kind = {}: the nearest blur here is {}.", place.settings.filter.kind, place.filter.what));
-  said.insert(said.end(), place.filter.cannot.begin(), place.filter.cannot.end());
+  if (!place.filter.cannot.empty()) said.emplace_back(place.filter.cannot);
   return said;
 }
 
@@ -60,7 +60,7 @@ std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineK
     said.push_back(fmt::format("bias.{} = {} has no field of its form.", name, number(part.set)));
   else if (!replaced)
     said.push_back(fmt::format("bias.{} has a field, {}, but alone it is not enough.", name, knob->field));
-  else if (knob->target != part.part->acts_on)
+  else if (knob->target() != part.part->acts_on)
     said.push_back(of_the_field(part, *knob));
   if (part.floor > 0)
     said.push_back(
