@@ -14,19 +14,18 @@
 
 namespace noonmark {
 
-// How the depth that a part gains on a plane depends on the slope theta and on the azimuth phi (law 35). c, s and t are
-// the cosine, sine and tangent of theta; A = |cos phi| + |sin phi|.
+// How the depth that a part gains on a plane depends on the slope and on the azimuth (law 35); the table of engine_bias.cpp has the formulas.
 enum class BiasForm {
-  constant,           // 1
-  slope,              // 1 - c
-  normal,             // 1 / c: along the normal
-  tangent,            // t: along the normal by the sine, or a depth by the tangent
-  turned,             // (1 - c) / c: along the normal by 1 - N.L
-  turned_sideways,    // (1 - c) s t: `turned` without its component along the light
-  sideways,           // s t: `normal` without its component along the light
-  axes,               // A t
-  polygon_factor,     // max(|cos phi|, |sin phi|) t, for each texel
-  polygon_resolution  // 1, for each least step of the map's format
+  constant,
+  slope,
+  normal,
+  tangent,
+  turned,
+  turned_sideways,
+  sideways,
+  axes,
+  polygon_factor,     // for each texel
+  polygon_resolution  // for each least step of the map's format
 };
 
 // Throws std::logic_error if the part has no form yet.
@@ -98,6 +97,9 @@ struct AdvicePlace {
   // The window depth for each metre of a perspective map with this near and far, along the axis.
   double perspective_slope(double near_m, double far_m) const;
 };
+
+// The parts that act.
+std::vector<AdvisedPart> advised_parts(const AdvicePlace& place);
 
 // Kinds of light, as bits.
 constexpr unsigned light_bit(LightKind kind) { return 1u << static_cast<unsigned>(kind); }
@@ -187,8 +189,8 @@ struct EngineCascades {
 };
 
 // A text has one line or sentence in each of its lines; one that ends with \ goes on in the next. "?word " before it: it stands only if the
-// word is said; "?!word ": only if it is not. {word} is a knob's word, a setting, {2*map.resolution}, a word of the engine's
-// (Engine::own) or one of the table in engine_words.cpp.
+// word is said; "?!word ": only if it is not. {word} is a word of the engine's (Engine::own), a
+// knob's, one of the table in engine_words.cpp, or a setting.
 struct EngineText {
   const struct Engine& engine;
   const AdvicePlace& place;
@@ -221,9 +223,10 @@ struct Engine {
                          EngineAdvice begun) = nullptr;  // null: as all others
 
   std::vector<EngineKnob> biases(LightKind kind) const;
-  const EngineKnob* knob_of(std::string_view setting) const;                    // null if no field is this setting
-  const EngineKnob* knob_of_word(std::string_view word, LightKind kind) const;  // null if there is none
-  CulledFaces culled(const AdvicePlace& place) const;                           // that its map does not draw
+  const EngineKnob* knob_of(std::string_view setting) const;                        // null if no field is this setting
+  const EngineKnob* knob_of_word(std::string_view word, LightKind kind) const;      // null if there is none
+  const std::vector<std::string_view>* choices_of(std::string_view setting) const;  // null if there are none
+  CulledFaces culled(const AdvicePlace& place) const;                               // that its map does not draw
 };
 
 std::vector<Engine> engines();            // the table
@@ -252,11 +255,35 @@ Settings laid_settings(const EngineText& of);
 std::vector<EngineSource> sources_of(const Engine& engine);
 std::string place_of(const EngineSource& source);  // "PATH:LINE"
 
+// The field that has the form of the part, on the part's own side if there is one on both; null if there is none.
+const EngineKnob* knob_for(const std::vector<EngineKnob>& knobs, const AdvisedPart& part);
+
+// The metres of each field, and what of the settings each holds, as a comment.
+struct Typed {
+  std::vector<double> metres;
+  std::vector<std::string> from;
+  std::vector<AdvisedPart> replaced;  // parts without a field of their form
+  bool suffices = true;
+};
+Typed typed_amounts(const Engine& engine, const AdvicePlace& place, const std::vector<EngineKnob>& knobs,
+                    const std::vector<AdvisedPart>& parts);
+
 // The metres that each bias gives in each map with the number that is typed: [bias][map], as AdvisedPart::amount.
 using ActingMetres = std::vector<std::vector<double>>;
 // Sets advice.emulated, or why_not_emulated. of.place.filter and of.place.map: of the engine.
 void emulate(const EngineText& of, const std::vector<EngineKnob>& knobs, const ActingMetres& metres,
              EngineAdvice& advice);
+
+// The sentences that say what an engine cannot express of the settings, or expresses otherwise, and what to do instead.
+// Why there are no lines: no one and no two fields of the engine can replace these parts, or the reference.
+std::string unexpressed_bias(const std::vector<AdvisedPart>& parts, const AdvicePlace& place);
+// knob: the field that takes the part; null if the engine has no field of its form. replaced: other fields hold it then.
+std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineKnob* knob, bool replaced);
+std::vector<std::string> unexpressed_reference(const AdvicePlace& place, bool replaced);
+std::vector<std::string> unexpressed_filter(const AdvicePlace& place);
+// expressed: further settings of the map that the engine expresses, beside resolution, format and volume.
+std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed);
+std::vector<std::string> unexpressed_distance(const AdvicePlace& place);
 
 // Widths of maps that several engines have: the sphere about the mean of the frustum's corners.
 double mean_sphere_m(const SeenFrustum& seen, double far_m);

@@ -70,13 +70,17 @@ const EngineKnob* Engine::knob_of_word(std::string_view word, LightKind kind) co
   return nullptr;
 }
 
+const std::vector<std::string_view>* Engine::choices_of(std::string_view setting) const {
+  for (const auto& [name, words] : choices)
+    if (name == setting) return &words;
+  return nullptr;
+}
+
 CulledFaces Engine::culled(const AdvicePlace& place) const {
   const CulledFaces asked = place.settings.map.cull;
   if (!map.sides_of_materials) return asked;
-  for (const auto& [setting, words] : choices)
-    if (setting == "map.cull" && words[static_cast<size_t>(asked)] != words[static_cast<size_t>(CulledFaces::none)])
-      return asked;
-  return place.unseen;
+  const std::vector<std::string_view>* words = choices_of("map.cull");
+  return words && words->at(static_cast<size_t>(asked)) != words->at(0) ? asked : place.unseen;
 }
 
 double AdvicePlace::perspective_slope(double near_m, double far_m) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "app/advise/engines/engine.h"
 #include "base/error.h"
@@ -26,6 +27,8 @@ double value_of(const Engine& engine, const EngineKnob& knob, std::string_view t
   const double value = number_of(engine, knob.word(), text);
   if (!(value >= knob.least && value <= knob.most))
     refuse(engine, knob.word(), fmt::format("= {}: it is {} to {}", text, number(knob.least), number(knob.most)));
+  if (knob.step > 0 && std::fmod(value, knob.step) != 0)
+    refuse(engine, knob.word(), fmt::format("= {}: it is a multiple of {}", text, number(knob.step)));
   return value;
 }
 
@@ -33,46 +36,15 @@ double value_of(const Engine& engine, const EngineKnob& knob, std::string_view t
 void take_map(const Engine& engine, const EngineKnob& knob, const std::string& text, const AdvicePlace& place,
               Settings& settings) {
   const Setting& row = find_setting(knob.is);
-  for (const auto& [setting, words] : engine.choices)
-    if (setting == knob.is) {
-      const auto found = std::find(words.begin(), words.end(), text);
-      if (found == words.end())
-        refuse(engine, knob.word(), fmt::format("= {}: it is {}", text, fmt::join(words, " or ")));
-      return row.set(settings, row.choices[static_cast<size_t>(found - words.begin())]);
-    }
+  if (const std::vector<std::string_view>* words = engine.choices_of(knob.is)) {
+    const auto found = std::find(words->begin(), words->end(), text);
+    if (found == words->end())
+      refuse(engine, knob.word(), fmt::format("= {}: it is {}", text, fmt::join(*words, " or ")));
+    return row.set(settings, row.choices[static_cast<size_t>(found - words->begin())]);
+  }
   const double value = value_of(engine, knob, text) * knob.of_one(place);
   row.set(settings, row.type == ValueType::integer ? fmt::format("{:.0f}", value) : fmt::format("{}", value));
 }
-
-// Whether a word can have this text: a bias is a number, a choice one of its words.
-bool could_be(const Engine& engine, std::string_view word, std::string_view text) {
-  if (word.empty()) return text.find_first_not_of("0123456789+-.e") == text.npos;
-  for (const EngineKnob& knob : engine.knobs)
-    for (const auto& [setting, words] : engine.choices)
-      if (knob.word() == word && knob.is == setting) return std::find(words.begin(), words.end(), text) != words.end();
-  return true;
-}
-
-// Whether each of the rows is one of the lines; those that are get marked as read, and their words are added to the values.
-std::vector<bool> read_rows(const Engine& engine, std::string_view text, const std::vector<std::string>& lines,
-                            std::string_view number_word, std::vector<bool>& read, EngineValues& values) {
-  std::vector<bool> there;
-  for (const std::string& row : rows_of(text)) {
-    there.push_back(false);
-    for (size_t i = 0; i < lines.size(); ++i) {
-      EngineValues found;
-      if (!read_line(engine, row, lines[i], found)) continue;
-      if (!std::all_of(found.begin(), found.end(),
-                       [&](const auto& one) { return could_be(engine, one.first, one.second); }))
-        continue;
-      read[i] = there.back() = true;
-      for (const auto& [word, value] : found) values[word.empty() ? std::string(number_word) : word] = value;
-    }
-  }
-  return there;
-}
-
-bool all(const std::vector<bool>& there) { return std::find(there.begin(), there.end(), false) == there.end(); }
 
 bool is_field(const Engine& engine, std::string_view word, LightKind kind) {
   const auto is_word = [&](const EngineFilterRow& row) { return row.parameter == word; };
@@ -81,36 +53,57 @@ bool is_field(const Engine& engine, std::string_view word, LightKind kind) {
          std::find(std::begin(others), std::end(others), word) != std::end(others);
 }
 
+// Lines of an engine, which of them have been read, and what they said.
+struct Lines {
+  const Engine& engine;
+  LightKind kind;
+  const std::vector<std::string>& lines;
+  std::vector<bool> read = std::vector<bool>(lines.size());
+  EngineValues values = {};
+
+  // A bias is a number, and a choice one of its words.
+  bool can_be(std::string_view word, std::string_view text) const {
+    if (word.empty()) return text.find_first_not_of("0123456789+-.e") == text.npos;
+    const EngineKnob* knob = engine.knob_of_word(word, kind);
+    const std::vector<std::string_view>* words = knob ? engine.choices_of(knob->is) : nullptr;
+    return !words || std::find(words->begin(), words->end(), text) != words->end();
+  }
+
+  // How many of a text's rows are lines. word: of {}.
+  size_t take(std::string_view text, std::string_view word = {}) {
+    size_t rows = 0;
+    for (const std::string& row : rows_of(text))
+      for (size_t i = 0; i < lines.size(); ++i) {
+        EngineValues found;
+        if (!read_line(engine, row, lines[i], found)) continue;
+        if (!std::all_of(found.begin(), found.end(), [&](const auto& one) { return can_be(one.first, one.second); }))
+          continue;
+        for (const auto& [name, value] : found)
+          if (const std::string key(name.empty() ? word : name); is_field(engine, key, kind)) values[key] = value;
+        read[i] = true;
+        ++rows;
+      }
+    return rows;
+  }
+};
+
 }  // namespace
 
 EngineValues read_values(std::string_view engine_word, const std::vector<std::string>& lines, LightKind kind,
                          std::vector<std::string>* unread) {
   const Engine engine = engine_of(engine_word);
-  std::vector<bool> read(lines.size());
-  EngineValues values, kept;
-  const auto rows = [&](std::string_view text, std::string_view word = {}) {
-    EngineValues of_rows;
-    std::vector<bool> there = read_rows(engine, text, lines, word, read, of_rows);
-    return std::pair(std::move(there), std::move(of_rows));
-  };
-  values = rows(engine.lines).second;
+  Lines all{engine, kind, lines};
+  all.take(engine.lines);
   for (size_t i = 0; i < engine.filters.size(); ++i)
-    if (auto [there, of_row] = rows(engine.filters[i].lines);
-        all(there) && (engine.filters[i].lights & light_bit(kind))) {
-      values.merge(of_row);
-      values["filter"] = fmt::to_string(i);
-    }
+    if (const EngineFilterRow& row = engine.filters[i];
+        (row.lights & light_bit(kind)) && all.take(row.lines) == rows_of(row.lines).size())
+      all.values["filter"] = fmt::to_string(i);
   for (const EngineLookupRow& row : engine.lookups)
-    if (auto [there, of_row] = rows(row.lines); there.front()) {
-      values.merge(of_row);
-      values["lookup"] = row.kind;
-    }
-  for (const EngineKnob& knob : engine.biases(kind)) values.merge(rows(knob.line, knob.word()).second);
+    if (all.take(rows_of(row.lines).front()) > 0 && all.take(row.lines) > 0) all.values["lookup"] = row.kind;
+  for (const EngineKnob& knob : engine.biases(kind)) all.take(knob.line, knob.word());
   for (size_t i = 0; unread && i < lines.size(); ++i)
-    if (!read[i] && !lines[i].starts_with(engine.comment)) unread->push_back(lines[i]);
-  for (const auto& [word, value] : values)
-    if (is_field(engine, word, kind)) kept[word] = value;
-  return kept;
+    if (!all.read[i] && !lines[i].starts_with(engine.comment)) unread->push_back(lines[i]);
+  return all.values;
 }
 
 Settings settings_of_values(std::string_view engine_word, const EngineValues& values, const Settings& condition,

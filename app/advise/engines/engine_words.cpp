@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "app/advise/engines/engine.h"
 #include "app/advise/engines/engine_cascades.h"
-#include "base/text.h"
 
 namespace noonmark {
 namespace {
@@ -85,45 +85,35 @@ constexpr Word words[] = {
        return of.engine.culled(of.place) == CulledFaces::back ? "front faces alone, as of materials with one side"
                                                               : "both faces, because no material here has one side";
      }},
-    {"reach", [](const EngineText& of) { return literal(of, of.cascades->reach_m()); }},
+    {"atlas", [](const EngineText& of) { return fmt::to_string(2 * of.cascades->laid.map.resolution); }},
 };
 
-// "2*map.resolution"
-std::pair<double, std::string_view> factor_and_name(std::string_view word) {
-  const size_t star = word.find('*');
-  if (star == word.npos) return {1, word};
-  return {std::stod(std::string(word.substr(0, star))), word.substr(star + 1)};
-}
-
-std::string setting_text(const EngineText& of, std::string_view name, double factor, const EngineKnob* knob) {
+std::string setting_text(const EngineText& of, std::string_view name, const EngineKnob* knob) {
   const Setting& row = find_setting(name);
   const std::string text = row.get(laid_settings(of));
-  for (const auto& [setting, choices] : of.engine.choices)
-    if (setting == name)
-      return std::string(
-          choices[static_cast<size_t>(std::find(row.choices.begin(), row.choices.end(), text) - row.choices.begin())]);
+  if (const std::vector<std::string_view>* words = of.engine.choices_of(name))
+    return std::string(
+        words->at(static_cast<size_t>(std::find(row.choices.begin(), row.choices.end(), text) - row.choices.begin())));
   if (row.type != ValueType::integer && row.type != ValueType::real) return text;
-  double value = factor * std::stod(text);
-  if (knob) value = std::max(value, knob->least);
+  double value = std::stod(text);
+  if (knob) value = std::max(value / knob->of_one(of.place), knob->least);
   return row.type == ValueType::integer ? fmt::format("{}", std::llround(value)) : literal(of, value);
 }
 
 std::string text_of(const EngineText& of, std::string_view word) {
   if (of.engine.own)
     if (std::optional<std::string> own = of.engine.own(word, of)) return *own;
-  if (const EngineKnob* knob = of.engine.knob_of_word(word, of.place.kind()))
-    return setting_text(of, knob->is, 1 / knob->of_one(of.place), knob);
+  const EngineKnob* knob = of.engine.knob_of_word(word, of.place.kind());
   for (const Word& row : words)
-    if (row.word == word) return row.text(of);
-  const auto [factor, name] = factor_and_name(word);
-  return setting_text(of, name, factor, nullptr);
+    if (!knob && row.word == word) return row.text(of);
+  return setting_text(of, knob ? knob->is : word, knob);
 }
 
 // The next word in braces from `from` on: its place and length with the braces; npos if there is none.
 std::pair<size_t, size_t> next_word(std::string_view text, size_t from) {
   for (size_t open = text.find('{', from); open != text.npos; open = text.find('{', open + 1)) {
     const size_t close =
-        text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.* ", open + 1);
+        text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_. ", open + 1);
     if (close != text.npos && text[close] == '}' && text[open + 1] != ' ') return {open, close + 1 - open};
   }
   return {text.npos, 0};
@@ -146,20 +136,11 @@ std::string without_comment(const Engine& engine, std::string_view line) {
 }  // namespace
 
 std::vector<std::string> rows_of(std::string_view text) {
+  std::string whole(text), row;
+  for (size_t at = whole.find("\\\n"); at != whole.npos; at = whole.find("\\\n", at)) whole.erase(at, 2);
   std::vector<std::string> rows;
-  bool goes_on = false;
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    std::string row(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const bool more = row.ends_with('\\');
-    if (more) row.pop_back();
-    if (goes_on)
-      rows.back() += row;
-    else if (!row.empty())
-      rows.push_back(row);
-    goes_on = more;
-  }
+  for (std::istringstream in(whole); std::getline(in, row);)
+    if (!row.empty()) rows.push_back(row);
   return rows;
 }
 

@@ -106,7 +106,7 @@ servers/rendering/renderer_rd/storage_rd/light_storage.cpp light_data.shadow_bia
 light.shadow_enabled = true
 light.shadow_reverse_cull_face = {shadow_reverse_cull_face}
 ?directional RenderingServer.directional_shadow_atlas_set_size({directional_shadow_atlas_size}, {16_bits})  # texels, 16 bits or not
-?cascades RenderingServer.directional_shadow_atlas_set_size({2*map.resolution}, {16_bits})  # texels, 16 bits or not; a cascade has half
+?cascades RenderingServer.directional_shadow_atlas_set_size({atlas}, {16_bits})  # texels, 16 bits or not; a cascade has half
 ?directional light.directional_shadow_mode = DirectionalLight3D.SHADOW_ORTHOGONAL
 ?cascades light.directional_shadow_mode = DirectionalLight3D.SHADOW_PARALLEL_{cascades.count}_SPLITS
 ?cascades {splits}

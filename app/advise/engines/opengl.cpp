@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/unexpressed.h"
 #include "technique/filters.h"
 #include "technique/lookups.h"
 

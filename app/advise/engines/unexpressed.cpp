@@ -1,11 +1,10 @@
-#include "app/advise/engines/unexpressed.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "app/advise/engines/engine.h"
 #include "technique/lookups.h"
 
 namespace noonmark {

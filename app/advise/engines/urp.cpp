@@ -112,7 +112,7 @@ Packages/com.unity.render-pipelines.universal/ShaderLibrary/Shadows.hlsl weights
       .lines = R"(
 ?directional URP Asset > Lighting > Main Light > Shadow Resolution: {Shadow Resolution}
 ?directional URP Asset > Shadows > Cascade Count: 1
-?cascades URP Asset > Lighting > Main Light > Shadow Resolution: {2*map.resolution}  // a cascade has half
+?cascades URP Asset > Lighting > Main Light > Shadow Resolution: {atlas}  // a cascade has half
 ?cascades URP Asset > Shadows > Max Distance: {map.reach_m}
 ?cascades URP Asset > Shadows > Cascade Count: {cascades.count}
 ?cascades URP Asset > Shadows > Split {split_numbers}: {split_m} m  // {split_fields}
