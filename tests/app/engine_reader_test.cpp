@@ -119,6 +119,52 @@ TEST_P(EngineReader, ReadsWhatItWrites) {
   EXPECT_GT(compared, 250u);
 }
 
+// In lines of a spot or point light, too, nothing is unread: each row's number stands in its line.
+TEST_P(EngineReader, ReadsTheLinesOfOtherLights) {
+  for (const LightChoice light : {LightChoice::spot, LightChoice::point}) {
+    const Case c = make(constant_m(0.05, light));
+    const EngineAdvice given = advice_for_engine(GetParam(), c.settings, c.frame, c.scene);
+    std::vector<std::string> unread;
+    const EngineValues values = read_values(GetParam(), given.lines, c.frame.kind, &unread);
+    EXPECT_TRUE(unread.empty()) << unread.front();
+    EXPECT_EQ(values.empty(), given.lines.empty());
+  }
+}
+
+// The defaults are values that the engine takes, and the rows of sources are there.
+TEST_P(EngineReader, TakesItsDefaults) {
+  const Engine engine = engine_of(GetParam());
+  const Case c = make(simple());
+  EngineValues values;
+  for (const EngineKnob& knob : engine.knobs) {
+    EXPECT_LE(knob.source, static_cast<int>(sources_of(engine).size())) << knob.field;
+    if (knob.preset && (knob.lights & directional_light)) values[std::string(knob.word())] = number(*knob.preset);
+  }
+  const Settings read = settings_of_values(GetParam(), values, c.settings, c.scene);
+  for (const EngineKnob& knob : engine.biases(LightKind::directional))
+    if (knob.preset && *knob.preset != 0) EXPECT_GT(read.bias[knob.parts().front()->name], 0) << knob.field;
+}
+
+void expect_refused(const EngineValues& values, const std::string& why) {
+  const Case c = make(simple());
+  try {
+    settings_of_values("playcanvas", values, c.settings, c.scene);
+    FAIL() << why;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+  }
+}
+
+TEST(EngineValuesOfAUser, AreRefusedWithTheReason) {
+  expect_refused({{"normalBias", "0.1"}}, "normalBias of PlayCanvas is no field");
+  expect_refused({{"shadowBias", "much"}}, "is no number: 'much'");
+  expect_refused({{"shadowBias", "-0.1"}}, "it is 0 to");
+  expect_refused({{"shadowResolution", "16384"}}, "it is 1 to 8192");
+  expect_refused({{"shadowResolution", "1000.5"}}, "it is a multiple of 1");
+  expect_refused({{"filter", "7"}}, "filter of PlayCanvas");
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, EngineReader, testing::ValuesIn(engine_words()),
                          [](const auto& engine) { return engine.param; });
 

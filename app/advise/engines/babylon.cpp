@@ -8,10 +8,8 @@
 #include <cmath>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 
-namespace noonmark {
-namespace babylon_engine {
+namespace noonmark::babylon_engine {
 namespace {
 
 bool compares_in_hardware(const AdvicePlace& place) { return place.filter.scale == 2; }
@@ -145,11 +143,9 @@ for (const mesh of scene.meshes) {
 })";
 
 }  // namespace
-}  // namespace babylon_engine
 
 // clang-format off
-Engine babylon_js() {
-  using namespace babylon_engine;
+Engine engine() {
   return {
       .name = "Babylon.js",
       .version = "9.35",
@@ -207,4 +203,4 @@ material shows. The error is measured with {drawn}.
 }
 // clang-format on
 
-}  // namespace noonmark
+}  // namespace noonmark::babylon_engine

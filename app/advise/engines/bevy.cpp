@@ -9,10 +9,8 @@
 #include <numbers>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 
-namespace noonmark {
-namespace bevy_engine {
+namespace noonmark::bevy_engine {
 namespace {
 
 // The texel that the engine takes: of a spot light from the light's cone, and of a point light from a face of the cube.
@@ -48,11 +46,9 @@ std::optional<std::string> own(std::string_view word, const EngineText& of) {
 }
 
 }  // namespace
-}  // namespace bevy_engine
 
 // clang-format off
-Engine bevy() {
-  using namespace bevy_engine;
+Engine engine() {
   return {
       .name = "Bevy",
       .version = "0.20-dev (4805ca7)",
@@ -105,4 +101,4 @@ map.format: the map is always a 32 bit float with reversed depth.
 }
 // clang-format on
 
-}  // namespace noonmark
+}  // namespace noonmark::bevy_engine

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,7 +15,8 @@
 
 namespace noonmark {
 
-// How the depth that a part gains on a plane depends on the slope and on the azimuth (law 35); the table of engine_bias.cpp has the formulas.
+// How the depth that a part gains on a plane depends on the slope and on the azimuth (law 35). engine_bias.cpp has the formulas;
+// polygon_factor is for each texel, polygon_resolution for each least step of the map's format.
 enum class BiasForm {
   constant,
   slope,
@@ -24,8 +26,8 @@ enum class BiasForm {
   turned_sideways,
   sideways,
   axes,
-  polygon_factor,     // for each texel
-  polygon_resolution  // for each least step of the map's format
+  polygon_factor,
+  polygon_resolution
 };
 
 // Throws std::logic_error if the part has no form yet.
@@ -98,8 +100,7 @@ struct AdvicePlace {
   double perspective_slope(double near_m, double far_m) const;
 };
 
-// The parts that act.
-std::vector<AdvisedPart> advised_parts(const AdvicePlace& place);
+std::vector<AdvisedPart> advised_parts(const AdvicePlace& place);  // those that act
 
 // Kinds of light, as bits.
 constexpr unsigned light_bit(LightKind kind) { return 1u << static_cast<unsigned>(kind); }
@@ -168,9 +169,24 @@ struct EngineMapRow {
   bool sides_of_materials = false;  // it draws what the materials show, but for sides that Engine::choices can tell
 };
 
-struct AdvisedCascades;
+// The places at which the advice holds, one for each cascade, the nearest first. Their frames are of the maps that the engine
+// lays, with their depths; texel_m is the recommended one.
+struct AdvisedCascades {
+  std::vector<AdvicePlace> places;
+  double near_m = 0;           // the camera's near plane, where the first begins
+  std::vector<double> ends_m;  // where each ends along the view, as recommended; the last is the reach
+  double blend = 0;            // cascades.blend, if the engine can have it; otherwise 0
+  double scene_depth_m = 0;    // of the whole scene, along the light
+  Settings laid = {};          // laid_by() of the engine
 
-// How an engine lays cascades (app/advise/engines/engine_cascades.h).
+  size_t count() const { return places.size(); }
+  double reach_m() const { return ends_m.back(); }
+  const Settings& settings() const { return places.front().settings; }
+  // What `of` makes of all ends but the last.
+  std::vector<std::string> inner(const std::function<double(double end_m)>& of) const;
+};
+
+// How an engine lays cascades.
 struct EngineCascades {
   std::vector<int> counts;  // how many it can have
   MapFit fit;
@@ -181,8 +197,8 @@ struct EngineCascades {
   std::optional<double> only_blend = {};        // cascades.blend, if it is fixed in the engine
   std::string_view other_blending = {};         // how it blends otherwise, for a sentence
   std::string_view select = "depth";            // as in cascades.select
-  std::string_view each =
-      {};  // one line sets "light." of all cascades, with {} for the line of one. Empty: each field is there once
+  // One line sets "light." of all cascades, with {} for the line of one. Empty: each field is there once.
+  std::string_view each = {};
   double (*depth_m)(const AdvisedCascades&) = nullptr;  // from near to far of every map, if the lines set it
   bool bias_of_depth = false;    // its bias is a share of the depth range that each map has in each view, not metres
   std::string_view unlike = {};  // why no settings of Noonmark have the engine's maps, a clause; as limits
@@ -216,11 +232,11 @@ struct Engine {
   std::string_view no_cascades = {};                             // without them: why, a sentence
   std::vector<std::pair<std::string_view, double>> always = {};  // parts of a bias that it always adds, as settings
   void (*also)(Settings&, const AdvicePlace&) = nullptr;         // what else it does, as settings
-  std::optional<std::string> (*own)(std::string_view word,
-                                    const EngineText&) = nullptr;  // words of its own; empty: it has not this one
-  std::string (*literal)(double) = nullptr;                        // a number in its language; null: number()
-  EngineAdvice (*advice)(const Engine&, const AdvicePlace&, const std::vector<AdvisedPart>&,
-                         EngineAdvice begun) = nullptr;  // null: as all others
+  // Words of its own; empty: it has not this one.
+  std::optional<std::string> (*own)(std::string_view word, const EngineText&) = nullptr;
+  std::string (*literal)(double) = nullptr;  // a number in its language; null: number()
+  // What it says of itself; null: as all others.
+  EngineAdvice (*advice)(const Engine&, const AdvicePlace&, const std::vector<AdvisedPart>&, EngineAdvice) = nullptr;
 
   std::vector<EngineKnob> biases(LightKind kind) const;
   const EngineKnob* knob_of(std::string_view setting) const;                        // null if no field is this setting
@@ -231,16 +247,7 @@ struct Engine {
 
 std::vector<Engine> engines();            // the table
 Engine engine_of(std::string_view word);  // of engine_words(); throws std::logic_error
-Engine three_js();
-Engine babylon_js();
-Engine playcanvas();
-Engine godot();
-Engine bevy();
-Engine filament();
-Engine unity_urp();
-Engine opengl();
 
-SeenFrustum seen_frustum(const Settings& settings, const Scene& scene);
 // Without the engine's map and filter.
 AdvicePlace advice_place(const Settings& settings, const LightFrame& frame, const Scene& scene);
 // The map that the engine draws with this resolution, or from the recommended one on the next power of two whose texels are no
@@ -284,6 +291,25 @@ std::vector<std::string> unexpressed_filter(const AdvicePlace& place);
 // expressed: further settings of the map that the engine expresses, beside resolution, format and volume.
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed);
 std::vector<std::string> unexpressed_distance(const AdvicePlace& place);
+
+// The lambda from 0 to 1 of practical splits whose ends are nearest to these, by least squares.
+double nearest_lambda(double near_m, std::span<const double> ends_m);
+
+// Which of the recommended ends a lambda misses, as a sentence; empty if it is right to a thousandth.
+std::string missed_ends(const AdvisedCascades& cascades, double lambda);
+
+// The settings with the maps that the engine lays for these ends.
+Settings laid_by(const Engine& engine, Settings settings, double near_m, std::span<const double> ends_m);
+
+// cascades.blend, if the engine can blend so, evenly; otherwise 0.
+double blend_in(const EngineCascades& engine, const CascadeSettings& asked);
+
+// Of what the engine does otherwise when it chooses, blends and fits cascades, and how wide their texels are.
+std::vector<std::string> unexpressed_cascades(const Engine& engine, const AdvisedCascades& cascades);
+
+// Of a field that is there once: what its greatest number is too much by in the cascade that needs least. Empty if all need
+// the same. typed: of each cascade.
+std::string one_for_all(std::string_view field, std::span<const double> typed);
 
 // Widths of maps that several engines have: the sphere about the mean of the frustum's corners.
 double mean_sphere_m(const SeenFrustum& seen, double far_m);

@@ -1,5 +1,3 @@
-#include "app/advise/engines/engine_cascades.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "app/advise/engines/engine.h"
 #include "technique/cascade_splits.h"
 
 namespace noonmark {

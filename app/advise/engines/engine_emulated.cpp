@@ -5,7 +5,6 @@
 #include <map>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 #include "app/advise/map_places.h"
 
 namespace noonmark {

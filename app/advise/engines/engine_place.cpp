@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "technique/lookups.h"
@@ -30,6 +29,13 @@ double reach_of(const Settings& settings, double texel_m) {
   double longest_m = 0;
   for (const glm::vec3& offset : pattern.offsets) longest_m = std::max<double>(longest_m, glm::length(offset));
   return longest_m / texel_m + 0.5;
+}
+
+SeenFrustum seen_frustum(const Settings& settings, const Scene& scene) {
+  const Camera camera = effective_camera(scene, settings.view);
+  const CameraFrame frame = make_camera_frame(camera, settings.view.width_px, settings.view.height_px);
+  return {camera.projection == Projection::perspective, std::hypot(frame.half_width, frame.half_height),
+          farthest_in_view_m(settings, scene)};
 }
 
 }  // namespace
@@ -89,13 +95,6 @@ double AdvicePlace::perspective_slope(double near_m, double far_m) const {
   tile.far_m = far_m;
   tile.depth = TileDepth::perspective;
   return tile.window_depth_slope(distance_m);
-}
-
-SeenFrustum seen_frustum(const Settings& settings, const Scene& scene) {
-  const Camera camera = effective_camera(scene, settings.view);
-  const CameraFrame frame = make_camera_frame(camera, settings.view.width_px, settings.view.height_px);
-  return {camera.projection == Projection::perspective, std::hypot(frame.half_width, frame.half_height),
-          farthest_in_view_m(settings, scene)};
 }
 
 double farthest_in_view_m(const Settings& settings, const Scene& scene) {

@@ -1,5 +1,6 @@
 // Lines and values of an engine, read back into settings by the rows that write them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -51,6 +52,13 @@ bool is_field(const Engine& engine, std::string_view word, LightKind kind) {
   constexpr std::string_view others[] = {"filter", "lookup", "blurScale", "blurBoxOffset", "blurKernel"};
   return engine.knob_of_word(word, kind) || std::any_of(engine.filters.begin(), engine.filters.end(), is_word) ||
          std::find(std::begin(others), std::end(others), word) != std::end(others);
+}
+
+std::string fields_of(const Engine& engine, LightKind kind) {
+  std::vector<std::string_view> words;
+  for (const EngineKnob& knob : engine.knobs)
+    if (knob.lights & light_bit(kind)) words.push_back(knob.word());
+  return fmt::to_string(fmt::join(words, ", "));
 }
 
 // Lines of an engine, which of them have been read, and what they said.
@@ -115,8 +123,16 @@ Settings settings_of_values(std::string_view engine_word, const EngineValues& va
   settings.lookup.kind = values.contains("lookup") ? values.at("lookup") : "compare";
   const EngineFilterRow* filter = nullptr;
   for (const auto& [word, text] : values) {
-    if (!is_field(engine, word, given.kind)) refuse(engine, word, "is no field");
-    if (word == "filter") filter = &engine.filters.at(static_cast<size_t>(number_of(engine, word, text)));
+    if (!is_field(engine, word, given.kind))
+      refuse(engine, word,
+             fmt::format("is no field; those of a {} light are {}", kind_of_light(given.kind).name(),
+                         fields_of(engine, given.kind)));
+    if (word == "filter") {
+      const double row = number_of(engine, word, text);
+      if (!(row >= 0 && row < static_cast<double>(engine.filters.size())))
+        refuse(engine, word, fmt::format("= {}: it has {} filters, from 0", text, engine.filters.size()));
+      filter = &engine.filters[static_cast<size_t>(row)];
+    }
     const EngineKnob* knob = engine.knob_of_word(word, given.kind);
     const bool of_other_lookup = knob && knob->is.starts_with("lookup.") && !values.contains("lookup");
     if (knob && !knob->is_bias() && !of_other_lookup)

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 #include "technique/cascades.h"
 #include "technique/lookups.h"
 

@@ -8,8 +8,20 @@
 
 namespace noonmark {
 
+// clang-format off
+namespace three_engine { Engine engine(); }
+namespace babylon_engine { Engine engine(); }
+namespace playcanvas_engine { Engine engine(); }
+namespace godot_engine { Engine engine(); }
+namespace bevy_engine { Engine engine(); }
+namespace filament_engine { Engine engine(); }
+namespace urp_engine { Engine engine(); }
+namespace opengl_engine { Engine engine(); }
+// clang-format on
+
 std::vector<Engine> engines() {
-  return {three_js(), babylon_js(), playcanvas(), godot(), bevy(), filament(), unity_urp(), opengl()};
+  return {three_engine::engine(), babylon_engine::engine(),  playcanvas_engine::engine(), godot_engine::engine(),
+          bevy_engine::engine(),  filament_engine::engine(), urp_engine::engine(),        opengl_engine::engine()};
 }
 
 std::vector<EngineSource> sources_of(const Engine& engine) {

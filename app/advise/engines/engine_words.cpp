@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 
 namespace noonmark {
 namespace {

@@ -8,8 +8,7 @@
 
 #include "app/advise/engines/engine.h"
 
-namespace noonmark {
-namespace filament_engine {
+namespace noonmark::filament_engine {
 namespace {
 
 constexpr int least_size = 8;  // of mapSize, by LightManager.h
@@ -29,11 +28,9 @@ std::optional<std::string> own(std::string_view word, const EngineText& of) {
 }
 
 }  // namespace
-}  // namespace filament_engine
 
 // clang-format off
-Engine filament() {
-  using namespace filament_engine;
+Engine engine() {
   return {
       .name = "Filament",
       .version = "since February 2026 (pull request 9734)",
@@ -75,4 +72,4 @@ Versions before pull request 9734 (February 2026; the npm package 1.53.4 is one)
 }
 // clang-format on
 
-}  // namespace noonmark
+}  // namespace noonmark::filament_engine

@@ -9,10 +9,8 @@
 #include <cmath>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 
-namespace noonmark {
-namespace godot_engine {
+namespace noonmark::godot_engine {
 namespace {
 
 constexpr double pancake_m = 20;       // DirectionalLight3D.directional_shadow_pancake_size, its default
@@ -58,11 +56,9 @@ std::optional<std::string> own(std::string_view word, const EngineText& of) {
 }
 
 }  // namespace
-}  // namespace godot_engine
 
 // clang-format off
-Engine godot() {
-  using namespace godot_engine;
+Engine engine() {
   return {
       .name = "Godot",
       .version = "4.4, Forward+",
@@ -146,4 +142,4 @@ paraboloid. shadow_normal_bias moves the unit direction.)",
 }
 // clang-format on
 
-}  // namespace noonmark
+}  // namespace noonmark::godot_engine

@@ -9,8 +9,7 @@
 #include "technique/filters.h"
 #include "technique/lookups.h"
 
-namespace noonmark {
-namespace opengl_engine {
+namespace noonmark::opengl_engine {
 namespace {
 
 double depth_m(const AdvicePlace& place) { return 1 / place.depth_slope; }
@@ -121,11 +120,9 @@ EngineKnob depth(std::string_view is, std::string_view line) {
 EngineKnob offset(std::string_view is, std::string_view line) { return {.field = is, .is = is, .line = line}; }
 
 }  // namespace
-}  // namespace opengl_engine
 
 // clang-format off
-Engine opengl() {
-  using namespace opengl_engine;
+Engine engine() {
   return {
       .name = "OpenGL",
       .version = "3.3 and later",
@@ -173,4 +170,4 @@ A polygon offset has no effect on such a map.)",
 }
 // clang-format on
 
-}  // namespace noonmark
+}  // namespace noonmark::opengl_engine

@@ -7,8 +7,7 @@
 // are not described here.
 #include "app/advise/engines/engine.h"
 
-namespace noonmark {
-namespace playcanvas_engine {
+namespace noonmark::playcanvas_engine {
 namespace {
 
 constexpr double always_subtracted = 1e-4;  // of the window depth: lightFunctionShadow.js
@@ -21,11 +20,9 @@ void also(Settings& settings, const AdvicePlace& place) {
 }
 
 }  // namespace
-}  // namespace playcanvas_engine
 
 // clang-format off
-Engine playcanvas() {
-  using namespace playcanvas_engine;
+Engine engine() {
   return {
       .name = "PlayCanvas",
       .version = "2.23",
@@ -69,4 +66,4 @@ normalOffsetBias are clamped to 1.
 }
 // clang-format on
 
-}  // namespace noonmark
+}  // namespace noonmark::playcanvas_engine

@@ -7,10 +7,8 @@
 #include <cmath>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 
-namespace noonmark {
-namespace three_engine {
+namespace noonmark::three_engine {
 namespace {
 
 // A point light's map holds the perspective depth along the axis of each face; Noonmark's holds the distance. Along
@@ -94,15 +92,13 @@ scene.traverse((mesh) => {
 ?cascades csm.update();  // and before each frame)";
 
 }  // namespace
-}  // namespace three_engine
 
 // clang-format off
 // PCFShadowMap: 5 taps of a Vogel disk, rotated at each pixel. Each tap is a linear fetch of 2 x 2 texels. The distance of the outermost
 // tap from the centre is sqrt(0.9) of the radius. Its fetch reads texels up to one texel further away; with a radius of 0 all are one
 // linear fetch. VSMShadowMap: ShaderLib/vsm.glsl.js blurs with shadow.radius and shadow.blurSamples; getShadow() has a variance of at
 // least 0.0000001 and clamp((p - 0.3) / 0.65, 0, 1). WebGLShadowMap.js stores half floats, and has no such map for a PointLight.
-Engine three_js() {
-  using namespace three_engine;
+Engine engine() {
   return {
       .name = "three.js",
       .version = "0.187",
@@ -161,4 +157,4 @@ The disk of taps lies across the ray.)",
 }
 // clang-format on
 
-}  // namespace noonmark
+}  // namespace noonmark::three_engine

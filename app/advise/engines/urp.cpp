@@ -8,10 +8,8 @@
 #include <cmath>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/engine_cascades.h"
 
-namespace noonmark {
-namespace urp_engine {
+namespace noonmark::urp_engine {
 namespace {
 
 constexpr double greatest = 10;       // of both biases in the inspector
@@ -78,11 +76,9 @@ EngineFilterRow soft(const std::string& quality, std::string_view what, std::str
 }
 
 }  // namespace
-}  // namespace urp_engine
 
 // clang-format off
-Engine unity_urp() {
-  using namespace urp_engine;
+Engine engine() {
   return {
       .name = "Unity URP",
       .version = "17",
@@ -150,4 +146,4 @@ than computed for 90 degrees.)",
 }
 // clang-format on
 
-}  // namespace noonmark
+}  // namespace noonmark::urp_engine
