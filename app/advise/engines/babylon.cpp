@@ -85,29 +85,15 @@ shadowGenerator.depthScale = {depthScale};
 ?Blur ?!gaussian shadowGenerator.blurBoxOffset = {blurBoxOffset};
 ?Blur ?gaussian shadowGenerator.useKernelBlur = true; shadowGenerator.blurKernel = {blurKernel};)";
 
+// clang-format off
 EngineKnob bias(std::string_view unit, unsigned lights) {
-  return {.field = "shadowGenerator.bias",
-          .is = "bias.caster_offset",
-          .unit = unit,
-          .one = depth_m,
-          .preset = 0.00005,
-          .least = -no_limit,
-          .source = 1,
-          .lights = lights,
-          .line = "shadowGenerator.bias = {};"};
+  return {.field = "shadowGenerator.bias", .is = "bias.caster_offset", .unit = unit, .one = depth_m, .preset = 0.00005, .least = -no_limit,
+          .source = 1, .lights = lights, .line = "shadowGenerator.bias = {};"};
 }
-
 EngineFilterRow pcf(const std::string& quality, std::string_view what, std::string_view kind, int size, double reach) {
-  return {.lines =
-              "shadowGenerator.usePercentageCloserFiltering = true;\n"
-              "shadowGenerator.filteringQuality = BABYLON.ShadowGenerator.QUALITY_" +
-              quality + ";",
-          .what = what,
-          .kind = kind,
-          .size = size,
-          .reach = reach,
-          .scale = 2,
-          .lights = directional_light | spot_light};
+  return {.lines = "shadowGenerator.usePercentageCloserFiltering = true;\n"
+                   "shadowGenerator.filteringQuality = BABYLON.ShadowGenerator.QUALITY_" + quality + ";",
+          .what = what, .kind = kind, .size = size, .reach = reach, .scale = 2, .lights = directional_light | spot_light};
 }
 
 // A glTF file's light is a child of a node, and its position and direction are that node's until the parent is null; those in the
@@ -144,7 +130,6 @@ for (const mesh of scene.meshes) {
 
 }  // namespace
 
-// clang-format off
 Engine engine() {
   return {
       .name = "Babylon.js",
@@ -192,13 +177,9 @@ floats: then the bias must exceed 1/2048 of near to far.
 ?!cascades map.cull = {cull}: forceBackFacesOnly of 9.35 draws the front faces alone in a right-handed scene; otherwise the map draws the faces that each \
 material shows. The error is measured with {drawn}.
 ?point A point light has no PCF here: its cube map is read by one tap, or by 4 Poisson taps in the world.)",
-      .cascades = EngineCascades{.counts = {2, 3, 4},
-                                 .fit = MapFit::corner_sphere,
-                                 .fitted_to = "the sphere about the mean of its slice's corners, with a radius of whole sixteenths of a metre",
-                                 .radius_round_m = 0.0625,
-                                 .lay = lay_cascades,
-                                 .blend_of = CascadeBlendOf::slice,
-                                 .bias_of_depth = true},
+      .cascades = EngineCascades{.counts = {2, 3, 4}, .fit = MapFit::corner_sphere,
+                   .fitted_to = "the sphere about the mean of its slice's corners, with a radius of whole sixteenths of a metre", .radius_round_m = 0.0625,
+                   .lay = lay_cascades, .blend_of = CascadeBlendOf::slice, .bias_of_depth = true},
       .own = own};
 }
 // clang-format on

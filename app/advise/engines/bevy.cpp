@@ -90,12 +90,9 @@ map.format: the map is always a 32 bit float with reversed depth.
 ?local shadow_depth_bias is in metres along the ray, not along the axis of the map; on the axis both are the same.
 ?point A point light's Gaussian kernel has 8 taps within 0.003 of the distance, not within a number of texels: it reaches further in texels on a finer map.)",
       // bevy_light cascade.rs: each map is the square of the slice's longest diagonal, of whole metres.
-      .cascades = EngineCascades{.counts = {2, 3, 4},
-                                 .fit = MapFit::corner_square,
-                                 .fitted_to = "the square of whole metres that is as wide as its slice's longest diagonal",
-                                 .radius_round_m = 0.5,
-                                 .lay = [](Settings& s) { s.cascades.cover_band = true; },
-                                 .blend_of = CascadeBlendOf::end},
+      .cascades = EngineCascades{.counts = {2, 3, 4}, .fit = MapFit::corner_square,
+                   .fitted_to = "the square of whole metres that is as wide as its slice's longest diagonal", .radius_round_m = 0.5,
+                   .lay = [](Settings& s) { s.cascades.cover_band = true; }, .blend_of = CascadeBlendOf::end},
       .own = own,
       .literal = rust};
 }

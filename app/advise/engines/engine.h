@@ -111,11 +111,9 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 // A number of an engine: a part of its bias, which has a line of its own, or a setting of its map, whose word stands in Engine::lines.
 struct EngineKnob {
-  std::string_view field;  // "LightShadow.bias"; what a user types is its last word, "bias"
-  // The setting that it is: "bias.constant"; or two with " + ", which the field sets alike.
-  std::string_view is;
-  // For people; empty: as the setting.
-  std::string_view unit = {};
+  std::string_view field;      // "LightShadow.bias"; what a user types is its last word, "bias"
+  std::string_view is;         // the setting that it is: "bias.constant"; or two with " + ", which the field sets alike
+  std::string_view unit = {};  // of a bias, for people
   // The metres of the bias, or how much of the setting, that one of the field is; null: one. So a line is written by it, and read.
   double (*one)(const AdvicePlace&) = nullptr;
   std::optional<double> preset = {};  // the engine's default; empty: it has none, or none is known
@@ -160,8 +158,8 @@ struct EngineLookupRow {
 
 // The map of a directional light that an engine draws.
 struct EngineMapRow {
-  // The width of a map that covers the picture's frustum from the camera to reach_m; null: it draws the map that it is given. The
-  // knob of map.resolution has its greatest size.
+  // Covers the picture's frustum from the camera to reach_m; null: it draws the map that it is given. knob_of("map.resolution") has
+  // the greatest size.
   double (*width_m)(const SeenFrustum&, double reach_m) = nullptr;
   int border = 0;                          // texels on both sides together that are not of this width
   std::optional<DepthFormat> format = {};  // empty: as asked
@@ -206,7 +204,7 @@ struct EngineCascades {
 
 // A text has one line or sentence in each of its lines; one that ends with \ goes on in the next. "?word " before it: it stands only if the
 // word is said; "?!word ": only if it is not. {word} is a word of the engine's (Engine::own), a
-// knob's, one of the table in engine_words.cpp, or a setting.
+// knob's, one that all have (engine_words.cpp), or a setting.
 struct EngineText {
   const struct Engine& engine;
   const AdvicePlace& place;
@@ -261,7 +259,6 @@ Settings laid_settings(const EngineText& of);
 
 std::vector<EngineSource> sources_of(const Engine& engine);
 std::string place_of(const EngineSource& source);  // "PATH:LINE"
-
 // The field that has the form of the part, on the part's own side if there is one on both; null if there is none.
 const EngineKnob* knob_for(const std::vector<EngineKnob>& knobs, const AdvisedPart& part);
 
@@ -286,11 +283,12 @@ void emulate(const EngineText& of, const std::vector<EngineKnob>& knobs, const A
 std::string unexpressed_bias(const std::vector<AdvisedPart>& parts, const AdvicePlace& place);
 // knob: the field that takes the part; null if the engine has no field of its form. replaced: other fields hold it then.
 std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineKnob* knob, bool replaced);
-std::vector<std::string> unexpressed_reference(const AdvicePlace& place, bool replaced);
-std::vector<std::string> unexpressed_filter(const AdvicePlace& place);
+std::string unexpressed_reference(const AdvicePlace& place, bool replaced);
+std::string unexpressed_filter(const AdvicePlace& place);
+std::vector<std::string> unexpressed_lookup(const AdvicePlace& place);
 // expressed: further settings of the map that the engine expresses, beside resolution, format and volume.
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed);
-std::vector<std::string> unexpressed_distance(const AdvicePlace& place);
+std::string unexpressed_distance(const AdvicePlace& place);
 
 // The lambda from 0 to 1 of practical splits whose ends are nearest to these, by least squares.
 double nearest_lambda(double near_m, std::span<const double> ends_m);

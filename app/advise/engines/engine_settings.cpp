@@ -139,13 +139,13 @@ EngineAdvice advice_of(const Engine& engine, const std::vector<AdvicePlace>& pla
   };
   for (const AdvisedPart& part : parts.front())
     say(unexpressed_part(part, knob_for(knobs, part), !advice.lines.empty()));
-  say(unexpressed_reference(place, !advice.lines.empty()));
+  say({unexpressed_reference(place, !advice.lines.empty())});
   if (knobs.empty())
     advice.cannot.push_back(fmt::format("filter.kind = {} is not written, either.", place.settings.filter.kind));
   else
-    say(unexpressed_filter(place));
+    say({unexpressed_filter(place)}), say(unexpressed_lookup(place));
   say(unexpressed_map(place, expressed(engine, place, cascades)));
-  say(unexpressed_distance(place));
+  say({unexpressed_distance(place)});
   say(once);
   if (cascades) say(unexpressed_cascades(engine, *cascades));
   say(text_lines(engine.limits, of));

@@ -34,58 +34,40 @@ std::string fitted_text(const EngineText& of) {
   return text;
 }
 
-struct Word {
-  std::string_view word;
-  std::string (*text)(const EngineText&);
-};
-constexpr Word words[] = {
-    {"directional",
-     [](const EngineText& of) { return said(of.place.kind() == LightKind::directional && !of.cascades); }},
-    {"local", [](const EngineText& of) { return said(of.place.kind() != LightKind::directional); }},
-    {"spot", [](const EngineText& of) { return said(of.place.kind() == LightKind::spot); }},
-    {"point", [](const EngineText& of) { return said(of.place.kind() == LightKind::point); }},
-    {"fitted", [](const EngineText& of) { return said(of.place.map.reach_m.has_value()); }},
-    {"cascades", [](const EngineText& of) { return said(of.cascades); }},
-    {"blended", [](const EngineText& of) { return said(of.cascades && of.cascades->blend > 0); }},
-    {"two", [](const EngineText& of) { return said(of.cascades && of.cascades->count() == 2); }},
-    {"placed",
-     [](const EngineText& of) {
-       const bool anywhere = !of.cascades && !of.engine.map.width_m;  // the lines also say where the light is
-       return fmt::format(
-           "{} These lines set the light's {}. The model stands where its file puts it, in the file's size.",
-           of.engine.comment,
-           !anywhere                             ? "direction"
-           : of.place.kind() == LightKind::point ? "position"
-                                                 : "position and direction");
-     }},
-    {"Light",
-     [](const EngineText& of) -> std::string {
-       return of.place.kind() == LightKind::point  ? "Point"
-              : of.place.kind() == LightKind::spot ? "Spot"
-                                                   : "Directional";
-     }},
-    {"origin", [](const EngineText& of) { return numbers(of.place.frame.origin_m); }},
-    {"forward", [](const EngineText& of) { return numbers(of.place.frame.forward); }},
-    {"target",
-     [](const EngineText& of) {
-       return numbers(of.place.frame.origin_m + of.place.frame.far_m * of.place.frame.forward);
-     }},
-    {"cone", [](const EngineText& of) { return literal(of, std::atan(of.place.cone_tan)); }},
-    {"focus",  // the map's angle divided by the light's cone
-     [](const EngineText& of) {
-       return number(std::atan(of.place.frame.tan_half_fov) / std::atan(of.place.cone_tan));
-     }},
-    {"fov", [](const EngineText& of) { return number(2 * std::atan(of.place.frame.tan_half_fov)); }},
-    {"width", [](const EngineText& of) { return number(of.place.map.extent_m); }},
-    {"fit", fitted_text},
-    {"cull", [](const EngineText& of) { return find_setting("map.cull").get(of.place.settings); }},
-    {"drawn",
-     [](const EngineText& of) -> std::string {
-       return of.engine.culled(of.place) == CulledFaces::back ? "front faces alone, as of materials with one side"
-                                                              : "both faces, because no material here has one side";
-     }},
-    {"atlas", [](const EngineText& of) { return fmt::to_string(2 * of.cascades->laid.map.resolution); }},
-};
+// The words of all engines; conditions are empty if they do not hold.
+std::optional<std::string> shared_word(std::string_view word, const EngineText& of) {
+  const AdvicePlace& place = of.place;
+  const bool sun = place.kind() == LightKind::directional, point = place.kind() == LightKind::point;
+  if (word == "directional") return said(sun && !of.cascades);
+  if (word == "local") return said(!sun);
+  if (word == "spot") return said(place.kind() == LightKind::spot);
+  if (word == "point") return said(point);
+  if (word == "cascades") return said(of.cascades);
+  if (word == "blended") return said(of.cascades && of.cascades->blend > 0);
+  if (word == "two") return said(of.cascades && of.cascades->count() == 2);
+  if (word == "fitted") return said(place.map.reach_m.has_value());
+  if (word == "fit") return fitted_text(of);
+  if (word == "width") return number(place.map.extent_m);
+  if (word == "atlas") return fmt::to_string(2 * of.cascades->laid.map.resolution);
+  if (word == "Light") return point ? "Point" : sun ? "Directional" : "Spot";
+  if (word == "placed")  // an engine that fits its map lets the sun stand where it does
+    return fmt::format(
+        "{} These lines set the light's {}. The model stands where its file puts it, in the file's size.",
+        of.engine.comment,
+        of.cascades || of.engine.map.width_m ? "direction"
+        : point                              ? "position"
+                                             : "position and direction");
+  if (word == "origin") return numbers(place.frame.origin_m);
+  if (word == "forward") return numbers(place.frame.forward);
+  if (word == "target") return numbers(place.frame.origin_m + place.frame.far_m * place.frame.forward);
+  if (word == "cone") return literal(of, std::atan(place.cone_tan));
+  if (word == "fov") return number(2 * std::atan(place.frame.tan_half_fov));
+  if (word == "focus") return number(std::atan(place.frame.tan_half_fov) / std::atan(place.cone_tan));  // of the cone
+  if (word == "cull") return find_setting("map.cull").get(place.settings);
+  if (word != "drawn") return std::nullopt;
+  return of.engine.culled(place) == CulledFaces::back ? "front faces alone, as of materials with one side"
+                                                      : "both faces, because no material here has one side";
+}
 
 std::string setting_text(const EngineText& of, std::string_view name, const EngineKnob* knob) {
   const Setting& row = find_setting(name);
@@ -103,8 +85,7 @@ std::string text_of(const EngineText& of, std::string_view word) {
   if (of.engine.own)
     if (std::optional<std::string> own = of.engine.own(word, of)) return *own;
   const EngineKnob* knob = of.engine.knob_of_word(word, of.place.kind());
-  for (const Word& row : words)
-    if (!knob && row.word == word) return row.text(of);
+  if (const auto shared = knob ? std::nullopt : shared_word(word, of)) return *shared;
   return setting_text(of, knob ? knob->is : word, knob);
 }
 

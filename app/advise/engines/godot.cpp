@@ -133,11 +133,9 @@ proportion to the distance, as a texel grows: where bias.constant suffices over 
 ?point A point light's map is a dual paraboloid or made from a cube map, so its texels are not those of a cube, and the taps of its disk lie in that \
 paraboloid. shadow_normal_bias moves the unit direction.)",
       // Four share the atlas' quarters.
-      .cascades = EngineCascades{.counts = {2, 4},
-                                 .fit = MapFit::corner_sphere,
-                                 .fitted_to = "the sphere about the mean of its slice's corners, and a texel on each side",
-                                 .other_blending = ", but blend_splits, whose width is its own",
-                                 .unlike = "?two the texels of its two maps are oblong, and Noonmark's are square"},
+      .cascades = EngineCascades{.counts = {2, 4}, .fit = MapFit::corner_sphere,
+                   .fitted_to = "the sphere about the mean of its slice's corners, and a texel on each side",
+                   .other_blending = ", but blend_splits, whose width is its own", .unlike = "?two the texels of its two maps are oblong, and Noonmark's are square"},
       .own = own};
 }
 // clang-format on

@@ -99,9 +99,9 @@ EngineAdvice advice(const Engine& engine, const AdvicePlace& place, const std::v
   }
   advice.lines.push_back(*(last + (polygon_offset ? 1 : 2)));
   for (const std::vector<std::string>& said :
-       {limits(place, parts), text_lines(engine.limits, of), unexpressed_map(place, {"map.cull", "map.fov_deg"}),
-        unexpressed_distance(place)})
+       {limits(place, parts), text_lines(engine.limits, of), unexpressed_map(place, {"map.cull", "map.fov_deg"})})
     advice.cannot.insert(advice.cannot.end(), said.begin(), said.end());
+  if (const std::string said = unexpressed_distance(place); !said.empty()) advice.cannot.push_back(said);
   return advice;
 }
 
@@ -114,14 +114,12 @@ std::optional<std::string> own(std::string_view word, const EngineText& of) {
   return std::nullopt;
 }
 
-EngineKnob depth(std::string_view is, std::string_view line) {
-  return {.field = is, .is = is, .one = depth_m, .line = line};
-}
+// clang-format off
+EngineKnob depth(std::string_view is, std::string_view line) { return {.field = is, .is = is, .one = depth_m, .line = line}; }
 EngineKnob offset(std::string_view is, std::string_view line) { return {.field = is, .is = is, .line = line}; }
 
 }  // namespace
 
-// clang-format off
 Engine engine() {
   return {
       .name = "OpenGL",

@@ -144,15 +144,10 @@ to these.
 ?spot light.distance must be 0 or the far plane, because three.js takes it as the far plane of the map.
 ?point A point light's map holds the depth along the axis of each face, not the distance: light.shadow.bias is exact along that axis. \
 The disk of taps lies across the ray.)",
-      .cascades = EngineCascades{.counts = {2, 3, 4, 5, 6, 7, 8},
-                                 .fit = MapFit::corner_square,
-                                 .fitted_to = "the square as wide as its slice's longest diagonal",
-                                 .lay = lay_cascades,
-                                 .blend_of = CascadeBlendOf::square,
-                                 .only_blend = 0.25,
-                                 .other_blending = ", but csm.fade, which is cascades.blend_of = square with cascades.blend = 0.25",
-                                 .each = "csm.lights.forEach((light, i) => { {} });",
-                                 .depth_m = [](const AdvisedCascades& cascades) { return light_far_m(cascades) - light_near_m; }},
+      .cascades = EngineCascades{.counts = {2, 3, 4, 5, 6, 7, 8}, .fit = MapFit::corner_square,
+                   .fitted_to = "the square as wide as its slice's longest diagonal", .lay = lay_cascades, .blend_of = CascadeBlendOf::square, .only_blend = 0.25,
+                   .other_blending = ", but csm.fade, which is cascades.blend_of = square with cascades.blend = 0.25",
+                   .each = "csm.lights.forEach((light, i) => { {} });", .depth_m = [](const AdvisedCascades& cascades) { return light_far_m(cascades) - light_near_m; }},
       .own = own};
 }
 // clang-format on

@@ -44,40 +44,23 @@ std::optional<std::string> own(std::string_view word, const EngineText& of) {
   return fields + "} in the asset's file";
 }
 
-EngineKnob bias(std::string_view field, std::string_view line, std::string_view is, std::string_view unit,
-                unsigned lights) {
-  return {.field = field,
-          .is = is,
-          .unit = unit,
-          .one = soft_texel_m,
-          .preset = 1,
-          .most = greatest,
-          .source = 1,
-          .lights = lights,
-          .line = line};
+// clang-format off
+EngineKnob bias(std::string_view field, std::string_view line, std::string_view is, std::string_view unit, unsigned lights) {
+  return {.field = field, .is = is, .unit = unit, .one = soft_texel_m, .preset = 1, .most = greatest, .source = 1, .lights = lights, .line = line};
 }
 EngineKnob depth(std::string_view unit, unsigned lights) {
   return bias("Shadows > Depth Bias", "Light > Shadows > Bias: Custom, Depth: {}", "bias.caster_offset", unit, lights);
 }
 EngineKnob normal(std::string_view unit, unsigned lights) {
-  return bias("Shadows > Normal Bias", "Light > Shadows > Bias: Custom, Normal: {}", "bias.caster_normal_offset_turned",
-              unit, lights);
+  return bias("Shadows > Normal Bias", "Light > Shadows > Bias: Custom, Normal: {}", "bias.caster_normal_offset_turned", unit, lights);
 }
-
-EngineFilterRow soft(const std::string& quality, std::string_view what, std::string_view kind, int size, double reach,
-                     double scale) {
-  return {.lines = "URP Asset > Shadows > Soft Shadows: on\nLight > Shadow Type: Soft Shadows, Soft Shadows Quality: " +
-                   quality,
-          .what = what,
-          .kind = kind,
-          .size = size,
-          .reach = reach,
-          .scale = scale};
+EngineFilterRow soft(const std::string& quality, std::string_view what, std::string_view kind, int size, double reach, double scale) {
+  return {.lines = "URP Asset > Shadows > Soft Shadows: on\nLight > Shadow Type: Soft Shadows, Soft Shadows Quality: " + quality,
+          .what = what, .kind = kind, .size = size, .reach = reach, .scale = scale};
 }
 
 }  // namespace
 
-// clang-format off
 Engine engine() {
   return {
       .name = "Unity URP",
@@ -137,10 +120,7 @@ behind the plane.
 than computed for 90 degrees.)",
       // Each map is the square of a sphere around its slice, and the cascade of a receiver is the first whose sphere holds it (Shadows.hlsl,
       // ComputeCascadeIndex), not that of its depth. The maps share the asset's resolution as quarters (GetMaxTileResolutionInAtlas).
-      .cascades = EngineCascades{.counts = {2, 3, 4},
-                                 .fit = MapFit::sphere,
-                                 .fitted_to = "the least sphere around its slice",
-                                 .select = "sphere"},
+      .cascades = EngineCascades{.counts = {2, 3, 4}, .fit = MapFit::sphere, .fitted_to = "the least sphere around its slice", .select = "sphere"},
       .always = {{"polygon_factor", fixed_factor}, {"polygon_units", fixed_units}},
       .own = own};
 }
