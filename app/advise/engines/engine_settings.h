@@ -97,8 +97,8 @@ double farthest_in_view_m(const Settings& settings, const Scene& scene);
 // advice.emulated, which must not be empty.
 Settings as_engine(const EngineAdvice& advice, Settings condition);
 
-// What is typed into an engine: its fields by what a user types for them, "bias" of LightShadow.bias, and their values. "filter":
-// which of its filters, by the number of its row; "filter.parameter": the number of that filter, if it has one.
+// What is typed into an engine: its fields by what a user types for them, "bias" of LightShadow.bias, and their values. "filter" is one of
+// its filters, by the number of its row from 0; "lookup" is the lookup.kind of a filtered map.
 using EngineValues = std::map<std::string, std::string>;
 
 // The values of lines that are as engine_advice() writes them, with any numbers. word: of engine_words(). Comments, lines that hold no

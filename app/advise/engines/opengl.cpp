@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "app/advise/engines/engine.h"
 #include "technique/filters.h"
@@ -32,7 +33,9 @@ bool is_polygon_offset(const AdvisedPart& part) {
 
 // The row's line, with the part's floor and cap around the depth that it computes: those have a line "depth -= ...;".
 std::string part_line(const Engine& engine, const AdvisedPart& part, const AdvicePlace& place) {
-  const EngineKnob& knob = *engine.knob_of(fmt::format("bias.{}", part.part->name));
+  const EngineKnob* found = engine.knob_of(fmt::format("bias.{}", part.part->name));
+  if (!found) throw std::logic_error("a part of a bias without its line of GLSL");
+  const EngineKnob& knob = *found;
   const auto in_unit = [&](double metres) { return number(metres / knob.of_one(place)); };
   std::string text(knob.line), name(part.part->name), all = "bias." + name;
   text.replace(text.find("{}"), 2, in_unit(part.amount));
