@@ -142,7 +142,7 @@ TEST_P(EngineReader, TakesItsDefaults) {
   }
   const Settings read = settings_of_values(GetParam(), values, c.settings, c.scene);
   for (const EngineKnob& knob : engine.biases(LightKind::directional))
-    if (knob.preset && *knob.preset != 0) EXPECT_GT(read.bias[knob.parts().front()->name], 0) << knob.field;
+    EXPECT_EQ(knob.preset.value_or(0) > 0, read.bias[knob.parts().front()->name] > 0) << knob.field;
 }
 
 void expect_refused(const EngineValues& values, const std::string& why) {
