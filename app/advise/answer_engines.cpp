@@ -57,12 +57,13 @@ std::vector<EngineAdvice> measured_engines(Workbench& bench, const Tried& answer
 Elsewhere in_engines(Workbench& bench, std::span<const WantedEngine> engines, const Tried& tried,
                      const AdviceRequest& request) {
   Elsewhere found;
-  for (EngineAdvice& advice : engines_of(bench, tried, request)) {
-    const auto wanted = std::find_if(engines.begin(), engines.end(),
-                                     [&](const WantedEngine& one) { return one.engine == advice.engine; });
-    if (wanted == engines.end()) continue;
+  const Scene& scene = bench.scene(tried.settings.scene);
+  const LightFrame frame = make_light_frame(scene, tried.settings);
+  const SeenDepths seen = depths_in_views(bench, request.conditions);
+  for (const WantedEngine& wanted : engines) {
+    EngineAdvice advice = advice_for_engine(engine_word(wanted.engine), tried.settings, frame, scene, seen);
     if (advice.lines.empty()) return {no_lines(advice)};
-    if (!advice.emulated && wanted->is_run) continue;
+    if (!advice.emulated && wanted.is_run) continue;
     if (!advice.emulated) return {not_known(advice)};
     advice.promise = measured_promise(bench, under_engine(advice, promised_under(tried, request)), request.accuracy);
     if (const std::string broken = broken_promise_text(advice, request.curve, request.error); !broken.empty())
@@ -78,12 +79,12 @@ std::string why_never_in_engines(Workbench& bench, std::span<const WantedEngine>
   settings.bias = {};
   settings.bias["constant"] = 1;
   const Scene& scene = bench.scene(settings.scene);
-  for (const EngineAdvice& advice : engine_advice(settings, make_light_frame(scene, settings), scene))
-    for (const WantedEngine& wanted : engines) {
-      if (wanted.engine != advice.engine) continue;
-      if (advice.lines.empty()) return no_lines(advice);
-      if (!advice.emulated && !wanted.is_run) return not_known(advice);
-    }
+  for (const WantedEngine& wanted : engines) {
+    const EngineAdvice advice =
+        advice_for_engine(engine_word(wanted.engine), settings, make_light_frame(scene, settings), scene);
+    if (advice.lines.empty()) return no_lines(advice);
+    if (!advice.emulated && !wanted.is_run) return not_known(advice);
+  }
   return "";
 }
 

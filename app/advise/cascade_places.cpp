@@ -59,11 +59,10 @@ std::optional<MapPlace> laid_in(const std::string& engine, Workbench& bench, con
   there.bias = {};
   place.apply(there);
   there.bias["constant"] = 1;
-  const std::vector<EngineAdvice> all = engine_advice(there, make_light_frame(scene, there), scene, seen);
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const EngineAdvice& one) { return one.engine == engine; });
-  if (found == all.end() || !found->emulated) return std::nullopt;
-  Settings laid = *found->emulated;
+  const EngineAdvice advice =
+      advice_for_engine(engine_word(engine), there, make_light_frame(scene, there), scene, seen);
+  if (!advice.emulated) return std::nullopt;
+  Settings laid = *advice.emulated;
   if (laid.bias["constant"] == 0 || scale_with_texels(techniques_of(scene, laid))) {
     laid.bias.unit = BiasUnit::texel;
     laid.cascades.bias_scales.clear();

@@ -65,7 +65,7 @@ TEST(AnswerInEngines, IsAskedForTheBoundsOfTheSearch) {
   EXPECT_TRUE(why_not(0.5 * bias.window.low, "three.js").starts_with("in three.js these lines"));
   EXPECT_NE(why_not(0.5 * bias.window.low, "three.js").find("acne "), std::string::npos);
   EXPECT_NE(why_not(3 * bias.window.high, "three.js").find("Peter Panning "), std::string::npos);
-  EXPECT_EQ(why_not(0.5 * bias.window.low, "an engine that is not asked"), "");
+  EXPECT_EQ(in_engines(bench, {}, tried, request).why_not, "") << "no engine is asked";
   // No filter of Noonmark is PlayCanvas's nearest to a tent: only its own frames can say more.
   tried.settings.filter = {"tent", {{"size", 5}}};
   EXPECT_TRUE(why_not(bias.value, "Godot").starts_with("what Godot does with its lines is not known: no filter"))

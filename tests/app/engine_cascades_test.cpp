@@ -1,10 +1,9 @@
 // What is typed into engines for cascades: ends, maps and biases come back from the printed numbers by the engines' own formulas.
-#include "app/advise/engines/engine_cascades.h"
-
 #include <algorithm>
 #include <functional>
 #include <regex>
 
+#include "app/advise/engines/engine.h"
 #include "technique/cascades.h"
 #include "technique/corner_fits.h"
 #include "tests/app/engine_case.h"
@@ -41,10 +40,7 @@ Settings manual(std::vector<double> bounds) {
 
 EngineAdvice advice(const Settings& settings, const std::string& engine) {
   const Scene scene = make_scene(settings.scene);
-  for (EngineAdvice& one : engine_advice(settings, make_light_frame(scene, settings), scene))
-    if (one.engine == engine) return one;
-  ADD_FAILURE() << "no engine " << engine;
-  return {};
+  return advice_for_engine(engine_word(engine), settings, make_light_frame(scene, settings), scene);
 }
 
 std::vector<double> list_after(const EngineAdvice& advice, const std::string& before) {

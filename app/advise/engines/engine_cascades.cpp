@@ -1,11 +1,11 @@
-#include "app/advise/engines/engine_cascades.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "app/advise/engines/engine.h"
 #include "technique/cascade_splits.h"
 
 namespace noonmark {
@@ -63,11 +63,10 @@ std::string missed_ends(const AdvisedCascades& cascades, double lambda) {
       fmt::join(cascades.inner([](double end) { return end; }), ", "));
 }
 
-Settings laid_by(const EngineCascades& engine, Settings settings, double near_m, std::span<const double> ends_m) {
+Settings laid_by(const Engine& engine, Settings settings, double near_m, std::span<const double> ends_m) {
   MapSettings& map = settings.map;
   map.reach_m = ends_m.back();
   map.extent_m = map.near_m = map.far_m = std::nullopt;
-  map.extent_scale = 1;
   map.aspect = 1;
   map.roll_deg = 0;
   map.depth_range = DepthRange::fit;
@@ -77,16 +76,21 @@ Settings laid_by(const EngineCascades& engine, Settings settings, double near_m,
   settings.cascades.depths = CascadeDepths::planes;
   settings.cascades.splits = "manual";
   settings.cascades.bounds_m.assign(ends_m.begin(), ends_m.end() - 1);
-  settings.cascades.radius_round_m = 0;
   settings.cascades.resolutions.clear();
   settings.cascades.bias_scales.clear();
   settings.cascades.select = "depth";
-  settings.cascades.blend = blend_in(engine, settings.cascades);
-  engine.lay(settings);
+  settings.cascades.blend = blend_in(*engine.cascades, settings.cascades);
+  settings.cascades.radius_round_m = engine.cascades->radius_round_m;
+  map.fit = engine.cascades->fit;
+  map.pancake = map.pancake || engine.map.pancake;
+  if (engine.map.width_m) map.resolution = static_cast<int>(std::bit_ceil(static_cast<unsigned>(map.resolution)));
+  map.extent_scale = map.resolution / std::max(1.0, static_cast<double>(map.resolution - engine.map.border));
+  if (engine.cascades->lay) engine.cascades->lay(settings);
   return settings;
 }
 
-std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const AdvisedCascades& cascades) {
+std::vector<std::string> unexpressed_cascades(const Engine& engine_row, const AdvisedCascades& cascades) {
+  const EngineCascades& engine = *engine_row.cascades;
   const CascadeSettings& asked = cascades.settings().cascades;
   std::vector<std::string> said;
   if (asked.blend != cascades.blend)
@@ -95,7 +99,7 @@ std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const 
         "off.",
         number(asked.blend), find_setting("cascades.blend_of").get(cascades.settings()),
         asked.blend_shape == "linear" ? "" : fmt::format(" and cascades.blend_shape = {}", asked.blend_shape),
-        engine.other_blending.empty() ? "" : ", " + engine.other_blending));
+        engine.other_blending));
   if (asked.select != engine.select)
     said.push_back(fmt::format("cascades.select = {}: the engine chooses a receiver's cascade by its {}.", asked.select,
                                engine.select));
@@ -104,26 +108,23 @@ std::vector<std::string> unexpressed_choice(const EngineCascades& engine, const 
         "cascades.depths = visible: the lines lay cascades between the camera's planes, as the engine does.");
   if (!asked.resolutions.empty())
     said.push_back("cascades.resolutions: all maps of the engine have one resolution, map.resolution.");
-  return said;
-}
-
-std::string fitted_cascades(const EngineCascades& engine, const AdvisedCascades& cascades) {
   std::vector<double> laid, recommended;
   for (const AdvicePlace& place : cascades.places) {
     laid.push_back(place.map.texel_m);
     recommended.push_back(place.texel_m);
   }
-  const std::vector<std::string> of_engine = numbers_of(laid), asked = numbers_of(recommended);
-  return fmt::format(
+  const std::vector<std::string> of_engine = numbers_of(laid), wanted = numbers_of(recommended);
+  said.push_back(fmt::format(
       "map.fit = {}: the engine fits each map to {}. Its texels are {} m wide, for which the bias is computed{}. A "
       "wider "
       "picture or another angle of view needs other numbers.",
-      find_setting("map.fit").get(cascades.settings()), engine.fit, fmt::join(of_engine, ", "),
-      of_engine == asked ? "; so are the recommended ones"
-                         : fmt::format("; the recommended ones are {} m", fmt::join(asked, ", ")));
+      find_setting("map.fit").get(cascades.settings()), engine.fitted_to, fmt::join(of_engine, ", "),
+      of_engine == wanted ? "; so are the recommended ones"
+                          : fmt::format("; the recommended ones are {} m", fmt::join(wanted, ", "))));
+  return said;
 }
 
-std::string one_for_all(const std::string& field, std::span<const double> typed) {
+std::string one_for_all(std::string_view field, std::span<const double> typed) {
   constexpr double same = 1.01;  // less is not worth a sentence
   const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const auto least = std::min_element(typed.begin(), typed.end(), smaller);

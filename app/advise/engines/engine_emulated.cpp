@@ -1,12 +1,10 @@
-#include "app/advise/engines/engine_emulated.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "app/advise/engines/engine_cascades.h"
+#include "app/advise/engines/engine.h"
 #include "app/advise/map_places.h"
 
 namespace noonmark {
@@ -20,15 +18,12 @@ bool alike(std::span<const double> values) {
   return *most - *least <= same_amount * std::max(std::abs(*least), std::abs(*most));
 }
 
-// Of several parts with one law on one side, the first; null if there is none. A filtered map has no casters that move: a depth
-// that is added to each stored one is the same as one that is taken from the receiver's, because lookups see their difference.
-const BiasPart* part_of(const EngineKnob& knob, bool filtered) {
-  const bool added = filtered && knob.target == BiasTarget::caster && knob.form == BiasForm::constant;
-  const BiasTarget target = added ? BiasTarget::compared_depth : knob.target;
-  if (filtered && target == BiasTarget::caster) return nullptr;
-  for (const BiasPart& part : bias_parts())
-    if (part.acts_on == target && form_of(part) == knob.form) return &part;
-  return nullptr;
+// A filtered map has no casters that move: a depth that is added to each stored one is the same as one that is taken from the
+// receiver's, because lookups see their difference. Empty if that is not so.
+std::vector<const BiasPart*> parts_of(const EngineKnob& knob, bool filtered) {
+  if (!filtered || knob.target() != BiasTarget::caster) return knob.parts();
+  if (knob.form() == BiasForm::constant) return {&bias_part("constant")};
+  return {};
 }
 
 // Parts of a bias, one number for each map: in texels of the map, or in `unit`, which is metres or depth.
@@ -91,20 +86,15 @@ std::string set_bias(const Engine& engine, std::span<const AdvicePlace> places, 
   Amounts amounts(places, of_depth ? BiasUnit::depth : BiasUnit::m);
   for (size_t i = 0; i < knobs.size(); ++i) {
     if (std::all_of(metres[i].begin(), metres[i].end(), [](double one) { return one == 0; })) continue;
-    if (knobs[i].form == BiasForm::sideways) {
-      // (1 - c) (1 + 1 / c) = s t: on every plane the same depth, by parts that Noonmark has.
-      amounts.add(bias_part("normal_offset_turned"), metres[i]);
-      amounts.add(bias_part("slope"), metres[i]);
-      continue;
+    const std::vector<const BiasPart*> parts = parts_of(knobs[i], filtered);
+    if (parts.empty())
+      return fmt::format("Noonmark does not measure what a map of moments shows with {}", knobs[i].field);
+    for (const BiasPart* part : parts) {
+      // A depth that is added to all that a map stores shows what one shows that is taken from each receiver's, which may differ
+      // from cascade to cascade.
+      if (knobs[i].form() == BiasForm::constant && !amounts.one_number(*part, metres[i])) part = &bias_part("constant");
+      amounts.add(*part, metres[i]);
     }
-    const BiasPart* part = part_of(knobs[i], filtered);
-    if (!part)
-      return filtered ? "Noonmark does not measure what a map of moments shows with " + knobs[i].field
-                      : "Noonmark has no part of a bias with the form of " + knobs[i].field;
-    // A depth that is added to all that a map stores shows what one shows that is taken from each receiver's, which may differ
-    // from cascade to cascade.
-    if (knobs[i].form == BiasForm::constant && !amounts.one_number(*part, metres[i])) part = &bias_part("constant");
-    amounts.add(*part, metres[i]);
   }
   if (const BiasPart* differs = amounts.write(settings))
     return fmt::format(
@@ -114,30 +104,18 @@ std::string set_bias(const Engine& engine, std::span<const AdvicePlace> places, 
   return "";
 }
 
-// Takes the settings if they have the engine's filter and bias.
-void take(const Engine& engine, std::span<const AdvicePlace> places, const ActingMetres& metres,
-          const std::vector<EngineKnob>& knobs, Settings settings, EngineAdvice& advice) {
-  const AdvicePlace& place = places.front();
-  if (!place.filter.as) {
-    advice.why_not_emulated = "no filter of Noonmark has the taps of " + place.filter.what;
-    return;
+// The map as the lines lay it. The result says why no settings have it; empty: they do.
+std::string set_map(const EngineText& of, Settings& settings) {
+  if (of.cascades) {
+    settings = of.cascades->laid;
+    settings.cascades.select = of.engine.cascades->select;
+    const std::vector<std::string> unlike = text_lines(of.engine.cascades->unlike, of);
+    return unlike.empty() ? "" : unlike.front();
   }
-  settings.filter = *place.filter.as;
-  advice.why_not_emulated = set_bias(engine, places, metres, knobs, settings);
-  if (!advice.why_not_emulated.empty()) return;
-  if (engine.emulate) engine.emulate(settings, place);
-  advice.emulated = std::move(settings);
-}
-
-}  // namespace
-
-void emulate(const Engine& engine, const AdvicePlace& place, const std::vector<EngineKnob>& knobs,
-             const ActingMetres& metres, EngineAdvice& advice) {
-  if (place.kind() != LightKind::directional) {
-    advice.why_not_emulated = "a spot or point light's bias changes with the distance in another way here";
-    return;
-  }
-  Settings settings = place.settings;
+  const AdvicePlace& place = of.place;
+  if (place.kind() != LightKind::directional)
+    return "a spot or point light's bias changes with the distance in another way here";
+  settings = place.settings;
   if (place.filter.lookup) settings.lookup = *place.filter.lookup, settings.map.moments = place.filter.format;
   settings.map.resolution = place.map.resolution;
   if (place.map.reach_m) {
@@ -146,19 +124,31 @@ void emulate(const Engine& engine, const AdvicePlace& place, const std::vector<E
     settings.map.extent_m = place.map.extent_m;
     settings.map.extent_scale = 1;
     settings.map.near_m = settings.map.far_m = std::nullopt;
+  } else if (fits_view(settings.map.fit)) {
+    lay_as(place.frame, settings);  // the lines are numbers: the map stays where the given view needs it
   }
-  // Otherwise the lines are numbers: the map stays where the given view needs it.
-  if (!place.map.reach_m && fits_view(settings.map.fit)) lay_as(place.frame, settings);
-  take(engine, {&place, 1}, metres, knobs, std::move(settings), advice);
+  return "";
 }
 
-void emulate_cascades(const Engine& engine, const AdvisedCascades& cascades, const std::vector<EngineKnob>& knobs,
-                      const ActingMetres& metres, EngineAdvice& advice) {
-  if (engine.cascades->unlike) advice.why_not_emulated = engine.cascades->unlike(cascades);
+}  // namespace
+
+void emulate(const EngineText& of, const std::vector<EngineKnob>& knobs, const ActingMetres& metres,
+             EngineAdvice& advice) {
+  const AdvicePlace& place = of.place;
+  Settings settings;
+  advice.why_not_emulated = set_map(of, settings);
+  if (advice.why_not_emulated.empty() && !place.filter.as)
+    advice.why_not_emulated = "no filter of Noonmark has the taps of " + place.filter.what;
   if (!advice.why_not_emulated.empty()) return;
-  Settings settings = cascades.laid;
-  settings.cascades.select = engine.cascades->select;
-  take(engine, cascades.places, metres, knobs, std::move(settings), advice);
+  settings.filter = *place.filter.as;
+  advice.why_not_emulated =
+      set_bias(of.engine, of.cascades ? std::span(of.cascades->places) : std::span(&place, 1), metres, knobs, settings);
+  if (!advice.why_not_emulated.empty()) return;
+  settings.map.cull = of.engine.culled(place);
+  if (of.engine.map.format) settings.map.format = *of.engine.map.format;
+  settings.map.pancake = settings.map.pancake || of.engine.map.pancake;
+  if (of.engine.also) of.engine.also(settings, place);
+  advice.emulated = std::move(settings);
 }
 
 Settings as_engine(const EngineAdvice& advice, Settings condition) {

@@ -1,5 +1,5 @@
-// Recommended settings as numbers to type into other engines. Each engine is one file in app/engines/ and one row of
-// the table in engine_settings.cpp.
+// Recommended settings as numbers to type into other engines, and what is typed there as settings. Each engine is one file of rows
+// (app/advise/engines/engine.h).
 //
 //   for (const EngineAdvice& advice : engine_advice(settings, make_light_frame(scene, settings), scene))
 //     print(advice.engine, advice.lines, advice.cannot);
@@ -10,6 +10,7 @@
 // that reaches further, or a coarser texel, multiplies the bias as law 1 says. The numbers hold all of that.
 #pragma once
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -79,6 +80,10 @@ struct SeenDepths {
 std::vector<EngineAdvice> engine_advice(const Settings& settings, const LightFrame& frame, const Scene& scene,
                                         const SeenDepths& in_views = {});
 
+// The same for one engine. word: of engine_words().
+EngineAdvice advice_for_engine(std::string_view word, const Settings& settings, const LightFrame& frame,
+                               const Scene& scene, const SeenDepths& in_views = {});
+
 // What people type for each engine of the table, in its order: "three", "babylon"; and for one of them.
 std::vector<std::string> engine_words();
 std::string engine_word(std::string_view engine);
@@ -92,10 +97,26 @@ double farthest_in_view_m(const Settings& settings, const Scene& scene);
 // advice.emulated, which must not be empty.
 Settings as_engine(const EngineAdvice& advice, Settings condition);
 
+// What is typed into an engine: its fields by what a user types for them, "bias" of LightShadow.bias, and their values. "filter" is one of
+// its filters, by the number of its row from 0; "lookup" is the lookup.kind of a filtered map.
+using EngineValues = std::map<std::string, std::string>;
+
+// The values of lines that are as engine_advice() writes them, with any numbers. word: of engine_words(). Comments, lines that hold no
+// value and those of cascades are passed over. unread: gets the lines that no row of the engine has.
+EngineValues read_values(std::string_view word, const std::vector<std::string>& lines, LightKind kind,
+                         std::vector<std::string>* unread = nullptr);
+
+// The settings that do what the engine does with these values under a condition, as EngineAdvice::emulated: one map of a directional
+// light. Fields that are not given are as in the condition; a bias is 0. Throws Error(usage) if the engine has no such field or does not
+// take the value, and if no settings do what it does.
+Settings settings_of_values(std::string_view word, const EngineValues& values, const Settings& condition,
+                            const Scene& scene);
+
 // A bias field of an engine, for the table in docs/reference/engines.md.
 struct EngineField {
   std::string engine, version, light;  // light: its kinds, such as "spot, point"
   std::string field, unit, place;
+  std::string source;  // where its law was read: "PATH:LINE"; empty: not known
 };
 std::vector<EngineField> engine_fields();
 

@@ -7,30 +7,15 @@
 #include <stdexcept>
 
 #include "app/advise/engines/engine.h"
-#include "app/advise/engines/unexpressed.h"
 #include "technique/filters.h"
+#include "technique/lookups.h"
 
-namespace noonmark {
-namespace opengl_engine {
+namespace noonmark::opengl_engine {
 namespace {
 
-struct PartText {
-  std::string_view part, text;  // {}: the amount
-};
-constexpr PartText texts[] = {
-    {"constant", "depth -= {};"},
-    {"slope", "{} * (1.0 - dot(N, L))"},
-    {"tan", "{} * length(cross(N, L)) / dot(N, L)"},
-    {"normal_offset", "position += {} * N;"},
-    {"normal_offset_sin", "position += {} * length(cross(N, L)) * N;"},
-    {"normal_offset_turned", "position += {} * (1.0 - dot(N, L)) * N;"},
-    {"normal_offset_lateral", "position += {} * (1.0 - dot(N, L)) * (N - dot(N, L) * L);"},
-    {"normal_offset_axes", "position += {} * (abs(dot(N, u)) + abs(dot(N, v))) * N;"},
-    {"caster_offset", "position -= {} * L;"},
-    {"caster_normal_offset", "position -= {} * N;"},
-    {"caster_normal_offset_sin", "position -= {} * length(cross(N, L)) * N;"},
-    {"caster_normal_offset_turned", "position -= {} * (1.0 - dot(N, L)) * N;"},
-};
+double depth_m(const AdvicePlace& place) { return 1 / place.depth_slope; }
+
+double half_of_width(const AdvicePlace&) { return 2; }
 
 constexpr std::string_view names_line =
     "// N, L: unit vectors from the receiver, N outward, L to the light, dot(N, L) > 0; depth: the receiver's window "
@@ -42,179 +27,148 @@ double least_polygon_factor(const AdvisedPart& part) {
   return (part.form == BiasForm::axes ? 2 : std::numbers::sqrt2) * part.amount;
 }
 
-std::string part_line(const AdvisedPart& part, const AdvicePlace& place) {
-  const bool compared = part.part->acts_on == BiasTarget::compared_depth;
-  const double unit = compared ? place.depth_slope : 1;
-  for (const PartText& row : texts) {
-    if (row.part != part.part->name) continue;
-    std::string text = fmt::format(fmt::runtime(row.text), number(part.amount * unit));
-    if (row.part == "slope" || row.part == "tan") {
-      if (part.floor > 0) text = fmt::format("max({}, {})", text, number(part.floor * unit));
-      if (std::isfinite(part.cap)) text = fmt::format("min({}, {})", text, number(part.cap * unit));
-      text = fmt::format("depth -= {};", text);
-    }
-    text += fmt::format("  // {}: bias.{}", place_name(part.part->acts_on), row.part);
-    if (part.floor > 0) text += fmt::format(" bias.{}_floor", row.part);
-    if (std::isfinite(part.cap)) text += fmt::format(" bias.{}_cap", row.part);
-    return text + (compared ? ", window depth" : ", m");
-  }
-  throw std::logic_error("a part of a bias without its line of GLSL");
-}
-
-std::string polygon_line(const AdvicePlace& place) {
-  const BiasSettings& bias = place.settings.bias;
-  return fmt::format(
-      "glEnable(GL_POLYGON_OFFSET_FILL); glPolygonOffset({}, {});  // while the map is drawn: bias.polygon_factor, "
-      "bias.polygon_units",
-      number(bias["polygon_factor"]), number(bias["polygon_units"]));
-}
-
-std::string format_name(DepthFormat format) {
-  return format == DepthFormat::d16   ? "GL_DEPTH_COMPONENT16"
-         : format == DepthFormat::d24 ? "GL_DEPTH_COMPONENT24"
-                                      : "GL_DEPTH_COMPONENT32F";
-}
-
-std::vector<std::string> map_lines(const AdvicePlace& place) {
-  const LightFrame& frame = place.frame;
-  const bool cube = place.kind() == LightKind::point;
-  std::vector<std::string> lines = {
-      fmt::format("glTexStorage2D({}, 1, {}, {}, {});", cube ? "GL_TEXTURE_CUBE_MAP" : "GL_TEXTURE_2D",
-                  format_name(place.settings.map.format), frame.resolution, frame.resolution)};
-  const std::string near_far = fmt::format("{}, {}", number(frame.near_m), number(frame.far_m));
-  const std::string half = number(frame.extent_m / 2);
-  if (place.kind() == LightKind::directional)
-    lines.push_back(fmt::format("clip_from_light = ortho(-{0}, {0}, -{0}, {0}, {1});", half, near_far));
-  else
-    lines.push_back(fmt::format("clip_from_light = perspective({}, 1, {});  // radians",
-                                number(2 * std::atan(frame.tan_half_fov)), near_far));
-  const CulledFaces cull = place.settings.map.cull;
-  if (cull == CulledFaces::none)
-    lines.emplace_back("glDisable(GL_CULL_FACE);");
-  else
-    lines.push_back(
-        fmt::format("glEnable(GL_CULL_FACE); glCullFace(GL_{});", cull == CulledFaces::back ? "BACK" : "FRONT"));
-  return lines;
-}
-
 bool is_polygon_offset(const AdvisedPart& part) {
   return part.form == BiasForm::polygon_factor || part.form == BiasForm::polygon_resolution;
 }
 
-std::string sampler_line(const FilterSettings& filter) {
-  const bool blended = find_filter(filter.kind).blended;
-  return fmt::format(
-      "glTexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE); "
-      "glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_{0}); "
-      "glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_{0});  // filter.kind = {1}",
-      blended ? "LINEAR" : "NEAREST", filter.kind);
+// The row's line, with the part's floor and cap around the depth that it computes: those have a line "depth -= ...;".
+std::string part_line(const Engine& engine, const AdvisedPart& part, const AdvicePlace& place) {
+  const EngineKnob* found = engine.knob_of(fmt::format("bias.{}", part.part->name));
+  if (!found) throw std::logic_error("a part of a bias without its line of GLSL");
+  const EngineKnob& knob = *found;
+  const auto in_unit = [&](double metres) { return number(metres / knob.of_one(place)); };
+  std::string text(knob.line), name(part.part->name), all = "bias." + name;
+  text.replace(text.find("{}"), 2, in_unit(part.amount));
+  const auto bounded = [&](const char* function, const char* what, double metres) {
+    const size_t from = std::string_view("depth -= ").size();
+    text = fmt::format("depth -= {}({}, {});", function, text.substr(from, text.size() - 1 - from), in_unit(metres));
+    all += " bias." + name + what;
+  };
+  if (part.floor > 0) bounded("max", "_floor", part.floor);
+  if (std::isfinite(part.cap)) bounded("min", "_cap", part.cap);
+  return fmt::format("{}  // {}: {}, {}", text, place_name(part.part->acts_on), all, knob.one ? "window depth" : "m");
 }
 
-std::vector<std::string> shader_limits(const AdvicePlace& place, const std::vector<AdvisedPart>& parts) {
+std::vector<std::string> limits(const AdvicePlace& place, const std::vector<AdvisedPart>& parts) {
   std::vector<std::string> said;
   for (const AdvisedPart& part : parts) {
     if (is_polygon_offset(part)) continue;
-    std::string text = fmt::format("OpenGL has no state for bias.{}: the shader must compute it.", part.part->name);
+    said.push_back(fmt::format("OpenGL has no state for bias.{}: the shader must compute it.", part.part->name));
     if (part.form == BiasForm::tangent || part.form == BiasForm::axes)
-      text +=
+      said.back() +=
           fmt::format(" glPolygonOffset({}, 0) gives at least as much on every plane, but acts on the caster (law 35).",
                       number(least_polygon_factor(part) / place.texel_m));
-    said.push_back(text);
   }
-  return said;
-}
-
-std::vector<std::string> reference_limits(const AdvicePlace& place) {
   const BiasSettings& bias = place.settings.bias;
-  if (!tap_reference(bias.reference).plane) return {};
-  std::string text = fmt::format(
-      "OpenGL has no state for bias.reference = {}: the shader must add the slope of the receiver's plane, in depth "
-      "for "
-      "each texel, times the way to the tap to the depth of each tap.",
-      bias.reference);
-  if (bias.plane_cap)
-    text += fmt::format(" bias.plane_cap = {} {} limits what it adds.", number(*bias.plane_cap),
-                        find_setting("bias.unit").get(place.settings));
-  return {text};
-}
-
-std::vector<std::string> filter_limits(const AdvicePlace& place) {
-  std::vector<std::string> said;
+  if (tap_reference(bias.reference).plane)
+    said.push_back(fmt::format(
+        "OpenGL has no state for bias.reference = {}: the shader must add the slope of the receiver's plane, in depth "
+        "for each texel, times the way to the tap to the depth of each tap.{}",
+        bias.reference,
+        bias.plane_cap ? fmt::format(" bias.plane_cap = {} {} limits what it adds.", number(*bias.plane_cap),
+                                     find_setting("bias.unit").get(place.settings))
+                       : ""));
   if (!filter_is(place, "none") && !filter_is(place, "hardware"))
     said.push_back(fmt::format(
         "OpenGL has no state for filter.kind = {}: the shader must place its taps, which reach k = {} texels. The "
         "sampler alone gives one fetch, of k = 1 if it is linear.",
         place.settings.filter.kind, number(place.reach_texels)));
-  if (place.kind() == LightKind::point)
-    said.emplace_back(
-        "For a point light the map's fragment shader must write the distance divided by far to gl_FragDepth, and the "
-        "lookup must compare the same. A polygon offset has no effect on such a map.");
   return said;
 }
 
-}  // namespace
-}  // namespace opengl_engine
-
-EngineAdvice opengl_cascades() {
-  return {
-      .engine = "OpenGL",
-      .version = "3.3 and later",
-      .lines = {},
-      .cannot =
-          {"There are no lines for cascades. The application lays them itself: point.json of noonmark render has the "
-           "slice, the matrix and the texel of each, and the bias that it needs."},
-      .source = "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)",
-      .comment = "//",
-      .why_not_emulated = "there are no lines"};
-}
-
-EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPart>& parts) {
-  using namespace opengl_engine;
-  EngineAdvice advice{"OpenGL",
-                      "3.3 and later",
-                      map_lines(place),
-                      {},
-                      "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)",
-                      "//"};
+EngineAdvice advice(const Engine& engine, const AdvicePlace& place, const std::vector<AdvisedPart>& parts,
+                    EngineAdvice advice) {
+  const EngineText of{engine, place};
   if (!compares(place.settings)) {
-    advice.lines.clear();
     advice.cannot.push_back(no_lines_for_lookup(
         place.settings.lookup.kind,
         fmt::format(
             "The passes and the lookup are the application's own shaders; technique/lookups/{}.glsl of Noonmark "
             "has the formulas.",
             place.settings.lookup.kind)));
-    advice.why_not_emulated = "there are no lines";
     return advice;
   }
+  advice.why_not_emulated.clear();
   advice.emulated = place.settings;  // the application's shader does exactly this
-  advice.lines.push_back(sampler_line(place.settings.filter));
+  const std::vector<std::string> all = text_lines(engine.lines, of);
+  const auto last = std::find(all.begin(), all.end(), "---");
+  advice.lines.assign(all.begin(), last);
   bool polygon_offset = false, shader = false;
   for (const AdvisedPart& part : parts) {
     const bool polygon = is_polygon_offset(part);
     if (!polygon && !shader) advice.lines.emplace_back(names_line);
-    if (!polygon) advice.lines.push_back(part_line(part, place));
+    if (!polygon) advice.lines.push_back(part_line(engine, part, place));
     (polygon ? polygon_offset : shader) = true;
   }
-  advice.lines.push_back(polygon_offset ? polygon_line(place) : "glDisable(GL_POLYGON_OFFSET_FILL);");
+  advice.lines.push_back(*(last + (polygon_offset ? 1 : 2)));
   for (const std::vector<std::string>& said :
-       {shader_limits(place, parts), reference_limits(place), filter_limits(place),
-        unexpressed_map(place, {"map.cull", "map.fov_deg"}), unexpressed_distance(place)})
+       {limits(place, parts), text_lines(engine.limits, of), unexpressed_map(place, {"map.cull", "map.fov_deg"})})
     advice.cannot.insert(advice.cannot.end(), said.begin(), said.end());
+  if (const std::string said = unexpressed_distance(place); !said.empty()) advice.cannot.push_back(said);
   return advice;
 }
 
-std::vector<EngineField> opengl_fields() {
-  using namespace opengl_engine;
-  std::vector<EngineField> rows;
-  for (LightKind kind : {LightKind::directional, LightKind::spot})
-    for (const auto& [field, unit] : {std::pair<std::string, std::string>{"glPolygonOffset factor",
-                                                                          "largest depth slope "
-                                                                          "of the triangle"},
-                                      {"glPolygonOffset units", "least depth difference of the format"}})
-      rows.push_back({"OpenGL", "3.3 and later", std::string(kind_of_light(kind).name()), field, unit,
-                      place_name(BiasTarget::caster)});
-  return rows;
+std::optional<std::string> own(std::string_view word, const EngineText& of) {
+  if (word == "glPolygonOffset factor") return number(of.place.settings.bias["polygon_factor"]);
+  if (word == "glPolygonOffset units") return number(of.place.settings.bias["polygon_units"]);
+  if (word == "shape") return of.place.kind() == LightKind::point ? "GL_TEXTURE_CUBE_MAP" : "GL_TEXTURE_2D";
+  if (word == "sampler") return find_filter(of.place.settings.filter.kind).blended ? "LINEAR" : "NEAREST";
+  if (word == "filter") return of.place.settings.filter.kind;
+  return std::nullopt;
 }
 
-}  // namespace noonmark
+// clang-format off
+EngineKnob depth(std::string_view is, std::string_view line) { return {.field = is, .is = is, .one = depth_m, .line = line}; }
+EngineKnob offset(std::string_view is, std::string_view line) { return {.field = is, .is = is, .line = line}; }
+
+}  // namespace
+
+Engine engine() {
+  return {
+      .name = "OpenGL",
+      .version = "3.3 and later",
+      .comment = "//",
+      .sources = "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)",
+      .knobs = {{.field = "glPolygonOffset factor", .is = "bias.polygon_factor", .unit = "largest depth slope of the triangle", .preset = 0, .lights = directional_light | spot_light},
+                {.field = "glPolygonOffset units", .is = "bias.polygon_units", .unit = "least depth difference of the format", .preset = 0, .lights = directional_light | spot_light},
+                depth("bias.constant", "depth -= {};"),
+                depth("bias.slope", "depth -= {} * (1.0 - dot(N, L));"),
+                depth("bias.tan", "depth -= {} * length(cross(N, L)) / dot(N, L);"),
+                offset("bias.normal_offset", "position += {} * N;"),
+                offset("bias.normal_offset_sin", "position += {} * length(cross(N, L)) * N;"),
+                offset("bias.normal_offset_turned", "position += {} * (1.0 - dot(N, L)) * N;"),
+                offset("bias.normal_offset_lateral", "position += {} * (1.0 - dot(N, L)) * (N - dot(N, L) * L);"),
+                offset("bias.normal_offset_axes", "position += {} * (abs(dot(N, u)) + abs(dot(N, v))) * N;"),
+                offset("bias.caster_offset", "position -= {} * L;"),
+                offset("bias.caster_normal_offset", "position -= {} * N;"),
+                offset("bias.caster_normal_offset_sin", "position -= {} * length(cross(N, L)) * N;"),
+                offset("bias.caster_normal_offset_turned", "position -= {} * (1.0 - dot(N, L)) * N;"),
+                {.field = "size", .is = "map.resolution", .least = 1, .step = 1},
+                {.field = "right", .is = "map.extent_m", .one = half_of_width},
+                {.field = "near", .is = "map.near_m", .least = -no_limit},
+                {.field = "far", .is = "map.far_m", .least = -no_limit},
+                {.field = "format", .is = "map.format"},
+                {.field = "cull face", .is = "map.cull"}},
+      .choices = {{"map.format", {"GL_DEPTH_COMPONENT16", "GL_DEPTH_COMPONENT24", "GL_DEPTH_COMPONENT32F"}},
+                  {"map.cull", {"glDisable(GL_CULL_FACE);", "glEnable(GL_CULL_FACE); glCullFace(GL_BACK);", "glEnable(GL_CULL_FACE); glCullFace(GL_FRONT);"}}},
+      .lines = R"(
+glTexStorage2D({shape}, 1, {format}, {size}, {size});
+?directional clip_from_light = ortho(-{right}, {right}, -{right}, {right}, {near}, {far});
+?!directional clip_from_light = perspective({fov}, 1, {near}, {far});  // radians
+{cull face}
+glTexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE); glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_{sampler}); \
+glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_{sampler});  // filter.kind = {filter}
+---
+glEnable(GL_POLYGON_OFFSET_FILL); glPolygonOffset({glPolygonOffset factor}, {glPolygonOffset units});  // while the map is drawn: bias.polygon_factor, \
+bias.polygon_units
+glDisable(GL_POLYGON_OFFSET_FILL);)",
+      .limits = R"(
+?point For a point light the map's fragment shader must write the distance divided by far to gl_FragDepth, and the lookup must compare the same. \
+A polygon offset has no effect on such a map.)",
+      .no_cascades = "The application lays them itself: point.json of noonmark render has the slice, the matrix and the texel of each, and the bias that it needs.",
+      .own = own,
+      .advice = advice};
+}
+// clang-format on
+
+}  // namespace noonmark::opengl_engine

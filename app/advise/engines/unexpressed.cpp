@@ -1,42 +1,13 @@
-#include "app/advise/engines/unexpressed.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "app/advise/engines/engine.h"
 #include "technique/lookups.h"
 
 namespace noonmark {
-namespace {
-
-std::string of_the_field(const AdvisedPart& part, const EngineKnob& knob) {
-  return fmt::format(
-      "bias.{} acts on {}, {} on {}. On planes both give the same depth along the light. Near edges they differ: an "
-      "offset along the normal moves a shadow's outline, and a moved caster can let light pass at the foot of a thin "
-      "wall.",
-      part.part->name, place_name(part.part->acts_on), knob.field, place_name(knob.target));
-}
-
-std::vector<std::string> unexpressed_lookup(const AdvicePlace& place) {
-  const LookupSettings &asked = place.settings.lookup, &as = *place.filter.lookup;
-  std::vector<std::string> said;
-  for (const auto& read : find_lookup(asked.kind).reads) {
-    const std::string name(read.parameter->name());
-    if (asked[name] != as[name])
-      said.push_back(fmt::format("{} = {}: the engine computes with {}.", read.parameter->setting, number(asked[name]),
-                                 number(as[name])));
-  }
-  if (!place.filter.same)
-    said.push_back(
-        fmt::format("filter.kind = {}: the nearest blur here is {}.", place.settings.filter.kind, place.filter.what));
-  said.insert(said.end(), place.filter.cannot.begin(), place.filter.cannot.end());
-  return said;
-}
-
-}  // namespace
-
 std::string unexpressed_bias(const std::vector<AdvisedPart>& parts, const AdvicePlace& place) {
   std::vector<std::string> what;
   for (const AdvisedPart& part : parts) what.push_back(fmt::format("bias.{} = {}", part.part->name, number(part.set)));
@@ -60,13 +31,16 @@ std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineK
     said.push_back(fmt::format("bias.{} = {} has no field of its form.", name, number(part.set)));
   else if (!replaced)
     said.push_back(fmt::format("bias.{} has a field, {}, but alone it is not enough.", name, knob->field));
-  else if (knob->target != part.part->acts_on)
-    said.push_back(of_the_field(part, *knob));
+  else if (knob->target() != part.part->acts_on)
+    said.push_back(
+        fmt::format("bias.{} acts on {}, {} on {}. On planes both give the same depth along the light. Near edges they "
+                    "differ: an offset along the normal moves a shadow's outline, and a moved caster can let light "
+                    "pass at the foot of a thin wall.",
+                    name, place_name(part.part->acts_on), knob->field, place_name(knob->target())));
   if (part.floor > 0)
     said.push_back(
         fmt::format("bias.{}_floor: the engine has no least value of a part. A constant bias of {} m along the light "
-                    "gives at least "
-                    "as much where the floor acts, on surfaces that are nearly square to the light.",
+                    "gives at least as much where the floor acts, on surfaces that are nearly square to the light.",
                     name, number(part.floor)));
   if (std::isfinite(part.cap))
     said.push_back(fmt::format(
@@ -76,28 +50,44 @@ std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineK
   return said;
 }
 
-std::vector<std::string> unexpressed_reference(const AdvicePlace& place, bool replaced) {
+std::string unexpressed_reference(const AdvicePlace& place, bool replaced) {
   const std::string& reference = place.settings.bias.reference;
-  if (!tap_reference(reference).plane) return {};
+  if (!tap_reference(reference).plane) return "";
   std::string said = fmt::format(
       "bias.reference = {}: every tap is compared with one depth, the receiver's own. So the bias must cover the whole "
       "kernel (law 1: k w A tan(theta), k = {} texels), which the recommended bias need not.",
       reference, number(std::max(place.reach_texels, place.filter.reach_texels)));
   if (replaced) said += " The lines hold the least that does.";
   if (place.settings.bias.plane_cap) said += " bias.plane_cap has no meaning then.";
-  return {said};
+  return said;
 }
 
-std::vector<std::string> unexpressed_filter(const AdvicePlace& place) {
-  if (place.filter.lookup) return unexpressed_lookup(place);
-  if (place.filter.same) return {};
+std::string unexpressed_filter(const AdvicePlace& place) {
+  if (place.filter.lookup || place.filter.same) return "";
   std::string said = fmt::format(
       "filter.kind = {} reaches k = {} texels. The nearest filter here is {}, which reaches {} texels.",
       place.settings.filter.kind, number(place.reach_texels), place.filter.what, number(place.filter.reach_texels));
   if (place.filter.reach_texels > place.reach_texels)
     said += fmt::format(" Law 1 needs a bias in proportion to k: the lines hold {} times the recommended one.",
                         number(place.filter.reach_texels / place.reach_texels));
-  return {said};
+  return said;
+}
+
+std::vector<std::string> unexpressed_lookup(const AdvicePlace& place) {
+  if (!place.filter.lookup) return {};
+  const LookupSettings &asked = place.settings.lookup, &as = *place.filter.lookup;
+  std::vector<std::string> said;
+  for (const auto& read : find_lookup(asked.kind).reads) {
+    const std::string name(read.parameter->name());
+    if (asked[name] != as[name])
+      said.push_back(fmt::format("{} = {}: the engine computes with {}.", read.parameter->setting, number(asked[name]),
+                                 number(as[name])));
+  }
+  if (!place.filter.same)
+    said.push_back(
+        fmt::format("filter.kind = {}: the nearest blur here is {}.", place.settings.filter.kind, place.filter.what));
+  if (!place.filter.cannot.empty()) said.emplace_back(place.filter.cannot);
+  return said;
 }
 
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed) {
@@ -119,13 +109,13 @@ std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::ve
   return said;
 }
 
-std::vector<std::string> unexpressed_distance(const AdvicePlace& place) {
-  if (place.frame.uniform()) return {};
-  return {fmt::format(
+std::string unexpressed_distance(const AdvicePlace& place) {
+  if (place.frame.uniform()) return "";
+  return fmt::format(
       "On a {} light a texel is wider and a step of depth is longer at a greater distance. The numbers hold at {} m "
       "from the light along the axis{}, where a texel is {} m wide.",
       kind_of_light(place.kind()).name(), number(place.distance_m),
-      place.kind() == LightKind::point ? " of a face of the cube" : "", number(place.texel_m))};
+      place.kind() == LightKind::point ? " of a face of the cube" : "", number(place.texel_m));
 }
 
 }  // namespace noonmark
