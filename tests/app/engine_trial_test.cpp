@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/advise/engine_trial_json.h"
-#include "base/error.h"
 #include "base/file.h"
 #include "tests/app/engine_case.h"
+#include "tests/support/kind_thrown.h"
 #include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
@@ -19,16 +19,6 @@ namespace noonmark {
 namespace {
 
 using test::joined;
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
-    return error.what();
-  }
-  return "nothing was refused";
-}
 
 class EngineTrials : public testing::Test {
  protected:
@@ -58,15 +48,16 @@ TEST_F(EngineTrials, EverythingThatIsMissingIsNamedAtOnce) {
   setenv("PATH", folder_.c_str(), 1);
   setenv("NODE_MODULES", (folder_ + "/modules").c_str(), 1);
   unsetenv("CHROMIUM");
-  const std::string all = refusal([&] { find_adapters({"three", "babylon"}, folder_); });
+  const std::string all = refusal_of(ErrorKind::usage, [&] { find_adapters({"three", "babylon"}, folder_); });
   for (const char* word :
        {"shoot.mjs in ", "node (", "chromium (", "npm's babylonjs, babylonjs-loaders, babylonjs-materials in "})
     EXPECT_NE(all.find(word), all.npos) << word << " is not in: " << all;
   EXPECT_EQ(all.find("npm's three"), all.npos) << all;
   install("node");
-  EXPECT_EQ(refusal([&] { find_adapters({"three"}, adapters); }).find("node ("), std::string::npos);
+  EXPECT_EQ(refusal_of(ErrorKind::usage, [&] { find_adapters({"three"}, adapters); }).find("node ("),
+            std::string::npos);
   setenv("CHROMIUM", "browser", 1);
-  EXPECT_NE(refusal([&] { find_adapters({"three"}, adapters); }).find("browser ("), std::string::npos);
+  expect_refused(ErrorKind::usage, {"browser ("}, [&] { find_adapters({"three"}, adapters); });
   install("browser");
   const AdapterTools tools = find_adapters({"three"}, adapters);
   EXPECT_EQ(tools.node, folder_ + "/node");
@@ -83,25 +74,17 @@ TEST_F(EngineTrials, TheAdaptersOfTheSourceAreFoundFromTheProgram) {
 }
 
 TEST_F(EngineTrials, AnEngineWithoutLinesOrPageIsRefusedWithItsReason) {
-  EXPECT_NE(refusal([] { engine_adapter("blender"); }).find("recommend prints no lines for Blender"),
-            std::string::npos);
-  EXPECT_NE(refusal([] { engine_adapter("filament"); }).find("cannot set the normal bias"), std::string::npos);
-  EXPECT_NE(refusal([] { engine_adapter("tree"); }).find("these can be tried: three, babylon"), std::string::npos);
+  expect_refused(ErrorKind::usage, {"recommend prints no lines for Blender"}, [] { engine_adapter("blender"); });
+  expect_refused(ErrorKind::usage, {"cannot set the normal bias"}, [] { engine_adapter("filament"); });
+  expect_refused(ErrorKind::usage, {"these can be tried: three, babylon"}, [] { engine_adapter("tree"); });
 }
 
 TEST_F(EngineTrials, AnAdapterThatGivesNoFrameSaysWhatItSaid) {
   write_file_atomically(folder_ + "/node", "#!/bin/sh\necho first\necho the page failed >&2\nexit 1\n");
   std::filesystem::permissions(folder_ + "/node", std::filesystem::perms::owner_all);
   const AdapterTools tools{folder_, folder_, folder_ + "/node"};
-  try {
-    shoot(tools, engine_adapter("three"), "model.glb", folder_ + "/view1", {});
-    ADD_FAILURE() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::device);
-    EXPECT_NE(std::string(error.what()).find("three.js gave no frame (code 1): the page failed; the whole text is in"),
-              std::string::npos)
-        << error.what();
-  }
+  expect_refused(ErrorKind::device, {"three.js gave no frame (code 1): the page failed; the whole text is in"},
+                 [&] { shoot(tools, engine_adapter("three"), "model.glb", folder_ + "/view1", {}); });
 }
 
 EngineAdvice tried(TrialView second) {
