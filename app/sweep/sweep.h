@@ -17,6 +17,13 @@
 #include "compare/results/records.h"
 #include "compare/store/store.h"
 
+namespace noonmark::gl {
+struct DeviceInfo;
+}
+namespace noonmark::raytrace {
+struct TracerInfo;
+}
+
 namespace noonmark {
 
 struct SweepOutcome;

@@ -1,4 +1,4 @@
-// Lines and values of an engine, read back into settings by the rows that write them.
+// TextLines and values of an engine, read back into settings by the rows that write them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -61,8 +61,8 @@ std::string fields_of(const Engine& engine, LightKind kind) {
   return fmt::to_string(fmt::join(words, ", "));
 }
 
-// Lines of an engine, which of them have been read, and what they said.
-struct Lines {
+// TextLines of an engine, which of them have been read, and what they said.
+struct TextLines {
   const Engine& engine;
   LightKind kind;
   const std::vector<std::string>& lines;
@@ -100,7 +100,7 @@ struct Lines {
 EngineValues read_values(std::string_view engine_word, const std::vector<std::string>& lines, LightKind kind,
                          std::vector<std::string>* unread) {
   const Engine engine = engine_of(engine_word);
-  Lines all{engine, kind, lines};
+  TextLines all{engine, kind, lines};
   all.take(engine.lines);
   for (size_t i = 0; i < engine.filters.size(); ++i)
     if (const EngineFilterRow& row = engine.filters[i];
