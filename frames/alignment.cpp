@@ -87,6 +87,25 @@ const PictureFlip* ValueAlignment::flip() const {
   return best;
 }
 
+namespace {
+
+void take_means(OutlineAlignment::Side& sums) {
+  const auto of = [](size_t count) { return static_cast<double>(std::max<size_t>(1, count)); };
+  sums.lit_wrong /= of(sums.lit), sums.dark_wrong /= of(sums.dark);
+  sums.lit_pull /= of(sums.lit_inside), sums.dark_pull /= of(sums.dark_inside);
+  sums.lit_next /= of(sums.lit_inside), sums.dark_next /= of(sums.dark_inside);
+}
+
+// The values across an outline, from inside the lit surface to inside the dark one.
+void add_step(OutlineAlignment::Side& side, float lit_inside, float lit, float dark, float dark_inside) {
+  const float step = lit_inside - dark_inside;
+  if (!(step > 0.5f)) return;
+  ++side.steps;
+  side.ramps += lit - dark < step / 2 && std::abs(lit + dark - lit_inside - dark_inside) < step / 2;
+}
+
+}  // namespace
+
 OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
                                    const Image<float>& pixel_m) {
   const int width = frame.visibility.width, height = frame.visibility.height;
@@ -133,12 +152,8 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
     const int c = u + OutlineAlignment::inside_px * (u - x), d = v + OutlineAlignment::inside_px * (v - y);
     if (truth.soft[i] == 1 && c >= 0 && d >= 0 && c < width && d < height) {
       const size_t l = truth.lit.index(c, d);
-      const float step = frame.visibility[k] - frame.visibility[l];
-      if (receivers.primitive[l] != no_primitive && !apart(j, l) && step > 0.5f) {
-        ++side.steps;
-        const float off = frame.visibility[i] + frame.visibility[j] - frame.visibility[k] - frame.visibility[l];
-        side.ramps += frame.visibility[i] - frame.visibility[j] < step / 2 && std::abs(off) < step / 2;
-      }
+      if (receivers.primitive[l] != no_primitive && !apart(j, l))
+        add_step(side, frame.visibility[k], frame.visibility[i], frame.visibility[j], frame.visibility[l]);
     }
     const float next = frame.visibility.at(x + (x - u), y + (y - v));
     const double darker = frame.visibility[k] - frame.visibility[i],
@@ -158,14 +173,7 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
       book(found.above, x, y, x, y - 1);
       book(found.below, x, y, x, y + 1);
     }
-  for (OutlineAlignment::Side* side : {&found.left, &found.right, &found.above, &found.below}) {
-    side->lit_wrong /= static_cast<double>(std::max<size_t>(1, side->lit));
-    side->dark_wrong /= static_cast<double>(std::max<size_t>(1, side->dark));
-    side->lit_pull /= static_cast<double>(std::max<size_t>(1, side->lit_inside));
-    side->dark_pull /= static_cast<double>(std::max<size_t>(1, side->dark_inside));
-    side->lit_next /= static_cast<double>(std::max<size_t>(1, side->lit_inside));
-    side->dark_next /= static_cast<double>(std::max<size_t>(1, side->dark_inside));
-  }
+  for (OutlineAlignment::Side* side : {&found.left, &found.right, &found.above, &found.below}) take_means(*side);
   return found;
 }
 
@@ -181,12 +189,7 @@ OutlineAlignment::Side OutlineAlignment::all() const {
     sum.lit_next += side->lit_next * static_cast<double>(side->lit_inside);
     sum.dark_next += side->dark_next * static_cast<double>(side->dark_inside);
   }
-  sum.lit_wrong /= static_cast<double>(std::max<size_t>(1, sum.lit));
-  sum.dark_wrong /= static_cast<double>(std::max<size_t>(1, sum.dark));
-  sum.lit_pull /= static_cast<double>(std::max<size_t>(1, sum.lit_inside));
-  sum.dark_pull /= static_cast<double>(std::max<size_t>(1, sum.dark_inside));
-  sum.lit_next /= static_cast<double>(std::max<size_t>(1, sum.lit_inside));
-  sum.dark_next /= static_cast<double>(std::max<size_t>(1, sum.dark_inside));
+  take_means(sum);
   return sum;
 }
 

@@ -179,7 +179,7 @@ const ValueCurve* CurveEvidence::by_ramps() const {
   const size_t curve = straight[2] > straight[1] ? 2 : 1;
   const double here = straight[0], there = straight[curve];
   if (here >= mostly && here >= 3 * there) return &value_curves[0];
-  if (there >= mostly && there >= 3 * std::max(here, straight_by_chance)) return &value_curves[curve];
+  if (there >= mostly && there >= 3 * here && there >= 1.5 * straight_by_chance) return &value_curves[curve];
   return nullptr;
 }
 

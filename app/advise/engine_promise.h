@@ -1,8 +1,8 @@
 // Measures the error that an engine will have with the lines that are printed for it. EngineAdvice::emulated are settings of
 // Noonmark with the same effect as these lines in the engine, and they are measured as any settings are.
 //
-//   const EnginePromise recommended = measure_promises(bench, engines, under_conditions(answer, request), "error", say);
-//   print(promise_text(engines[0], recommended));   // "error 0.31% with these lines (recommended: 0.29%)"
+//   const EnginePromise recommended = measure_promises(bench, advised, under_conditions(answer, request), "error", say);
+//   print(promise_text(advised[0], recommended));   // "error 0.31% with these lines (recommended: 0.29%)"
 #pragma once
 #include <functional>
 #include <optional>

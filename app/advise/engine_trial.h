@@ -2,9 +2,9 @@
 // engine's own frames are judged under the searched views, beside what was promised.
 //
 //   const TrialPlan plan = plan_trial(bench, request.conditions, {"three"}, "");   // before the search
-//   try_engines(bench, plan, engines, {.bounds = request.curve, .accuracy = "error_soft"}, out, say);
-//   for (const std::string& line : trial_text(engines[0])) print(line);
-//   return broken_in_engine(engines) ? 1 : 0;
+//   try_engines(bench, plan, advised, {.bounds = request.curve, .accuracy = "error_soft"}, out, say);
+//   for (const std::string& line : trial_text(advised[0])) print(line);
+//   return broken_in_engine(advised) ? 1 : 0;
 #pragma once
 #include <functional>
 #include <optional>
