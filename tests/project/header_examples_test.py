@@ -48,7 +48,6 @@ TYPES = {
 # The same where a header means something else by the name.
 OWN_TYPES = {
     "app/definition/experiment_keys.h": {"bound": "Bound"},
-    "app/advise/recommend_around.h": {"advice": "Advice"},
     "app/pictures/picture_files.h": {"picture": "Image<Color>"},
     "app/sweep/failing_pixels.h": {"pictures": "std::vector<SummaryPicture>"},
     "app/sweep/frame_map.h": {"frame": "GivenFrame", "verdict": "FrameVerdict"},
