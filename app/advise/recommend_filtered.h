@@ -3,8 +3,8 @@
 //
 //   for (BiasLevel& level : filtered_levels({"vsm", "msm"})) request.levels.push_back(level);
 //
-// What leaks and what a bias, a floor or a bias of what is stored lifts is held to the bound on Peter Panning, because both are light in a
-// shadow. What the bound of the lookup and its reduction darken is held to the bound on acne.
+// Light in a shadow, from a leak, a bias or a floor of the variance, is held to the bound on Peter Panning. A lit surface that the lookup's
+// own bound or its reduction darkens is held to the bound on acne.
 #pragma once
 #include <functional>
 #include <span>
