@@ -88,8 +88,8 @@ struct OutlineAlignment {
   // The more blurred of left and right, and above and below. A blur by motion has one direction.
   struct Ramps {
     size_t steps = 0, ramps = 0;
-    // Filters of 1 to 25 taps over wide texels, and blurred moments, make ramps of a tenth at most; blurs of 5 pixels, of nearly all
-    // of them but where acne of single pixels is blurred, too.
+    // Filters over wide texels and blurred moments make ramps of at most a tenth of the steps. A blur over 5 pixels makes them of
+    // more than a half, except where the acne of single pixels is blurred with them.
     bool of_blur() const { return steps >= enough && 2 * ramps >= steps; }
   };
   Ramps ramps() const;
