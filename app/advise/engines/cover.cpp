@@ -68,20 +68,21 @@ std::optional<std::vector<double>> least_cover(const std::vector<BiasForm>& form
                                                const std::function<double(double, double)>& needed) {
   const Grid grid(forms, needed);
   if (grid.needed.empty()) return std::vector<double>(forms.size(), 0);
-  std::optional<std::vector<double>> best;
+  std::vector<double> best;
   double least = infinity;
   const auto offer = [&](size_t i, size_t j, double of_j) {
     const double of_i = grid.beside(i, j, of_j), depth = of_i * grid.at_45[i] + of_j * grid.at_45[j];
     if (!(of_i * grid.at_45[i] <= unbounded * grid.scale) || !(depth < least)) return;
     least = depth;
-    best.emplace(forms.size(), 0);
-    (*best)[j] = of_j;
-    (*best)[i] = of_i;
+    best.assign(forms.size(), 0);
+    best[j] = of_j;
+    best[i] = of_i;
   };
   for (size_t i = 0; i < forms.size(); ++i) offer(i, i, 0);
-  if (best) return best;
+  if (!best.empty()) return best;
   for (size_t i = 0; i < forms.size(); ++i)
     for (size_t j = i + 1; j < forms.size(); ++j) offer(i, j, grid.best_beside(i, j));
+  if (best.empty()) return std::nullopt;
   return best;
 }
 
