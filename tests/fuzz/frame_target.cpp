@@ -101,6 +101,7 @@ std::vector<Json> frames() {
   const Json bulb = {{"kind", "point"}, {"position", {0, 5, 0}}, {"radius", 0.1}, {"shape", "disc"}};
   return {
       with({{"metres_per_unit", 1},
+            {"visibility", {{"file", "visibility.npy"}, {"step", 0.004}}},
             {"camera",
              {{"eye", {0, 8, 0.1}},
               {"target", {0, 0, 0}},
