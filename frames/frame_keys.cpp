@@ -24,7 +24,7 @@ constexpr NumberRange view_angle_deg{degrees(ranges::view_angle_rad.least), degr
 constexpr NumberRange of_matrix{-1e30, 1e30};
 constexpr NumberRange unit_m{1e-9, 1e6};  // from a nanometre on
 constexpr NumberRange edge_m{1e-9, ranges::coordinate_m.most};
-constexpr NumberRange step{0, 1};
+constexpr NumberRange step{0, 0.5};           // beyond a half any lookup would be the frame's own
 constexpr NumberRange edge_count{1e-3, 1e6};  // of pixels or texels: from none to all of a picture
 
 // The key is the same quantity as this setting.

@@ -211,12 +211,13 @@ Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
   constexpr double mixed = 0.05;
   const OutlineAlignment by_side = outline_alignment(e.frame, e.receivers, e.truth, e.pixel_m);
   const OutlineAlignment::Side outlines = by_side.all();
+  // Not a failure: a dark roof that ends in the plane of its wall has its true shadow edge on the outline, and a filter blurs it there.
   if (const OutlineAlignment::Ramps found = by_side.ramps(); found.of_blur())
-    return failed(
+    return not_checked(
         fmt::format("at {} of {} outlines between a lit and a shadowed surface the values pass over from one to the "
                     "other by less than half of their "
-                    "difference: the picture was blurred, as by motion; {}",
-                    found.ramps, found.steps, instead));
+                    "difference: the picture was blurred, as by motion, or edges of shadows lie on outlines",
+                    found.ramps, found.steps));
   const bool told = outlines.lit_inside >= OutlineAlignment::enough && outlines.dark_inside >= OutlineAlignment::enough;
   const std::string at_outlines = fmt::format(
       "at the outlines of surfaces, lit pixels are {:.3f} darker and shadowed ones {:.3f} lighter than their own "

@@ -127,6 +127,34 @@ CheckResult alignment_in(const Plates& plates, const Image<float>& visibility) {
   return check_named(judge_frame(plates.scene, *plates.tracer, frame, {}), "alignment");
 }
 
+// A roof with its ridge towards the camera, whose larger side faces away from the light. A shader that looks nothing up where N.L is
+// below 0 writes 1 there, and is right on the side that faces the light.
+TEST(Match, BackFacesMayBeLit) {
+  Scene scene;
+  add_rectangle(scene, {-3, -3, -1.5f}, {3.6f, 0, 1.8f}, {0, 6, 0});
+  add_rectangle(scene, {0.6f, -3, 0.3f}, {2.4f, 0, -3}, {0, 6, 0});
+  scene.light.position_m = {10, 0, 3};
+  scene.light.target_m = {0, 0, 0};
+  const Camera camera{.projection = Projection::orthographic,
+                      .eye_m = {0, 0, 5},
+                      .target_m = {0, 0, 0},
+                      .height_m = 3,
+                      .near_m = 0.1,
+                      .far_m = 12};
+  const raytrace::Tracer tracer(scene);
+  const GivenFrame frame{.name = "frame",
+                         .visibility = Image<float>(width, height, 1),
+                         .positions = {},
+                         .view = ViewMatrix(make_camera_frame(camera, width, height).clip_from_world()),
+                         .light = scene.light};
+  const FrameVerdict verdict = judge_frame(scene, tracer, frame, {});
+  size_t away = 0;
+  for (size_t i = 0; i < verdict.truth.facing.size(); ++i) away += !verdict.truth.facing[i];
+  ASSERT_GT(2 * away, frame.visibility.size());
+  EXPECT_EQ(verdict.metrics.at("frame_error"), 0);
+  EXPECT_NE(check_named(verdict, "match").state, CheckState::failed) << check_named(verdict, "match").says;
+}
+
 TEST(Alignment, AFullPictureIsShifted) {
   const std::unique_ptr<Plates> made = plates();
   const CheckResult straight = alignment_in(*made, made->frame.visibility);

@@ -101,7 +101,7 @@ TEST(Samples, ABlurOfThePictureIsNamed) {
     GivenFrame frame = from.frame;
     frame.visibility = processed(from.frame.visibility, blurred);
     const CheckResult found = check_named(judge_frame(*from.scene, *from.tracer, frame, {}), "samples");
-    EXPECT_EQ(found.state, CheckState::failed) << found.says;
+    EXPECT_EQ(found.state, CheckState::not_checked) << "an edge of a shadow on an outline looks alike: " << found.says;
     EXPECT_NE(found.says.find("blurred"), std::string::npos) << found.says;
   }
 }
