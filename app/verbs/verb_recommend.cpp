@@ -104,7 +104,7 @@ std::string whole_text(const Advice& advice) {
   return text;
 }
 
-// What to type into the engines that are shown, each with what it gave in the engine itself, and where the others are.
+// The lines of the engines that are shown, what each gave in the engine itself, and where the lines of the others are.
 void print_lines(const std::vector<EngineAdvice>& engines, std::span<const std::string> shown, const std::string& out) {
   std::vector<std::string> others;
   for (const EngineAdvice& engine : engines) {

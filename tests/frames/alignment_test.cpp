@@ -92,6 +92,21 @@ void add_rectangle(Scene& scene, glm::vec3 corner, glm::vec3 a, glm::vec3 b) {
   scene.triangles.emplace_back(first, first + 2, first + 3);
 }
 
+// Every pixel has this visibility. From z = 5, across this height.
+GivenFrame frame_along_z(const Scene& scene, double height_m, float visibility) {
+  const Camera camera{.projection = Projection::orthographic,
+                      .eye_m = {0, 0, 5},
+                      .target_m = {0, 0, 0},
+                      .height_m = height_m,
+                      .near_m = 0.1,
+                      .far_m = 12};
+  return {.name = "frame",
+          .visibility = Image<float>(width, height, visibility),
+          .positions = {},
+          .view = ViewMatrix(make_camera_frame(camera, width, height).clip_from_world()),
+          .light = scene.light};
+}
+
 std::unique_ptr<Plates> plates() {
   Scene scene;
   add_rectangle(scene, {-20, -20, 0}, {40, 0, 0}, {0, 40, 0});
@@ -103,17 +118,7 @@ std::unique_ptr<Plates> plates() {
   add_rectangle(scene, {-20, 2.5f, 0.5f}, {40, 0, 0}, {0, 6, 0});
   scene.light.position_m = {0, 10, 1};
   scene.light.target_m = {0, 0, 0};
-  const Camera camera{.projection = Projection::orthographic,
-                      .eye_m = {0, 0, 5},
-                      .target_m = {0, 0, 0},
-                      .height_m = 4,
-                      .near_m = 0.1,
-                      .far_m = 8};
-  const GivenFrame frame{.name = "frame",
-                         .visibility = Image<float>(width, height, 0),
-                         .positions = {},
-                         .view = ViewMatrix(make_camera_frame(camera, width, height).clip_from_world()),
-                         .light = scene.light};
+  const GivenFrame frame = frame_along_z(scene, 4, 0);
   std::unique_ptr<Plates> made(new Plates{std::move(scene), nullptr, frame});
   made->tracer = std::make_unique<raytrace::Tracer>(made->scene);
   const FrameVerdict black = judge_frame(made->scene, *made->tracer, made->frame, {});
@@ -135,18 +140,8 @@ TEST(Match, BackFacesMayBeLit) {
   add_rectangle(scene, {0.6f, -3, 0.3f}, {2.4f, 0, -3}, {0, 6, 0});
   scene.light.position_m = {10, 0, 3};
   scene.light.target_m = {0, 0, 0};
-  const Camera camera{.projection = Projection::orthographic,
-                      .eye_m = {0, 0, 5},
-                      .target_m = {0, 0, 0},
-                      .height_m = 3,
-                      .near_m = 0.1,
-                      .far_m = 12};
   const raytrace::Tracer tracer(scene);
-  const GivenFrame frame{.name = "frame",
-                         .visibility = Image<float>(width, height, 1),
-                         .positions = {},
-                         .view = ViewMatrix(make_camera_frame(camera, width, height).clip_from_world()),
-                         .light = scene.light};
+  const GivenFrame frame = frame_along_z(scene, 3, 1);
   const FrameVerdict verdict = judge_frame(scene, tracer, frame, {});
   size_t away = 0;
   for (size_t i = 0; i < verdict.truth.facing.size(); ++i) away += !verdict.truth.facing[i];

@@ -63,8 +63,8 @@ Engine engine() {
       .name = "Godot",
       .version = "4.4, Forward+",
       .comment = "#",
-      // The first two are as pull request 101952 left them (7 February 2025), read in copies of which neither the commit nor the lines are
-      // known. The file of the third could be read in parts only.
+      // The first two rows are as pull request 101952 left them (7 February 2025). The copies that were read name neither a commit nor
+      // line numbers. Of the third row's file only parts could be read.
       .sources = R"(@godotengine/godot 4.4-stable
 servers/rendering/renderer_rd/shaders/scene_forward_lights_inc.glsl splane.z += spot_lights.data[idx].shadow_bias;
 servers/rendering/renderer_scene_cull.cpp real_t z_near = MIN(0.025f, radius);
