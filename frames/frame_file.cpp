@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 #include "base/error.h"
@@ -339,7 +340,14 @@ auto named(const std::string& path, const char* key, const auto& find) {
 FrameFile parse_frame_file(const std::string& path, std::string_view text) {
   const Json json = [&] {
     try {
-      return Json::parse(text);
+      return Json::parse(
+          text, [&, keys = std::vector<std::set<std::string>>()](int, Json::parse_event_t event, Json& parsed) mutable {
+            if (event == Json::parse_event_t::object_start) keys.emplace_back();
+            if (event == Json::parse_event_t::object_end) keys.pop_back();
+            if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
+              refuse(path, fmt::format("has the key '{}' twice in one object; keep one", parsed.get<std::string>()));
+            return true;
+          });
     } catch (const Json::exception& fault) {
       const std::string why = fault.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
       refuse(path, "is not JSON: " + why.substr(why.find(']') + 2));

@@ -166,6 +166,20 @@ TEST(FrameFile, WhatIsWrongIsNamed) {
   EXPECT_THROW(parse_frame_file("frame.json", "[]"), Error);
 }
 
+// Of two values the last would be taken in silence.
+TEST(FrameFile, AKeyTwiceIsNamed) {
+  const std::string text = least().dump();
+  for (const auto& [twice, words] : {std::pair{"\"noonmark_frame\": 1, ", "'noonmark_frame' twice"},
+                                     {"\"notes\": [], \"notes\": [], ", "'notes' twice"}})
+    try {
+      parse_frame_file("frame.json", "{" + std::string(twice) + text.substr(1));
+      ADD_FAILURE() << twice;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  EXPECT_NO_THROW(parse_frame_file("frame.json", text)) << "one name in two objects is no fault";
+}
+
 // A length is checked in metres, whatever the renderer's unit is, and a setting's range is that of its key.
 TEST(FrameFile, EveryNumberHasARange) {
   for (const FrameKey& key : frame_keys()) {
