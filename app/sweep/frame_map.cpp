@@ -186,6 +186,9 @@ std::optional<Ladder> FrameMap::climb(const GivenFrame& frame, bool accepted, Fr
   CheckResult check = check_given_map(climbed.map_off_m, climbed.depth_spread_m, climbed.is_scenes_map);
   const std::string undeclared = undeclared_text(climbed, technique.settings, given, map.frame);
   if (check.state == CheckState::failed && !undeclared.empty()) check.says = undeclared;
+  if (frame.step > 0)
+    check.says +=
+        fmt::format("; a value is the declared lookup's own within {:.3g}, the step of the visibility", frame.step);
   check.accepted = accepted;
   // A lookup that is not the frame's has causes of its own, which say nothing of the frame.
   // Where normals are interpolated and the bias reads them, it may be the frame's all the same, if it is nearer to it than the

@@ -365,6 +365,7 @@ TEST_F(JudgeWithMap, ALookupIsTheFramesWithinTheStepOfThePicture) {
   EXPECT_TRUE(says("it is not the frame's own")) << output_;
   frame["visibility"]["step"] = 1.0 / 30;
   EXPECT_NEAR(judged(frame)["metrics"]["acne"], metrics_.at("acne"), 1e-9);
+  EXPECT_TRUE(says("within 0.0333, the step of the visibility")) << output_;
   frame["map"]["technique"].erase("bias.constant");
   judged(frame, 3);
   frame["visibility"]["step"] = 2;
