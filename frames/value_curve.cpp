@@ -104,7 +104,7 @@ void find_ramps(const CheckEvidence& e, double rounding, CurveEvidence& found) {
     double least = 1, most = -1;
     for (size_t c = 0; c < curve_count; ++c) {
       off[c] = off_by(value_curves[c].linear);
-      if (c == 2) continue;  // sRGB and a power of 2.2 are too much alike to be told apart here
+      if (c > 1) continue;  // sRGB and powers are too much alike to be told apart here
       least = std::min(least, off[c]);
       most = std::max(most, off[c]);
     }
@@ -133,6 +133,9 @@ const std::array<ValueCurve, curve_count> value_curves{{
     {"linear", [](double value) { return value; }},
     {"sRGB", linear_of_srgb},
     {"a gamma of 2.2", [](double value) { return std::pow(std::max(0.0, value), 2.2); }},
+    {"a gamma of 1.8", [](double value) { return std::pow(std::max(0.0, value), 1.8); }},
+    {"a square root", [](double value) { return value * value; }},
+    {"a gamma of 2.4", [](double value) { return std::pow(std::max(0.0, value), 2.4); }},
 }};
 
 double rounding_of(const Image<float>& visibility) {
@@ -176,7 +179,7 @@ const ValueCurve* CurveEvidence::by_ramps() const {
   constexpr size_t enough_ramps = 25;
   constexpr double mostly = 0.25;
   if (ramps < enough_ramps) return nullptr;
-  const size_t curve = straight[2] > straight[1] ? 2 : 1;
+  const auto curve = static_cast<size_t>(std::max_element(straight.begin() + 1, straight.end()) - straight.begin());
   const double here = straight[0], there = straight[curve];
   if (here >= mostly && here >= 3 * there) return &value_curves[0];
   if (there >= mostly && there >= 3 * here && there >= 1.5 * straight_by_chance) return &value_curves[curve];

@@ -18,7 +18,7 @@ struct ValueCurve {
   double (*linear)(double value);  // of an encoded value
 };
 double linear_of_srgb(double value);  // IEC 61966-2-1
-inline constexpr size_t curve_count = 3;
+inline constexpr size_t curve_count = 6;
 extern const std::array<ValueCurve, curve_count> value_curves;
 
 // How well values are multiples of 1/taps.

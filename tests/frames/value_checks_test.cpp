@@ -42,9 +42,13 @@ TEST(Values, SumsOfWeightsMayBeRounded) {
 
 TEST(Encoding, TheLevelsOfAFilterTellIt) {  // of 9 taps
   EXPECT_EQ(check_named(good().judged(), "encoding").state, CheckState::passed);
-  for (const auto& curve : {srgb, gamma_22})
-    expect_named(with(each_value(good().frame.visibility, curve)), "encoding",
-                 curve == srgb ? "sRGB" : "a gamma of 2.2");
+  expect_named(with(each_value(good().frame.visibility, srgb)), "encoding", "sRGB");
+  for (const auto& [power, name] :
+       {std::pair{1.8, "a gamma of 1.8"}, {2.0, "a square root"}, {2.2, "a gamma of 2.2"}, {2.4, "a gamma of 2.4"}}) {
+    const double root = 1 / power;
+    const auto encoded = [&](float v) { return static_cast<float>(std::pow(v, root)); };
+    expect_named(with(each_value(good().frame.visibility, encoded)), "encoding", name);
+  }
   expect_named(with(each_value(good().frame.visibility, [](float v) { return as_8_bits(srgb(v)); })), "encoding",
                "encoded with");
 }
