@@ -106,8 +106,11 @@ void add_step(OutlineAlignment::Side& side, float lit_inside, float lit, float d
 
 }  // namespace
 
-OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
-                                   const Image<float>& pixel_m) {
+OutlineAlignment outline_alignment(const CheckEvidence& e) {
+  const GivenFrame& frame = e.frame;
+  const ReceiverImage& receivers = e.receivers;
+  const ReceiverTruth& truth = e.truth;
+  const Image<float>& pixel_m = e.pixel_m;
   const int width = frame.visibility.width, height = frame.visibility.height;
   const auto apart = [&](size_t a, size_t b) {
     const glm::dvec3 way = glm::dvec3(receivers.position[b]) - glm::dvec3(receivers.position[a]);
@@ -115,7 +118,8 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
     return std::abs(glm::dot(glm::dvec3(receivers.normal[a]), way)) > least &&
            std::abs(glm::dot(glm::dvec3(receivers.normal[b]), way)) > least;
   };
-  // Whether all receivers nearby that may lie on the pixel's own surface have its truth.
+  // Whether all receivers nearby that may lie on the pixel's own surface have its truth. What the outline hides of the surface is
+  // asked by rays (edge_hidden): a true edge may end there, as at the foot of a block.
   const auto is_whole = [&](int x, int y) {
     constexpr int reach = OutlineAlignment::outline_reach_px;
     const size_t i = truth.lit.index(x, y);
@@ -127,19 +131,36 @@ OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage&
       }
     return true;
   };
+  // Whether the two lie apart in depth, and one of them is lit and the other not.
+  const auto is_step = [&](int x, int y, int u, int v) {
+    if (u < 0 || v < 0 || u >= width || v >= height) return false;
+    const size_t i = truth.lit.index(x, y), j = truth.lit.index(u, v);
+    return receivers.primitive[j] != no_primitive && std::abs(truth.soft[i] - truth.soft[j]) == 1 && apart(i, j);
+  };
+  const Image<uint8_t> edge_hidden = [&] {
+    Image<uint8_t> at_step(width, height, 0);
+    Image<float> reach(width, height, 0);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const size_t i = at_step.index(x, y);
+        if (receivers.primitive[i] == no_primitive || std::isnan(frame.visibility[i])) continue;
+        at_step[i] =
+            is_step(x, y, x - 1, y) || is_step(x, y, x + 1, y) || is_step(x, y, x, y - 1) || is_step(x, y, x, y + 1);
+        reach[i] = static_cast<float>(OutlineAlignment::outline_reach_px * pixel_m[i]);
+      }
+    return e.tracer.edge_within(receivers, truth, e.light, at_step, reach, pixel_m);
+  }();
   OutlineAlignment found;
   // 0: not known yet, 1: whole, 2: not
   Image<uint8_t> known(width, height, 0);
   const auto whole = [&](int x, int y) {
     uint8_t& state = known.at(x, y);
-    if (state == 0) state = is_whole(x, y) ? 1 : 2;
+    if (state == 0) state = !edge_hidden.at(x, y) && is_whole(x, y) ? 1 : 2;
     return state == 1;
   };
   const auto book = [&](OutlineAlignment::Side& side, int x, int y, int u, int v) {
-    if (u < 0 || v < 0 || u >= width || v >= height) return;
+    if (!is_step(x, y, u, v) || !whole(x, y) || !whole(u, v)) return;
     const size_t i = truth.lit.index(x, y), j = truth.lit.index(u, v);
-    if (receivers.primitive[j] == no_primitive || std::abs(truth.soft[i] - truth.soft[j]) != 1 || !apart(i, j)) return;
-    if (!whole(x, y) || !whole(u, v)) return;
     const double wrong = std::abs(frame.visibility[i] - truth.soft[i]);
     if (truth.soft[i] == 1)
       ++side.lit, side.lit_wrong += wrong;

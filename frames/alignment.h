@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "frames/checks.h"
 #include "frames/frame.h"
 #include "technique/evidence.h"
 
@@ -51,7 +52,7 @@ struct ValueAlignment {
 ValueAlignment value_alignment(const GivenFrame& frame, const ReceiverTruth& truth);
 
 // By the outlines of surfaces in the picture where a lit and a shadowed one meet that lie apart in depth, with no true edge of
-// either within `outline_reach_px` on it. Such a change lies at the outline whatever bias, map and filter do, because the
+// either within `outline_reach_px` on it, seen or hidden. Such a change lies at the outline whatever bias, map and filter do, because the
 // lookup knows nothing of the camera. A picture that is shifted has it a pixel further: then the surfaces on one side of such
 // outlines show the truth of the other, lit ones and dark ones alike, and those on the other side do not. A leak
 // along an outline makes dark surfaces lit, but no lit ones dark.
@@ -98,9 +99,7 @@ struct OutlineAlignment {
   // x to the right, y down, of a pixel or a few; 0 along an axis that is not told.
   glm::ivec2 shift() const;
 };
-// pixel_m: pixel_width_m() of the receivers.
-OutlineAlignment outline_alignment(const GivenFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
-                                   const Image<float>& pixel_m);
+OutlineAlignment outline_alignment(const CheckEvidence& evidence);
 
 // The width of a pixel at each receiver, across the view, in metres; 0 without a receiver.
 Image<float> pixel_width_m(const ViewMatrix& view, const ReceiverImage& receivers);

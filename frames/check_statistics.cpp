@@ -303,6 +303,10 @@ FrameStatistics frame_statistics(const CheckEvidence& e) {
   }
   const int reach = FrameStatistics::deep_px(state.height);
   const Extremes wide = extremes_within(state, reach), of_frame = extremes_within(light, reach);
+  Image<uint8_t> shadow(state.width, state.height, 0);
+  for (size_t i = 0; i < state.size(); ++i) shadow[i] = state[i] == 1;
+  Image<uint8_t> far_from_shadow = extremes_within(shadow, FrameStatistics::displaced_px(state.height)).most;
+  for (uint8_t& pixel : far_from_shadow.pixels) pixel = !pixel;
   FrameStatistics found;
   found.deep = Image<uint8_t>(state.width, state.height, 0);
   std::vector<double> deep[2];
@@ -310,11 +314,12 @@ FrameStatistics frame_statistics(const CheckEvidence& e) {
     if (!state[i] || wide.least[i] != state[i] || wide.most[i] != state[i]) continue;
     found.deep[i] = state[i];
     deep[state[i] - 1].push_back(e.frame.visibility[i]);
-    found.shadow_elsewhere += state[i] == 2 && of_frame.most[i] == 0;
+    found.shadow_elsewhere += state[i] == 2 && of_frame.most[i] == 0 && far_from_shadow[i];
   }
   found.deep_dark = region_of(deep[0]);
   found.deep_lit = region_of(deep[1]);
   found.curve = curve_evidence(e);
+  found.outlines = outline_alignment(e);
   if (found.deep_lit.count > 0 && found.deep_lit.median < 0.95) found.shading = shading_of(e, found);
   return found;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "frames/alignment.h"
 #include "frames/checks.h"
 #include "frames/frame.h"
 #include "frames/value_curve.h"
@@ -53,13 +54,16 @@ struct Shading {
 struct FrameStatistics {
   // 6 pixels of a picture with 360 rows or more, fewer of a smaller one, in which a filter is as much narrower.
   static constexpr int deep_px(int height) { return height >= 360 ? 6 : height >= 120 ? height / 60 : 2; }
+  // How far a map of coarse texels may put a shadow beside its place: a texel of one with 16 texels over the picture's height.
+  static constexpr int displaced_px(int height) { return height / 16; }
   Image<uint8_t> deep;  // 1: deep in true shadow, 2: deep in true light, 0: neither
   Region deep_lit, deep_dark;
   CurveEvidence curve;
   Shading shading;  // of the values deep in true light
-  // Pixels deep in true light about which the frame is darker than one half at all pixels within `deep_px`: the inside of a
-  // shadow that is not the truth's.
+  // Pixels deep in true light, with no true shadow within `displaced_px`, about which the frame is darker than one half at all
+  // pixels within `deep_px`: the inside of a shadow that is not the truth's.
   size_t shadow_elsewhere = 0;
+  OutlineAlignment outlines;
 };
 FrameStatistics frame_statistics(const CheckEvidence& evidence);
 

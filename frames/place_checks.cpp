@@ -302,7 +302,7 @@ Outcome check_positions(const CheckEvidence& e, const FrameStatistics&) {
 // A renderer writes both from the same samples: frames of five engines differ at no pixel.
 constexpr size_t enough_to_differ = 20;
 
-Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
+Outcome check_alignment(const CheckEvidence& e, const FrameStatistics& s) {
   const std::optional<SurfaceAlignment> surfaces = surface_alignment(e.frame);
   if (surfaces && surfaces->misplaced()) {
     const std::string found =
@@ -338,7 +338,7 @@ Outcome check_alignment(const CheckEvidence& e, const FrameStatistics&) {
   if (e.frame.marks_no_surface && e.frame.receivers == GivenReceivers::none && !covers(e))
     return not_checked("the surfaces of the picture are not where the scene has them: see coverage");
   // A shift first: of a scene that is almost symmetric, the picture that is shifted is almost the one that is flipped.
-  const OutlineAlignment outlines = outline_alignment(e.frame, e.receivers, e.truth, e.pixel_m);
+  const OutlineAlignment& outlines = s.outlines;
   if (const glm::ivec2 shift = outlines.shift(); shift != glm::ivec2(0))
     return failed(
         fmt::format("at the outlines of surfaces the pixels on one side have the visibility of the surface behind the "

@@ -134,8 +134,9 @@ struct Ghost {
   double explained = 0, opposite = 0;
   bool is_seen() const { return pixels >= enough && equal >= 0.5 && explained >= 0.7 && explained >= 3 * opposite; }
 };
-Ghost ghost_of(const CheckEvidence& e) {
-  constexpr float least = 0.02f, most = 0.25f, same = 0.004f;
+// most: the largest part that is asked for. A filter's values lie beside a small part.
+Ghost ghost_of(const CheckEvidence& e, float most) {
+  constexpr float least = 0.02f, same = 0.004f;
   constexpr int reach = 8;
   const Image<float>& v = e.frame.visibility;
   std::vector<std::array<int, 2>> places;
@@ -180,44 +181,73 @@ Ghost ghost_of(const CheckEvidence& e) {
   return found;
 }
 
+// ---- a scene's grid on the pixels
+
+// Whether the pixels where values change are of one width, so that a grid of the scene or of the map keeps its place among the
+// pixels over the whole picture, as under an orthographic camera, or on a wall that faces the camera. Then a right lookup, too,
+// changes at every second pixel alone, or in blocks of 8, or by one value on one side.
+bool grid_may_lie_on_pixels(const CheckEvidence& e) {
+  constexpr double least_drift_px = 2;
+  const Image<float>& v = e.frame.visibility;
+  std::vector<double> widths;
+  for (int y = 0; y + 1 < v.height; ++y)
+    for (int x = 0; x + 1 < v.width; ++x) {
+      const size_t i = v.index(x, y);
+      if (e.counted[i] && (v[i] != v.at(x + 1, y) || v[i] != v.at(x, y + 1))) widths.push_back(e.pixel_m[i]);
+    }
+  const double narrow = quantile(widths, 0.05), wide = quantile(std::move(widths), 0.95);
+  return (wide / narrow - 1) * std::max(v.width, v.height) < least_drift_px;
+}
+
+// What was done to the picture by the places of its pixels, if anything: what was found, and what the picture was.
+struct DoneByPlaces {
+  std::string found, cause;
+};
+std::optional<DoneByPlaces> done_by_places(const CheckEvidence& e) {
+  if (const Blocks blocks = blocks_of(e); blocks.are_of_jpeg())
+    return DoneByPlaces{fmt::format("values that are a little off lie in {} blocks of 8 x 8 pixels that begin in the "
+                                    "picture's corner, and in {} of any that begin elsewhere",
+                                    blocks.own, blocks.elsewhere),
+                        "was a JPEG"};
+  for (const bool along_rows : {true, false})
+    if (const Steps steps = steps_of(e.frame.visibility, along_rows); steps.are_of_resizing())
+      return DoneByPlaces{
+          fmt::format(
+              "along {} every second step from pixel to pixel is the mean of its neighbours ({} of {}, and {} of {})",
+              along_rows ? "rows" : "columns", steps.mean[0], steps.count[0], steps.mean[1], steps.count[1]),
+          "had half the size and was enlarged"};
+  for (const bool along_rows : {true, false})
+    if (const Repeats repeats = repeats_of(e, along_rows); repeats.times > 1)
+      return DoneByPlaces{
+          fmt::format("along {} all {} changes of a value lie at every {} boundary of pixels, and none between",
+                      along_rows ? "rows" : "columns", repeats.changes,
+                      std::array{"second", "third", "fourth"}[repeats.times - 2]),
+          fmt::format("had {} the size, and its pixels are repeated",
+                      std::array{"half", "a third of", "a quarter of"}[repeats.times - 2])};
+  for (const float most : {0.25f, 0.5f})
+    if (const Ghost ghost = ghost_of(e, most); ghost.is_seen())
+      return DoneByPlaces{
+          fmt::format("{} values are off 0 and 1 by {:.3f}, and {:.0f}% of them lie where the picture moved by ({:+d}, "
+                      "{:+d}) pixels (x to the right, y down) has light and shadow exchanged, {:.0f}% the other way",
+                      ghost.pixels, ghost.part, 100 * ghost.explained, -ghost.x, -ghost.y, 100 * ghost.opposite),
+          "has another frame mixed in, as by temporal antialiasing"};
+  return std::nullopt;
+}
+
 }  // namespace
 
 Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
   constexpr const char* instead = "write each pixel's own sample, in a format without loss";
-  if (const Blocks blocks = blocks_of(e); blocks.are_of_jpeg())
+  const std::optional<DoneByPlaces> done = done_by_places(e);
+  if (done && !grid_may_lie_on_pixels(e))
+    return failed(fmt::format("{}: the picture {}; {}", done->found, done->cause, instead));
+  if (const OutlineAlignment::Ramps found = s.outlines.ramps(); found.of_blur())
     return failed(
-        fmt::format("values that are a little off lie in {} blocks of 8 x 8 pixels that begin in the picture's "
-                    "corner, and in {} of any that begin elsewhere: the picture was a JPEG; {}",
-                    blocks.own, blocks.elsewhere, instead));
-  for (const bool along_rows : {true, false})
-    if (const Steps steps = steps_of(e.frame.visibility, along_rows); steps.are_of_resizing())
-      return failed(fmt::format(
-          "along {} every second step from pixel to pixel is the mean of its neighbours ({} of {}, "
-          "and {} of {}): the picture had half the size and was enlarged; {}",
-          along_rows ? "rows" : "columns", steps.mean[0], steps.count[0], steps.mean[1], steps.count[1], instead));
-  for (const bool along_rows : {true, false})
-    if (const Repeats repeats = repeats_of(e, along_rows); repeats.times > 1)
-      return failed(fmt::format(
-          "along {} all {} changes of a value lie at every {} boundary of pixels, and none between: the picture had {} "
-          "the size, and its pixels are repeated; {}",
-          along_rows ? "rows" : "columns", repeats.changes, std::array{"second", "third", "fourth"}[repeats.times - 2],
-          std::array{"half", "a third of", "a quarter of"}[repeats.times - 2], instead));
-  if (const Ghost ghost = ghost_of(e); ghost.is_seen())
-    return failed(fmt::format(
-        "{} values are off 0 and 1 by {:.3f}, and {:.0f}% of them lie where the picture moved by "
-        "({:+d}, {:+d}) pixels (x to the right, y down) has light and shadow exchanged, {:.0f}% the "
-        "other way: another frame was mixed in, as by temporal antialiasing; {}",
-        ghost.pixels, ghost.part, 100 * ghost.explained, -ghost.x, -ghost.y, 100 * ghost.opposite, instead));
-  constexpr double mixed = 0.05;
-  const OutlineAlignment by_side = outline_alignment(e.frame, e.receivers, e.truth, e.pixel_m);
-  const OutlineAlignment::Side outlines = by_side.all();
-  // Not a failure: a dark roof that ends in the plane of its wall has its true shadow edge on the outline, and a filter blurs it there.
-  if (const OutlineAlignment::Ramps found = by_side.ramps(); found.of_blur())
-    return not_checked(
         fmt::format("at {} of {} outlines between a lit and a shadowed surface the values pass over from one to the "
-                    "other by less than half of their "
-                    "difference: the picture was blurred, as by motion, or edges of shadows lie on outlines",
-                    found.ramps, found.steps));
+                    "other by less than half of their difference: the picture was blurred, as by motion; {}",
+                    found.ramps, found.steps, instead));
+  constexpr double mixed = 0.05;
+  const OutlineAlignment::Side outlines = s.outlines.all();
   const bool told = outlines.lit_inside >= OutlineAlignment::enough && outlines.dark_inside >= OutlineAlignment::enough;
   const std::string at_outlines = fmt::format(
       "at the outlines of surfaces, lit pixels are {:.3f} darker and shadowed ones {:.3f} lighter than their own "
@@ -228,6 +258,10 @@ Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
         fmt::format("{}: values of several pixels were mixed, by multisampling or resizing, or the picture lies a "
                     "pixel beside its receivers; {}",
                     at_outlines, instead));
+  if (done)
+    return not_checked(fmt::format(
+        "{}: the picture {}, or a grid of the scene or of the map lies on the pixels, which have one width here",
+        done->found, done->cause));
   size_t deep = 0, between = 0;
   for (size_t i = 0; i < s.deep.size(); ++i) {
     deep += s.deep[i] != 0;

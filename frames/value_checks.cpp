@@ -208,11 +208,10 @@ Outcome check_intensity(const CheckEvidence& e, const FrameStatistics& s) {
 }
 
 // What faces away from the declared light cannot be lit by it. If most of the picture does and is lit, the light's direction or
-// the side that the camera looks at is turned round. But a shader may write 1 wherever N.L is below 0, and is right if what the
-// light reaches is lit.
+// the side that the camera looks at is turned round: then what the light reaches, too, faces away, and is dark. But a shader may
+// write 1 wherever N.L is below 0, and acne leaves some of the rest lit.
 Outcome check_match(const CheckEvidence& e, const FrameStatistics& s) {
-  size_t surfaces = 0, away = 0, away_lit = 0, reached = 0;
-  double light = 0;
+  size_t surfaces = 0, away = 0, away_lit = 0, reached = 0, reached_dark = 0;
   for (size_t i = 0; i < e.seen.size(); ++i) {
     const float value = e.frame.visibility[i];
     if (e.seen[i] == no_primitive || std::isnan(value)) continue;
@@ -221,10 +220,10 @@ Outcome check_match(const CheckEvidence& e, const FrameStatistics& s) {
     away_lit += !e.truth.facing[i] && value > 0.98f;
     if (!e.counted[i] || !e.truth.lit[i]) continue;
     ++reached;
-    light += value;
+    reached_dark += value < 0.5f;
   }
-  const bool is_lit_where_it_should_be = reached >= enough && 2 * light > static_cast<double>(reached);
-  if (2 * away > surfaces && 10 * away_lit > 9 * away && !is_lit_where_it_should_be)
+  const bool is_dark_where_lit = reached >= enough && reached_dark * 10 >= reached * 9;
+  if (2 * away > surfaces && 10 * away_lit > 9 * away && (reached < enough || is_dark_where_lit))
     return failed(
         fmt::format("{} of {} surfaces face away from the declared light, and the frame lights {} of them: the light's "
                     "direction is "

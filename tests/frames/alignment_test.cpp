@@ -94,17 +94,13 @@ void add_rectangle(Scene& scene, glm::vec3 corner, glm::vec3 a, glm::vec3 b) {
 
 // Every pixel has this visibility. From z = 5, across this height.
 GivenFrame frame_along_z(const Scene& scene, double height_m, float visibility) {
-  const Camera camera{.projection = Projection::orthographic,
-                      .eye_m = {0, 0, 5},
-                      .target_m = {0, 0, 0},
-                      .height_m = height_m,
-                      .near_m = 0.1,
-                      .far_m = 12};
-  return {.name = "frame",
-          .visibility = Image<float>(width, height, visibility),
-          .positions = {},
-          .view = ViewMatrix(make_camera_frame(camera, width, height).clip_from_world()),
-          .light = scene.light};
+  return frame_through({.projection = Projection::orthographic,
+                        .eye_m = {0, 0, 5},
+                        .target_m = {0, 0, 0},
+                        .height_m = height_m,
+                        .near_m = 0.1,
+                        .far_m = 12},
+                       scene, visibility);
 }
 
 std::unique_ptr<Plates> plates() {

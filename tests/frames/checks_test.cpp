@@ -159,6 +159,28 @@ TEST(Checks, AnotherLightIsNamed) {
   expect_named(frame, "match", "inside shadows of the frame");
 }
 
+// A map of coarse texels that loses most shadows and puts the rest beside their places: no pixel of them lies a texel from a true one.
+TEST(Checks, AShadowBesideItsPlaceIsNotAnotherLight) {
+  const int texel = height / 16;
+  const Image<float>& v = good().frame.visibility;
+  const ReceiverTruth& truth = good().truth;
+  const auto shadowed = [&](int x, int y) {
+    const size_t i = v.index(x, y);
+    return truth.facing[i] && !truth.ambiguous[i] && !truth.lit[i];
+  };
+  Image<float> beside = each_value(v, [](float) { return 1.0f; });
+  size_t dark = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      bool near = false;
+      for (int k = -texel; k <= texel; ++k) near = near || (x + k >= 0 && x + k < width && shadowed(x + k, y));
+      if (near && v.at(x, y) == 1) beside.at(x, y) = 0, ++dark;
+    }
+  ASSERT_GT(dark, 1000U);
+  const CheckResult found = check_named(judge_frame(*good().scene, *good().tracer, with(beside), {}), "match");
+  EXPECT_EQ(found.state, CheckState::not_checked) << found.says;
+}
+
 TEST(Checks, ALightThatIsTurnedRoundIsNamed) {
   GivenFrame frame = good().frame;
   std::swap(frame.light.position_m, frame.light.target_m);

@@ -50,6 +50,15 @@ inline GivenFrame with(const Image<float>& visibility) {
   return frame;
 }
 
+// Every pixel has this visibility.
+inline GivenFrame frame_through(const Camera& camera, const Scene& scene, float visibility = 0) {
+  return {.name = "frame",
+          .visibility = Image<float>(width, height, visibility),
+          .positions = {},
+          .view = ViewMatrix(make_camera_frame(camera, width, height).clip_from_world()),
+          .light = scene.light};
+}
+
 // A frame of the same scene through another camera, delivered as one of the first.
 inline GivenFrame with_picture_through(const glm::dmat4& moved, const Delivered& base = good()) {
   GivenFrame seen = base.frame;
