@@ -41,10 +41,21 @@ std::map<std::string, std::string> settings_as_options() {
   return meant;
 }
 
-// "--set map.resolution=512". left: what was not understood, with the option at `option`.
+bool takes(std::string_view setting, const std::string& value) {
+  Settings any;
+  try {
+    find_setting(setting).set(any, value);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// "--set map.resolution=512", of the settings that take the value; empty if none does. left: what was not understood, with the
+// option at `option`.
 std::string as_setting(const std::string& names, const std::vector<std::string>& left,
                        std::vector<std::string>::const_iterator option) {
-  std::string value = "VALUE";
+  std::string value;
   if (const size_t equals = option->find('='); equals != std::string::npos)
     value = option->substr(equals + 1);
   else if (option + 1 != left.end() && !looks_like_an_option(*(option + 1)))
@@ -52,8 +63,9 @@ std::string as_setting(const std::string& names, const std::vector<std::string>&
   std::string text;
   for (size_t begin = 0; begin <= names.size();) {
     const size_t end = std::min(names.find('|', begin), names.size());
-    text += fmt::format("{}'--set {}={}'", text.empty() ? "" : " or ", names.substr(begin, end - begin),
-                        shell_quoted(value));
+    if (const std::string name = names.substr(begin, end - begin); value.empty() || takes(name, value))
+      text += fmt::format("{}'--set {}={}'", text.empty() ? "" : " or ", name,
+                          value.empty() ? "VALUE" : shell_quoted(value));
     begin = end + 1;
   }
   return text;
@@ -104,8 +116,9 @@ std::string command_line_error(const CLI::App& app, const CLI::ParseError& error
   const bool is_setting = is_meant && std::none_of(options.begin(), options.end(), [&](auto one) {
                             return one == setting->first || one.starts_with(name);
                           });
+  const std::string as_set = is_setting ? as_setting(setting->second, left, option) : "";
   return fmt::format("{} has no option '{}'{} {}", verb.get_name(), name,
-                     is_setting          ? "; did you mean " + as_setting(setting->second, left, option) + "?"
+                     !as_set.empty()     ? "; did you mean " + as_set + "?"
                      : elsewhere.empty() ? did_you_mean(name, options)
                                          : elsewhere,
                      help);

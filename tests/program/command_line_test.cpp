@@ -73,6 +73,8 @@ TEST_F(CommandLine, AnOptionThatIsASettingNamesSet) {
   told({"render", "--map.resolution=512"}, "'--set map.resolution=512'");
   told({"run", "x.toml", "--resolution"}, "'--set map.resolution=VALUE'");
   told({"run", "x.toml", "--size", "3"}, "'--set filter.size=3'");
+  expect_run({"run", "x.toml", "--size", "64x64"}, 2, {"has no option '--size'"});  // no size of a setting is that
+  EXPECT_FALSE(says("filter.size")) << output_;
   told({"run", "x.toml", "--kind", "box"},
        "'--set light.kind=box' or '--set filter.kind=box' or '--set lookup.kind=box'");
   EXPECT_EQ(run({"report", "out", "--resolution", "512"}), 2);
