@@ -18,10 +18,4 @@ inline constexpr double floor_side_diagonals = 4;
 // would not hold the floor, is taken away. A scene without triangles gets no floor.
 void add_floor_under(Scene& scene);
 
-// Whether the scene has a floor of its own: the triangles that face up (+Y) and lie in the lowest tenth of the scene's
-// box cover at least half of the box's area, seen from above. A tenth, because a ground need not be flat; half, because
-// a pedestal that carries a model is no ground for its shadow. Or level faces at one height in the lower half of the box cover as
-// much, and the box of what is above them at most half of them: the top of a slab, however thick, which is no pedestal.
-bool has_ground(const Scene& scene);
-
 }  // namespace noonmark

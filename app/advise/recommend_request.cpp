@@ -17,7 +17,7 @@
 #include "base/text.h"
 #include "compare/judge/choices.h"
 #include "compare/results/number_text.h"
-#include "scenes/floor.h"
+#include "scenes/ground.h"
 #include "scenes/interior.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "scenes/fit.h"
-#include "scenes/floor.h"
+#include "scenes/ground.h"
 #include "scenes/interior.h"
 
 namespace noonmark {

@@ -18,7 +18,7 @@
 #include "base/threads.h"
 #include "measure/workbench.h"
 #include "raytrace/adjacency.h"
-#include "scenes/floor.h"
+#include "scenes/ground.h"
 #include "scenes/interior.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
@@ -49,7 +49,7 @@ struct ModelReport {
   double float_step_m = 0;                        // between neighbouring floats there
   double shortest_edge_m = 0, median_edge_m = 0;  // of the triangles' edges; of those longer than 0
   bool room = false;                              // a closed room (scenes/interior.h)
-  bool ground = false;                            // has_ground (scenes/floor.h)
+  bool ground = false;                            // has_ground (scenes/ground.h)
   std::string light;                              // name of the kind of light that is measured
   std::vector<TexelSize> texels;                  // of the map as the settings fit it
 };

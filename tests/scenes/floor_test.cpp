@@ -88,36 +88,6 @@ TEST(Floor, IsSeenFromBothSidesBesideSingleSidedTriangles) {
   EXPECT_FALSE(scene.single_sided[scene.triangles.size() - 1] || scene.single_sided[scene.triangles.size() - 2]);
 }
 
-TEST(Floor, IsNotNeededWhereTheSceneHasAGround) {
-  const auto box_on = [](double ground_m) {
-    Scene scene;
-    add_box(scene, "box", {-1, 0, -1}, {1, 2, 1});
-    if (ground_m > 0) add_quad(scene, "ground", {-ground_m, 0, -ground_m}, {0, 0, 2 * ground_m}, {2 * ground_m, 0, 0});
-    return scene;
-  };
-  EXPECT_FALSE(has_ground({}));
-  EXPECT_FALSE(has_ground(box_on(0))) << "its lower side faces down";
-  EXPECT_TRUE(has_ground(box_on(3)));
-  EXPECT_TRUE(has_ground(box_on(0.75))) << "0.56 of the box seen from above";
-  EXPECT_FALSE(has_ground(box_on(0.7))) << "0.49 of it";
-  Scene high = box_on(3);
-  add_box(high, "pit", {0, -3, 0}, {0.1, 0, 0.1});  // now the ground is above the middle
-  EXPECT_FALSE(has_ground(high));
-  const auto box_on_slab = [](double thick_m, double side_m) {
-    Scene scene;
-    add_box(scene, "box", {-1, 0, -1}, {1, 2, 1});
-    add_box(scene, "slab", {-side_m, -thick_m - 0.001, -side_m}, {side_m, -0.001, side_m});
-    return scene;
-  };
-  EXPECT_TRUE(has_ground(box_on_slab(0.1, 3)));
-  EXPECT_TRUE(has_ground(box_on_slab(1, 3))) << "its top is a third of the height up";
-  EXPECT_FALSE(has_ground(box_on_slab(1, 1.3))) << "a pedestal";
-  EXPECT_FALSE(has_ground(box_on_slab(2.5, 3))) << "the box is lower than what it stands on";
-  Scene with = box_on(0);
-  add_floor_under(with);
-  EXPECT_TRUE(has_ground(with));
-}
-
 TEST(Floor, LeavesCameraAndLightOfTheSceneAndTakesItsMapAway) {
   for (const BuiltinScene& builtin : builtin_scenes()) {
     SceneSettings settings;
