@@ -104,95 +104,100 @@ void add_step(OutlineAlignment::Side& side, float lit_inside, float lit, float d
   side.ramps += lit - dark < step / 2 && std::abs(lit + dark - lit_inside - dark_inside) < step / 2;
 }
 
-}  // namespace
-
-OutlineAlignment outline_alignment(const CheckEvidence& e) {
-  const GivenFrame& frame = e.frame;
-  const ReceiverImage& receivers = e.receivers;
-  const ReceiverTruth& truth = e.truth;
-  const Image<float>& pixel_m = e.pixel_m;
-  const int width = frame.visibility.width, height = frame.visibility.height;
-  const auto apart = [&](size_t a, size_t b) {
-    const glm::dvec3 way = glm::dvec3(receivers.position[b]) - glm::dvec3(receivers.position[a]);
-    const double least = OutlineAlignment::apart_px * std::max(pixel_m[a], pixel_m[b]);
-    return std::abs(glm::dot(glm::dvec3(receivers.normal[a]), way)) > least &&
-           std::abs(glm::dot(glm::dvec3(receivers.normal[b]), way)) > least;
-  };
-  // Whether all receivers nearby that may lie on the pixel's own surface have its truth. What the outline hides of the surface is
-  // asked by rays (edge_hidden): a true edge may end there, as at the foot of a block.
-  const auto is_whole = [&](int x, int y) {
-    constexpr int reach = OutlineAlignment::outline_reach_px;
-    const size_t i = truth.lit.index(x, y);
-    for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v)
-      for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u) {
-        const size_t j = truth.lit.index(u, v);
-        if (receivers.primitive[j] == no_primitive || apart(i, j)) continue;
-        if (!truth.facing[j] || truth.ambiguous[j] || truth.soft[j] != truth.soft[i]) return false;
-      }
-    return true;
-  };
-  // Whether the two lie apart in depth, and one of them is lit and the other not.
-  const auto is_step = [&](int x, int y, int u, int v) {
-    if (u < 0 || v < 0 || u >= width || v >= height) return false;
-    const size_t i = truth.lit.index(x, y), j = truth.lit.index(u, v);
-    return receivers.primitive[j] != no_primitive && std::abs(truth.soft[i] - truth.soft[j]) == 1 && apart(i, j);
-  };
-  const Image<uint8_t> edge_hidden = [&] {
-    Image<uint8_t> at_step(width, height, 0);
-    Image<float> reach(width, height, 0);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
+class Outlines {
+ public:
+  explicit Outlines(const CheckEvidence& e)
+      : e_(e), width_(e.frame.visibility.width), height_(e.frame.visibility.height), whole_(width_, height_, 0) {
+    Image<uint8_t> at_step(width_, height_, 0);
+    Image<float> reach(width_, height_, 0);
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
         const size_t i = at_step.index(x, y);
-        if (receivers.primitive[i] == no_primitive || std::isnan(frame.visibility[i])) continue;
+        if (e.receivers.primitive[i] == no_primitive) continue;
         at_step[i] =
             is_step(x, y, x - 1, y) || is_step(x, y, x + 1, y) || is_step(x, y, x, y - 1) || is_step(x, y, x, y + 1);
-        reach[i] = static_cast<float>(OutlineAlignment::outline_reach_px * pixel_m[i]);
+        reach[i] = static_cast<float>(OutlineAlignment::outline_reach_px * e.pixel_m[i]);
       }
-    return e.tracer.edge_within(receivers, truth, e.light, at_step, reach, pixel_m);
-  }();
-  OutlineAlignment found;
-  // 0: not known yet, 1: whole, 2: not
-  Image<uint8_t> known(width, height, 0);
-  const auto whole = [&](int x, int y) {
-    uint8_t& state = known.at(x, y);
-    if (state == 0) state = !edge_hidden.at(x, y) && is_whole(x, y) ? 1 : 2;
-    return state == 1;
-  };
-  const auto book = [&](OutlineAlignment::Side& side, int x, int y, int u, int v) {
-    if (!is_step(x, y, u, v) || !whole(x, y) || !whole(u, v)) return;
-    const size_t i = truth.lit.index(x, y), j = truth.lit.index(u, v);
-    const double wrong = std::abs(frame.visibility[i] - truth.soft[i]);
-    if (truth.soft[i] == 1)
-      ++side.lit, side.lit_wrong += wrong;
-    else
-      ++side.dark, side.dark_wrong += wrong;
-    const int a = x + OutlineAlignment::inside_px * (x - u), b = y + OutlineAlignment::inside_px * (y - v);
-    if (a < 0 || b < 0 || a >= width || b >= height) return;
-    const size_t k = truth.lit.index(a, b);
-    if (receivers.primitive[k] == no_primitive || std::isnan(frame.visibility[k]) || apart(i, k)) return;
-    const int c = u + OutlineAlignment::inside_px * (u - x), d = v + OutlineAlignment::inside_px * (v - y);
-    if (truth.soft[i] == 1 && c >= 0 && d >= 0 && c < width && d < height) {
-      const size_t l = truth.lit.index(c, d);
-      if (receivers.primitive[l] != no_primitive && !apart(j, l))
-        add_step(side, frame.visibility[k], frame.visibility[i], frame.visibility[j], frame.visibility[l]);
-    }
-    const float next = frame.visibility.at(x + (x - u), y + (y - v));
-    const double darker = frame.visibility[k] - frame.visibility[i],
-                 next_darker = std::isnan(next) ? 0 : frame.visibility[k] - next;
-    if (truth.soft[i] == 1)
+    // A true edge may end where the outline hides the surface, as at the foot of a block: rays tell it.
+    const Image<uint8_t> has_edge = e.tracer.edge_within(e.receivers, e.truth, e.light, at_step, reach, e.pixel_m);
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) whole_.at(x, y) = at_step.at(x, y) && !has_edge.at(x, y) && is_seen_whole(x, y);
+  }
+
+  // Books the outline between the pixel and its neighbour.
+  void book(OutlineAlignment::Side& side, int x, int y, int u, int v) const {
+    const Image<float>& visibility = e_.frame.visibility;
+    if (!is_step(x, y, u, v) || !whole_.at(x, y) || !whole_.at(u, v)) return;
+    const size_t i = visibility.index(x, y), j = visibility.index(u, v);
+    const bool lit = e_.truth.soft[i] == 1;
+    ++(lit ? side.lit : side.dark);
+    (lit ? side.lit_wrong : side.dark_wrong) += std::abs(visibility[i] - e_.truth.soft[i]);
+    const std::optional<size_t> inside = same_surface(i, x, y, x - u, y - v);
+    if (!inside || std::isnan(visibility[*inside])) return;
+    if (const std::optional<size_t> beyond = same_surface(j, u, v, u - x, v - y); lit && beyond)
+      add_step(side, visibility[*inside], visibility[i], visibility[j], visibility[*beyond]);
+    const float next = visibility.at(x + (x - u), y + (y - v));
+    const double darker = visibility[*inside] - visibility[i],
+                 next_darker = std::isnan(next) ? 0 : visibility[*inside] - next;
+    if (lit)
       ++side.lit_inside, side.lit_pull += darker, side.lit_next += next_darker;
     else
       ++side.dark_inside, side.dark_pull -= darker, side.dark_next -= next_darker;
-  };
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (const size_t i = truth.lit.index(x, y);
-          receivers.primitive[i] == no_primitive || std::isnan(frame.visibility[i]))
+  }
+
+ private:
+  bool apart(size_t a, size_t b) const {
+    const ReceiverImage& r = e_.receivers;
+    const glm::dvec3 way = glm::dvec3(r.position[b]) - glm::dvec3(r.position[a]);
+    const double least = OutlineAlignment::apart_px * std::max(e_.pixel_m[a], e_.pixel_m[b]);
+    return std::abs(glm::dot(glm::dvec3(r.normal[a]), way)) > least &&
+           std::abs(glm::dot(glm::dvec3(r.normal[b]), way)) > least;
+  }
+  // Whether the two lie apart in depth, and one of them is lit and the other not.
+  bool is_step(int x, int y, int u, int v) const {
+    if (u < 0 || v < 0 || u >= width_ || v >= height_) return false;
+    const size_t i = whole_.index(x, y), j = whole_.index(u, v);
+    return e_.receivers.primitive[j] != no_primitive && std::abs(e_.truth.soft[i] - e_.truth.soft[j]) == 1 &&
+           apart(i, j);
+  }
+  // Whether all receivers nearby that may lie on the pixel's own surface have its truth.
+  bool is_seen_whole(int x, int y) const {
+    constexpr int reach = OutlineAlignment::outline_reach_px;
+    const size_t i = whole_.index(x, y);
+    for (int v = std::max(0, y - reach); v <= std::min(height_ - 1, y + reach); ++v)
+      for (int u = std::max(0, x - reach); u <= std::min(width_ - 1, x + reach); ++u) {
+        const size_t j = whole_.index(u, v);
+        if (e_.receivers.primitive[j] == no_primitive || apart(i, j)) continue;
+        if (!e_.truth.facing[j] || e_.truth.ambiguous[j] || e_.truth.soft[j] != e_.truth.soft[i]) return false;
+      }
+    return true;
+  }
+  // The pixel `inside_px` from pixel i in this direction, if it shows the same surface.
+  std::optional<size_t> same_surface(size_t i, int x, int y, int dx, int dy) const {
+    const int u = x + OutlineAlignment::inside_px * dx, v = y + OutlineAlignment::inside_px * dy;
+    if (u < 0 || v < 0 || u >= width_ || v >= height_) return std::nullopt;
+    const size_t j = whole_.index(u, v);
+    return e_.receivers.primitive[j] == no_primitive || apart(i, j) ? std::nullopt : std::optional(j);
+  }
+
+  const CheckEvidence& e_;
+  int width_, height_;
+  Image<uint8_t> whole_;  // 1: at an outline, and no true edge of the surface is near, seen or hidden
+};
+
+}  // namespace
+
+OutlineAlignment outline_alignment(const CheckEvidence& e) {
+  const Outlines outlines(e);
+  OutlineAlignment found;
+  for (int y = 0; y < e.frame.visibility.height; ++y)
+    for (int x = 0; x < e.frame.visibility.width; ++x) {
+      if (e.receivers.primitive[e.seen.index(x, y)] == no_primitive || std::isnan(e.frame.visibility.at(x, y)))
         continue;
-      book(found.left, x, y, x - 1, y);
-      book(found.right, x, y, x + 1, y);
-      book(found.above, x, y, x, y - 1);
-      book(found.below, x, y, x, y + 1);
+      outlines.book(found.left, x, y, x - 1, y);
+      outlines.book(found.right, x, y, x + 1, y);
+      outlines.book(found.above, x, y, x, y - 1);
+      outlines.book(found.below, x, y, x, y + 1);
     }
   for (OutlineAlignment::Side* side : {&found.left, &found.right, &found.above, &found.below}) take_means(*side);
   return found;

@@ -76,7 +76,7 @@ TEST_F(CommandLine, AnOptionThatIsASettingNamesSet) {
   expect_run({"run", "x.toml", "--size", "64x64"}, 2, {"has no option '--size'"});  // no size of a setting is that
   EXPECT_FALSE(says("filter.size")) << output_;
   told({"run", "x.toml", "--kind", "box"},
-       "'--set light.kind=box' or '--set filter.kind=box' or '--set lookup.kind=box'");
+       "'--set filter.kind=box'");
   EXPECT_EQ(run({"report", "out", "--resolution", "512"}), 2);
   EXPECT_FALSE(says("--set")) << "report has no such option: " << output_;
 }
