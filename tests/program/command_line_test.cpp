@@ -75,8 +75,7 @@ TEST_F(CommandLine, AnOptionThatIsASettingNamesSet) {
   told({"run", "x.toml", "--size", "3"}, "'--set filter.size=3'");
   expect_run({"run", "x.toml", "--size", "64x64"}, 2, {"has no option '--size'"});  // no size of a setting is that
   EXPECT_FALSE(says("filter.size")) << output_;
-  told({"run", "x.toml", "--kind", "box"},
-       "'--set filter.kind=box'");
+  told({"run", "x.toml", "--kind", "box"}, "'--set filter.kind=box'");
   EXPECT_EQ(run({"report", "out", "--resolution", "512"}), 2);
   EXPECT_FALSE(says("--set")) << "report has no such option: " << output_;
 }
