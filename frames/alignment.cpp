@@ -74,12 +74,14 @@ ValueAlignment value_alignment(const GivenFrame& frame, const ReceiverTruth& tru
 const PictureFlip* ValueAlignment::flip() const {
   // So many pixels must be wrong that no small shadow decides.
   constexpr double least_wrong_pixels = 100;
+  // Of a picture that is flipped back. A frame of a worse shadow is nearer to the truth by chance.
+  constexpr double most_right = 0.1;
   const PictureFlip* best = nullptr;
   double least = 1;
   for (size_t k = 0; k < flips.size(); ++k) {
     const Compared& c = by_flip[k];
     if (c.delivered * static_cast<double>(c.count) >= least_wrong_pixels && 3 * c.flipped < c.delivered &&
-        c.flipped < least) {
+        c.flipped < std::min(least, most_right)) {
       best = &flips[k];
       least = c.flipped;
     }

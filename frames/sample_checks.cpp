@@ -16,15 +16,30 @@
 namespace noonmark {
 namespace {
 
+// Whether a pixel's own sample tells something that its neighbours' do not: along a straight edge a lookup may repeat one value over
+// hundreds of pixels, which are one finding. True where the value differs from those on both sides of it in neither the row nor the
+// column, that is at a corner of a region of one value, and in the middle of none.
+bool is_corner(const Image<float>& v, int x, int y) {
+  constexpr float same = 0.004f;
+  const auto differs = [&](int a, int b) {
+    return a < 0 || b < 0 || a >= v.width || b >= v.height || !(std::abs(v.at(a, b) - v.at(x, y)) <= same);
+  };
+  return (differs(x - 1, y) || differs(x + 1, y)) && (differs(x, y - 1) || differs(x, y + 1));
+}
+
 // ---- JPEG
 
 // Blocks of 8 x 8 pixels in which a value is a little off the truth, by where the blocks begin. A JPEG file spreads its errors
 // over whole blocks, so fewest are touched where its own begin.
 struct Blocks {
-  size_t own = 0;        // blocks that begin in the picture's corner
-  size_t elsewhere = 0;  // the fewest of blocks that begin two pixels or more away from there along both axes
-  // Good frames: 0.94 times as many and more; files of quality 75: 0.5 to 0.9 times.
-  bool are_of_jpeg() const { return own * 5 <= elsewhere * 4 && elsewhere >= own + 10; }
+  size_t own = 0;               // blocks that begin in the picture's corner
+  size_t elsewhere = 0;         // the fewest of blocks that begin two pixels or more away from there along both axes
+  size_t right = 0, below = 0;  // the fewest of those that begin so far away along one axis
+  // Good frames: 0.94 times as many and more; files of quality 75: 0.5 to 0.9 times. A long edge along a row of blocks touches more
+  // of those that begin elsewhere along one axis alone.
+  bool are_of_jpeg() const {
+    return own * 5 <= elsewhere * 4 && elsewhere >= own + 10 && own * 20 <= right * 19 && own * 20 <= below * 19;
+  }
 };
 Blocks blocks_of(const CheckEvidence& e) {
   constexpr int side = 8, apart = 2;
@@ -36,7 +51,7 @@ Blocks blocks_of(const CheckEvidence& e) {
     for (int x = 0; x < v.width; ++x) {
       const size_t i = v.index(x, y);
       const double error = std::abs(v[i] - static_cast<double>(e.truth.soft[i]));
-      if (e.counted[i] && error > least && error < most) off.push_back({x, y});
+      if (e.counted[i] && error > least && error < most && is_corner(v, x, y)) off.push_back({x, y});
     }
   const auto touched = [&](int left, int top) {
     const int across = v.width / side + 2;
@@ -45,7 +60,11 @@ Blocks blocks_of(const CheckEvidence& e) {
       hit[static_cast<size_t>((y + side - top) / side * across + (x + side - left) / side)] = 1;
     return static_cast<size_t>(std::count(hit.begin(), hit.end(), uint8_t{1}));
   };
-  Blocks found{.own = touched(0, 0), .elsewhere = v.size()};
+  Blocks found{.own = touched(0, 0), .elsewhere = v.size(), .right = v.size(), .below = v.size()};
+  for (int by = apart; by <= side - apart; ++by) {
+    found.right = std::min(found.right, touched(by, 0));
+    found.below = std::min(found.below, touched(0, by));
+  }
   for (int top = apart; top <= side - apart; ++top)
     for (int left = apart; left <= side - apart; ++left)
       found.elsewhere = std::min(found.elsewhere, touched(left, top));
@@ -93,8 +112,9 @@ struct Repeats {
 };
 
 Repeats repeats_of(const CheckEvidence& e, bool along_rows) {
-  // By chance 40 changes lie at one kind of boundary in one picture of 2^39.
-  constexpr size_t told = 40, most_times = 4;
+  // By chance 20 changes lie at one kind of boundary along rows, and 20 along columns, in one picture of 2^38. Long edges that lie
+  // along the pixels do along one of both.
+  constexpr size_t told = 20, most_times = 4;
   const Image<float>& v = e.frame.visibility;
   const int length = along_rows ? v.width : v.height, lines = along_rows ? v.height : v.width;
   std::array<size_t, 12> at_boundary{};  // by its number modulo 12, which 2, 3 and 4 divide
@@ -126,30 +146,31 @@ Repeats repeats_of(const CheckEvidence& e, bool along_rows) {
 // A part of one other picture that lies a few pixels away. Where both pictures show light or shadow alone, the value is off by
 // that part, and it is off only there and on one side of every edge; a filter is off on both sides.
 struct Ghost {
-  size_t pixels = 0;  // whose value is a little off 0 or 1
+  size_t pixels = 0;  // corners of regions of one value, which is a little off 0 or 1
   double part = 0;    // by so much in the median
   double equal = 0;   // the share of them that is off by that
   // The share of them that is explained by light and shadow exchanged `shift` pixels away, and that of the opposite shift.
   int x = 0, y = 0;
   double explained = 0, opposite = 0;
-  bool is_seen() const { return pixels >= enough && equal >= 0.5 && explained >= 0.7 && explained >= 3 * opposite; }
+  bool is_seen() const { return 2 * pixels >= enough && equal >= 0.5 && explained >= 0.8 && explained >= 3 * opposite; }
 };
 // most: the largest part that is asked for. A filter's values lie beside a small part.
 Ghost ghost_of(const CheckEvidence& e, float most) {
   constexpr float least = 0.02f, same = 0.004f;
   constexpr int reach = 8;
   const Image<float>& v = e.frame.visibility;
+  Ghost found;
   std::vector<std::array<int, 2>> places;
   std::vector<double> off;
   for (int y = 0; y < v.height; ++y)
     for (int x = 0; x < v.width; ++x) {
       const float value = v.at(x, y), by = std::min(value, 1 - value);
-      if (!e.counted.at(x, y) || !(by > least && by < most)) continue;
+      if (!e.counted.at(x, y) || !(by > least && by < most) || !is_corner(v, x, y)) continue;
       places.push_back({x, y});
       off.push_back(by);
     }
-  Ghost found{.pixels = places.size()};
-  if (found.pixels < enough) return found;
+  found.pixels = places.size();
+  if (2 * found.pixels < enough) return found;
   found.part = quantile(off, 0.5);
   const auto count = static_cast<double>(found.pixels);
   found.equal = static_cast<double>(std::count_if(off.begin(), off.end(),
@@ -216,14 +237,14 @@ std::optional<DoneByPlaces> done_by_places(const CheckEvidence& e) {
               "along {} every second step from pixel to pixel is the mean of its neighbours ({} of {}, and {} of {})",
               along_rows ? "rows" : "columns", steps.mean[0], steps.count[0], steps.mean[1], steps.count[1]),
           "had half the size and was enlarged"};
-  for (const bool along_rows : {true, false})
-    if (const Repeats repeats = repeats_of(e, along_rows); repeats.times > 1)
-      return DoneByPlaces{
-          fmt::format("along {} all {} changes of a value lie at every {} boundary of pixels, and none between",
-                      along_rows ? "rows" : "columns", repeats.changes,
-                      std::array{"second", "third", "fourth"}[repeats.times - 2]),
-          fmt::format("had {} the size, and its pixels are repeated",
-                      std::array{"half", "a third of", "a quarter of"}[repeats.times - 2])};
+  const Repeats along_rows = repeats_of(e, true), along_columns = repeats_of(e, false);
+  if (const size_t times = std::min(along_rows.times, along_columns.times); times > 1)
+    return DoneByPlaces{
+        fmt::format("along rows and columns all {} and {} changes of a value lie at every {} boundary of pixels, and "
+                    "none between",
+                    along_rows.changes, along_columns.changes, std::array{"second", "third", "fourth"}[times - 2]),
+        fmt::format("had {} the size, and its pixels are repeated",
+                    std::array{"half", "a third of", "a quarter of"}[times - 2])};
   for (const float most : {0.25f, 0.5f})
     if (const Ghost ghost = ghost_of(e, most); ghost.is_seen())
       return DoneByPlaces{

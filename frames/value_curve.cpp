@@ -85,13 +85,17 @@ void find_ramps(const CheckEvidence& e, double rounding, CurveEvidence& found) {
   const Image<float>& v = e.frame.visibility;
   std::array<size_t, curve_count> straight{};
   size_t by_chance = 0;
-  const auto ask = [&](size_t i, size_t j, size_t k) {
+  // beside: how far the same place of the line before lies. Along an edge one ramp may be repeated, which is one finding.
+  const auto ask = [&](size_t i, size_t j, size_t k, size_t beside) {
     if (!e.counted[i] || !e.counted[j] || !e.counted[k]) return;
     if (e.receivers.primitive[i] != e.receivers.primitive[j] || e.receivers.primitive[j] != e.receivers.primitive[k])
       return;
     for (const size_t at : {i, j, k})
       if (!(v[at] > low && v[at] < high)) return;
     if ((v[i] < v[j]) != (v[j] < v[k]) || v[i] == v[j] || v[j] == v[k]) return;
+    if (i >= beside && std::abs(v[i - beside] - v[i]) <= tolerance && std::abs(v[j - beside] - v[j]) <= tolerance &&
+        std::abs(v[k - beside] - v[k]) <= tolerance)
+      return;
     const glm::dvec3 p = e.receivers.position[i], q = e.receivers.position[j], r = e.receivers.position[k];
     const double whole = map_way(e.light, p, r);
     if (!(whole > 0)) return;
@@ -115,8 +119,8 @@ void find_ramps(const CheckEvidence& e, double rounding, CurveEvidence& found) {
   };
   for (int y = 0; y < v.height; ++y)
     for (int x = 0; x < v.width; ++x) {
-      if (x + 2 < v.width) ask(v.index(x, y), v.index(x + 1, y), v.index(x + 2, y));
-      if (y + 2 < v.height) ask(v.index(x, y), v.index(x, y + 1), v.index(x, y + 2));
+      if (x + 2 < v.width) ask(v.index(x, y), v.index(x + 1, y), v.index(x + 2, y), static_cast<size_t>(v.width));
+      if (y + 2 < v.height) ask(v.index(x, y), v.index(x, y + 1), v.index(x, y + 2), 1);
     }
   for (size_t c = 0; c < curve_count; ++c)
     if (found.ramps > 0) found.straight[c] = static_cast<double>(straight[c]) / static_cast<double>(found.ramps);
@@ -179,7 +183,8 @@ const ValueCurve* CurveEvidence::by_ramps() const {
   constexpr size_t enough_ramps = 25;
   constexpr double mostly = 0.25;
   if (ramps < enough_ramps) return nullptr;
-  const auto curve = static_cast<size_t>(std::max_element(straight.begin() + 1, straight.end()) - straight.begin());
+  // Ramps do not tell powers from each other, and of more of them one straightens a blurred moment's.
+  const size_t curve = straight[2] > straight[1] ? 2 : 1;
   const double here = straight[0], there = straight[curve];
   if (here >= mostly && here >= 3 * there) return &value_curves[0];
   if (there >= mostly && there >= 3 * here && there >= 1.5 * straight_by_chance) return &value_curves[curve];

@@ -76,6 +76,7 @@ class Search {
     if (const Answer* answer = advice.answer(); !request_.levels.empty() && !request_.levels.front().filtered() &&
                                                 (!answer || answer->tried.level != request_.levels.front().name))
       advice.least_resolution = least_resolution();
+    if (!advice.answer() && nothing_is_lit()) refuse_dark_views();
     if (!advice.answer()) advice.nearest = look_at_nearest(advice.tried);
     advice.shadowed = screening_.shadowed();
     advice.least_costs = screening_.least_costs();
@@ -239,6 +240,18 @@ class Search {
           fmt::format("its window, {:.3g} to {:.3g} {}, is too narrow for a margin of {:.0f}% on both sides",
                       tried.bias->window.low, tried.bias->window.high, tried.bias->unit, 100 * (bias_margin - 1));
     if (!candidate.holds()) say_(fmt::format("{}: {}", name_of(tried, request_), tried.why_not));
+  }
+
+  // Under no condition. Where some bound fails first, as by a leak along a hull's outline, not all of them were measured.
+  bool nothing_is_lit() {
+    for (const Settings& condition : request_.conditions) {
+      if (screening_.lit() > 0) return false;
+      const PointRecord record =
+          bench_.measure(small_picture(condition, request_.width_px), std::nullopt, MetricSet::searched, Checks::none)
+              .record;
+      if (!nothing_judged(record)) screening_.see(record);
+    }
+    return screening_.lit() == 0;
   }
 
   // Where all is in shadow the least bias holds every bound, whatever the map, and that says nothing of any lit surface.
