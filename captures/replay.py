@@ -38,10 +38,10 @@ class Draw:
             buffer = state.GetIBuffer()
             offset = buffer.byteOffset + action.indexOffset * buffer.byteStride
             mesh = self.index = (buffer.resourceId, offset, buffer.byteStride, action.baseVertex)
-        instances, has_geometry_shader = max(1, action.numInstances), state.GetShader(rd.ShaderStage.Geometry) != NULL
-        self.geometry = (*mesh, self.first, self.count, instances)  # equal in every pass that draws the same mesh
-        self.stage = rd.MeshDataStage.GSOut if has_geometry_shader else rd.MeshDataStage.VSOut
-        self.instances = 1 if has_geometry_shader else instances  # that are read one by one: a geometry shader's output holds all
+        self.instances = max(1, action.numInstances)
+        self.geometry = (*mesh, self.first, self.count, self.instances)  # equal in every pass that draws the same mesh
+        is_last = all(state.GetShader(stage) == NULL for stage in (rd.ShaderStage.Geometry, rd.ShaderStage.Tess_Eval))
+        self.stage = rd.MeshDataStage.VSOut if is_last else rd.MeshDataStage.GSOut
         while action.parent and action.parent.flags & rd.ActionFlags.MultiAction:
             action = action.parent  # of a draw out of a call for several RenderDoc counts on from the call's own place
         self.chunk = action.events[-1].chunkIndex  # of the capture's list of calls
@@ -110,25 +110,36 @@ class Capture:
     def _rows(self, kind, columns, *buffer):
         return rows_of(self.control.GetBufferData(*buffer), kind, columns)
 
-    def _indices(self, buffer, offset, width, base, count):
-        return self._rows(f'<u{width}', 1, buffer, offset, count * width)[:, 0].astype('i8') + base
+    def _corners(self, topology, count, restart, buffer, offset=0, width=0, base=0):
+        """The vertices of the triangles, three in a row; without an index buffer they are numbered from `base`."""
+        index, last = np.arange(count), 0
+        if buffer != NULL and width:
+            index = self._rows(f'<u{width}', 1, buffer, offset, count * width)[:, 0].astype('i8')
+            last = restart & (1 << 8 * width) - 1
+        at = np.arange(len(index))
+        start = np.maximum.accumulate(np.where(index == last, at + 1, 0)) if last else 0 * at
+        i, odd = at[:-2], ((at - start) % 2)[:-2]
+        rows = {rd.Topology.TriangleList: at[:len(at) // 3 * 3].reshape(-1, 3),
+                rd.Topology.TriangleStrip: np.stack([i + odd, i + 1 - odd, i + 2], 1),
+                rd.Topology.TriangleFan: np.stack([start[:-2], i + 1, i + 2], 1)}.get(topology, np.zeros((0, 3), int))
+        corners = index[rows]
+        return (corners[(corners != last).all(1)] if last else corners).reshape(-1) + base
 
     @functools.cache
     def after_vertex_shader(self, draw):
-        """(clip positions, all that the shader writes behind them), a row for each index of each instance that is read."""
+        """(clip positions, all that the shader writes behind them), three rows for each triangle of each instance."""
         self.at(draw.event)
         found, instances = [], draw.instances
-        if draw.topology == rd.Topology.PatchList_1CPs or instances > MOST_INSTANCES:
-            print(f'{draw.name} has patches, or {instances} instances where {MOST_INSTANCES} are read; this draw is left out')
+        if instances > MOST_INSTANCES:
+            print(f'{draw.name} has {instances} instances where {MOST_INSTANCES} are read; this draw is left out')
             instances = 0
         for instance in range(instances):
             mesh = self.control.GetPostVSData(instance, 0, draw.stage)
             if mesh.vertexResourceId == NULL or mesh.numIndices == 0:
                 continue
-            index = np.arange(mesh.numIndices)
             rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
-            if mesh.indexResourceId != NULL and mesh.indexByteStride:
-                index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.baseVertex, mesh.numIndices)
+            index = self._corners(mesh.topology, mesh.numIndices, mesh.restartIndex if mesh.allowRestart else 0,
+                                  mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.baseVertex)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
         rows = np.concatenate(found) if found else np.zeros((0, 4))
         return rows[:, :4] * np.array([1, -1 if draw.y_down else 1, 1, 1.0]), rows[:, 4:]
@@ -137,7 +148,7 @@ class Capture:
         return self.after_vertex_shader(draw)[0]
 
     def coordinates(self, draw):
-        """The first output of two floats, a mask's texture coordinate, a row for each index; without columns if there is none."""
+        """The first output of two floats, a mask's texture coordinate, a row for each of the clip positions; without columns if there is none."""
         reflection, written, at = self.at(draw.event).GetShaderReflection(rd.ShaderStage.Vertex), self.after_vertex_shader(draw)[1], 0
         for output in reflection.outputSignature if reflection else []:
             if output.compCount == 2 and output.systemValue == rd.ShaderBuiltin.Undefined:
@@ -147,10 +158,11 @@ class Capture:
 
     def vertex_inputs(self, draw):
         """Each attribute of floats as x, y, z, 1, a row for each of the clip positions. Which one is the place is found by a fit."""
-        index, found = self._indices(*draw.index, draw.count) if draw.index else np.arange(draw.count) + draw.first, []
+        state, found = self.at(draw.event), []
+        buffer = draw.index or (NULL, 0, 0, draw.first)
+        index = self._corners(draw.topology, draw.count, state.GetRestartIndex() if state.IsRestartEnabled() else 0, *buffer)
         if len(index) != len(self.clip(draw)):
             return found
-        state = self.at(draw.event)
         for attribute in state.GetVertexInputs():
             form, buffers = attribute.format, state.GetVBuffers()[attribute.vertexBuffer:][:1]
             size, columns = form.compByteWidth, form.compCount

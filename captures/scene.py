@@ -29,17 +29,11 @@ class Part:
 
 def part_of(draw, drawn, capture):
     clip, coordinates = capture.clip(draw), capture.coordinates(draw)
-    count = len(clip) // draw.instances
-    i = np.arange(max(0, count - 2))
-    rows = {rd.Topology.TriangleList: np.arange(count // 3 * 3).reshape(-1, 3),  # of the vertices of each triangle
-            rd.Topology.TriangleStrip: np.stack([i + i % 2, i + 1 - i % 2, i + 2], 1),
-            rd.Topology.TriangleFan: np.stack([0 * i, i + 1, i + 2], 1)}.get(draw.topology, np.zeros((0, 3), int))
-    rows = (rows + count * np.arange(draw.instances)[:, None, None]).reshape(-1, 3)
     places = clip @ np.linalg.inv(drawn.clip).T
     good = usable(clip) & (np.abs(places[:, 3]) > 1e-12)
     places = places[:, :3] / np.where(good, places[:, 3], 1)[:, None]
-    rows = rows[good[rows].all(1)]
-    return Part(draw, drawn, places[rows], coordinates[rows])
+    whole = good.reshape(-1, 3).all(1)
+    return Part(draw, drawn, places.reshape(-1, 3, 3)[whole], coordinates.reshape(len(whole), 3, -1)[whole])
 
 
 def find_mask(part, m, draw, capture):

@@ -41,7 +41,7 @@ FEATURES = {"sun": [1], "spot": [1], "point": [6], "cascades-atlas": [3], "casca
             "depth24": [1], "moments": [1], "exponential": [1], "compare": [1], "indexed instanced": [1], "indexed skinned": [1], "masked": [1],
             "msaa": [1], "outside": [1], "prepass indexed": [1], "two": [1, 1], "deferred": [1], "deferred cascades-array": [3], "shaded": [1],
             "shaded two prepass": [1, 1], "srgb": [1], "box srgb": [1], "temporal": [1], "polygon-offset": [1], "vertex-bias": [1], "orthographic": [1],
-            "fragment-lookup": [1], "normal-offset": [1], "multidraw": "[Ii]ndirect"}
+            "fragment-lookup": [1], "normal-offset": [1], "patches": [1], "strips": [1], "strips instanced": [1], "geometry indexed instanced": [1], "multidraw": "[Ii]ndirect"}
 # The fault, and what reader or verdict say of it, which they must not say of any program without one.
 FAULTS = {"no-model": "the lookup lacks their model matrix", "stale": "MAP AND LOOKUP DIFFER.*another frame", "half": "128 x 128 fills a part",
           "culled": "not in the map although in the picture: draw \\d+$", "sides": "without front faces", "gequal": "light and shadow are exchanged",

@@ -26,9 +26,17 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 coordinates;
 layout(location = 3) in float weight;   // of the second bone
 layout(location = 4) in vec3 place;     // of an instance
+#ifdef HANDED_ON // to the stage between
+out Handed {
+  vec3 in_world, facing;
+  vec4 in_light[LIGHTS];
+  vec2 uv;
+};
+#else
 out vec3 in_world, facing;
 out vec4 in_light[LIGHTS];
 out vec2 uv;
+#endif
 invariant gl_Position;
 void main() {
   vec4 at = model * vec4(position, 1);
@@ -46,6 +54,39 @@ void main() {
   for (int i = 0; i < LIGHTS; i++) in_light[i] = lookup[i * MAPS] * looked_up;
 #endif
   gl_Position = clip_from_world * at;
+}
+
+#elif defined(BETWEEN) // each triangle as it is
+#ifdef GEOMETRY
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 3) out;
+#else
+layout(triangles) in;
+#endif
+in Handed {
+  vec3 in_world, facing;
+  vec4 in_light[LIGHTS];
+  vec2 uv;
+} handed[];
+out vec3 in_world, facing;
+out vec4 in_light[LIGHTS];
+out vec2 uv;
+void hand_over(int i) {
+  in_world = handed[i].in_world;
+  facing = handed[i].facing;
+  in_light = handed[i].in_light;
+  uv = handed[i].uv;
+  gl_Position = gl_in[i].gl_Position;
+}
+void main() {
+#ifdef GEOMETRY
+  for (int i = 0; i < 3; i++) {
+    hand_over(i);
+    EmitVertex();
+  }
+#else // a corner of the patch, which is not divided
+  hand_over(gl_TessCoord.x > 0.5 ? 0 : gl_TessCoord.y > 0.5 ? 1 : 2);
+#endif
 }
 
 #else

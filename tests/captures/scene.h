@@ -17,6 +17,7 @@ enum {
   OUTSIDE,
   OBJECTS
 };
+static const unsigned RESTART = 0xffffffff;  // begins a new strip
 static char** options;  // the features and faults of the command line
 static int has(const char* name) {
   for (int i = 0; options[i]; i++)
@@ -46,8 +47,11 @@ static void quad(vec o, vec u, vec v, float weight0,
     const float one[9] = {p[i].x, p[i].y, p[i].z, n.x, n.y, n.z, i == 1 || i == 2, i > 1, i > 1 ? weight1 : weight0};
     memcpy(vertices + 9 * (vertex_count + i), one, sizeof one);
   }
-  const int corners[6] = {0, 1, 2, 0, 2, 3};
-  for (int i = 0; i < 6; i++) indices[index_count++] = (unsigned)(vertex_count + corners[i]);
+  const unsigned triangles[6] = {0, 1, 2, 0, 2, 3}, strip[5] = {0, 1, 3, 2, RESTART};
+  for (int i = 0; i < (has("strips") ? 5 : 6); i++) {
+    const unsigned at = has("strips") ? strip[i] : triangles[i];
+    indices[index_count++] = at == RESTART ? at : (unsigned)vertex_count + at;
+  }
   vertex_count += 4;
 }
 static void column(int parts) {  // a unit cube on y = 0, of several parts one above the other
