@@ -4,6 +4,7 @@ Everything that this package knows of RenderDoc's state stands here. Conventions
 rows of an image start at the bottom, y of clip space grows upwards, matrices multiply column vectors.
 """
 import functools
+import os
 
 import numpy as np
 import renderdoc as rd
@@ -201,11 +202,22 @@ class Capture:
         self.at(event)
         texture, part, mip = target
         t = self.textures[texture]
-        raw = self.control.GetTextureData(texture, rd.Subresource(mip, part, 0))
-        pixels = decode(raw, t.format, max(1, t.width >> mip), max(1, t.height >> mip), self.gl)
-        pixels = pixels if self.gl else np.ascontiguousarray(pixels[::-1])
+        width, height = max(1, t.width >> mip), max(1, t.height >> mip)
+        if t.format.compByteWidth:
+            pixels = decode(self.control.GetTextureData(texture, rd.Subresource(mip, part, 0)), t.format, width, height, self.gl)
+            pixels = pixels if self.gl else np.ascontiguousarray(pixels[::-1])
+        else:  # compressed in blocks
+            pixels = np.stack([self._unpacked(target, channel, width, height) for channel in range(t.format.compCount)], -1)
         x, y, w, h = map(int, viewport or (0, 0, *pixels.shape[1::-1]))
         return pixels[y:y + h, x:x + w]
+
+    def _unpacked(self, target, channel, width, height):
+        """A channel of 8 bits, as RenderDoc decodes it into a file: a head of 54 bytes, rows from the bottom, three equal bytes a texel."""
+        save = rd.TextureSave()
+        save.resourceId, save.slice.sliceIndex, save.mip = target
+        save.destType, save.channelExtract, path = rd.FileType.BMP, channel, os.path.join(os.environ['TMPDIR'], 'texture.bmp')
+        self.control.SaveTexture(save, path)
+        return np.fromfile(path, 'u1', offset=54).reshape(height, -1)[:, :3 * width:3].astype('f4') / 255
 
     def describe(self, target):
         t = self.textures[target[0]]
@@ -244,7 +256,7 @@ def decode(raw, form, width, height, gl):
     elif form.compType in KINDS:
         v = rows_of(raw, f'<{KINDS[form.compType]}{form.compByteWidth}', form.compCount)[:pixels]
         v = v / np.iinfo(v.dtype).max if v.dtype.kind == 'u' else v
-    if len(v) < pixels:  # compressed, too
+    if len(v) < pixels:
         raise Refusal(f'a texture of the format {form.Name()} is not read')
     v = v.astype('f4').reshape(height, width, -1)
     if form.compType == rd.CompType.UNormSRGB:

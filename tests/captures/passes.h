@@ -247,6 +247,9 @@ static void make_all(void) {
   for (int i = 0; i < 64; i++) mask[i / 4][i % 4] = (float)opaque(i / 4 % 4, i / 16);
   holes = texture_of(GL_TEXTURE_2D, GL_RGBA8, 4, 4, GL_NEAREST);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 4, 4, GL_RGBA, GL_FLOAT, mask);
+  unsigned char block[8] = {255, 255};  // of S3TC: the colours 0, white, and 1, black, and the two bits of each texel
+  for (int i = 0; i < 16; i++) block[4 + i / 4] |= (unsigned char)(!opaque(i % 4, i / 4) << i % 4 * 2);
+  if (has("compressed")) glCompressedTexImage2D(GL_TEXTURE_2D, 0, 0x83F0, 4, 4, 0, sizeof block, block);
 
   const GLenum kind = has("point") ? GL_TEXTURE_CUBE_MAP : has("cascades-array") ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
   const int wide = has("cascades-atlas") ? 2 * MAP : MAP, coloured = any("moments", "exponential");
