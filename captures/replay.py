@@ -203,7 +203,7 @@ class Capture:
         texture, part, mip = target
         t = self.textures[texture]
         width, height = max(1, t.width >> mip), max(1, t.height >> mip)
-        if t.format.compByteWidth:
+        if t.format.compByteWidth or packed(t.format):
             pixels = decode(self.control.GetTextureData(texture, rd.Subresource(mip, part, 0)), t.format, width, height, self.gl)
             pixels = pixels if self.gl else np.ascontiguousarray(pixels[::-1])
         else:  # compressed in blocks
@@ -242,17 +242,23 @@ PACKED = {'D24': lambda v, gl: v / (2.0 ** 32 - 1),  # spread over 32 bits
 KINDS = {rd.CompType.UNorm: 'u', rd.CompType.UNormSRGB: 'u', rd.CompType.Depth: 'u', rd.CompType.Float: 'f'}
 
 
+def packed(form):
+    """The name in PACKED, or ''."""
+    name = form.Name().split('_')[0].replace('D32S8', 'D32')
+    return name if name in PACKED else ''
+
+
 def step_of(form):
     """How far two values near 1 lie apart."""
-    packed, kind = {'R10G10B10A2': 1 / 1023, 'R11G11B10': 2 ** -6}, f'{KINDS[form.compType]}{form.compByteWidth}'
-    return packed.get(form.Name().split('_')[0]) or (1 / np.iinfo(kind).max if kind[0] == 'u' else np.finfo(kind).epsneg)
+    steps, kind = {'R10G10B10A2': 1 / 1023, 'R11G11B10': 2 ** -6}, f'{KINDS[form.compType]}{form.compByteWidth}'
+    return steps.get(packed(form)) or (1 / np.iinfo(kind).max if kind[0] == 'u' else np.finfo(kind).epsneg)
 
 
 def decode(raw, form, width, height, gl):
     """The values of a texture's bytes, as float32; sRGB formats are decoded."""
-    name, pixels, v = form.Name().split('_')[0].replace('D32S8', 'D32'), width * height, ()
-    if name in PACKED:
-        v = PACKED[name](rows_of(raw, '<u4', max(1, len(raw) // 4 // pixels))[:pixels, 0], gl)
+    pixels, v = width * height, ()
+    if packed(form):
+        v = PACKED[packed(form)](rows_of(raw, '<u4', max(1, len(raw) // 4 // pixels))[:pixels, 0], gl)
     elif form.compType in KINDS:
         v = rows_of(raw, f'<{KINDS[form.compType]}{form.compByteWidth}', form.compCount)[:pixels]
         v = v / np.iinfo(v.dtype).max if v.dtype.kind == 'u' else v

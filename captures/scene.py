@@ -103,7 +103,7 @@ def casters(camera, maps, capture):
         else:
             print(f'{draw.name} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
     for m in maps:
-        masked |= {d.geometry: (m, d) for d in m.draws if d.discards and d.reads}  # what reads nothing drops nothing
+        masked |= {d.geometry: (m, d) for d in m.draws if d.discards}
         parts += [part_of(d, m, capture) for d in m.draws if d.event not in m.pairs]
     parts = [p for p in parts if len(p.triangles)]
     if not parts:

@@ -138,16 +138,18 @@ static unsigned texture_of(GLenum target, int format, int width, int height, GLe
   glGenTextures(1, &texture);
   glBindTexture(target, texture);
   const int depth = format == GL_DEPTH_COMPONENT16 || format == GL_DEPTH_COMPONENT24 || format == GL_DEPTH_COMPONENT32F;
-  const GLenum layout = depth ? GL_DEPTH_COMPONENT : GL_RGBA;
+  const int stencil = format == GL_DEPTH24_STENCIL8;
+  const GLenum layout = depth ? GL_DEPTH_COMPONENT : stencil ? GL_DEPTH_STENCIL : GL_RGBA;
+  const GLenum type = stencil ? GL_UNSIGNED_INT_24_8 : GL_FLOAT;
   if (target == GL_TEXTURE_2D_MULTISAMPLE)
     glTexImage2DMultisample(target, 4, format, width, height, 1);
   else if (target == GL_TEXTURE_2D_ARRAY)
-    glTexImage3D(target, 0, format, width, height, 3, 0, layout, GL_FLOAT, 0);
+    glTexImage3D(target, 0, format, width, height, 3, 0, layout, type, 0);
   else if (target == GL_TEXTURE_CUBE_MAP)
     for (int i = 0; i < 6; i++)
-      glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i, 0, format, width, height, 0, layout, GL_FLOAT, 0);
+      glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i, 0, format, width, height, 0, layout, type, 0);
   else
-    glTexImage2D(target, 0, format, width, height, 0, layout, GL_FLOAT, 0);
+    glTexImage2D(target, 0, format, width, height, 0, layout, type, 0);
   if (target != GL_TEXTURE_2D_MULTISAMPLE) {
     glTexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);

@@ -143,8 +143,10 @@ static unsigned shown_framebuffer;
 static void make_target(struct target* t, int colour) {
   const GLenum kind = has("msaa") ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
   t->colour = texture_of(kind, colour, WIDTH, HEIGHT, GL_NEAREST);
-  t->depth =
-      texture_of(kind, has("reversed") ? GL_DEPTH_COMPONENT32F : GL_DEPTH_COMPONENT24, WIDTH, HEIGHT, GL_NEAREST);
+  const int depth = has("reversed")  ? GL_DEPTH_COMPONENT32F
+                    : has("stencil") ? GL_DEPTH24_STENCIL8
+                                     : GL_DEPTH_COMPONENT24;
+  t->depth = texture_of(kind, depth, WIDTH, HEIGHT, GL_NEAREST);
   t->framebuffer = framebuffer_of(t->colour, t->depth, kind, 0);
   t->flat = texture_of(GL_TEXTURE_2D, colour, WIDTH, HEIGHT, GL_NEAREST);
   t->flat_framebuffer = framebuffer_of(t->flat, 0, 0, 0);
@@ -255,6 +257,7 @@ static void make_all(void) {
   const int wide = has("cascades-atlas") ? 2 * MAP : MAP, coloured = any("moments", "exponential");
   const int depth = has("depth16")   ? GL_DEPTH_COMPONENT16
                     : has("depth24") ? GL_DEPTH_COMPONENT24
+                    : has("stencil") ? GL_DEPTH24_STENCIL8
                                      : GL_DEPTH_COMPONENT32F;
   for (int i = 0; i < light_count; i++) {
     struct light* l = &lights[i];
@@ -266,9 +269,10 @@ static void make_all(void) {
     for (int k = 0; k < (has("cascades-atlas") ? 1 : l->maps); k++)
       l->framebuffers[k] = framebuffer_of(colours, depths, kind, k);
   }
-  make_target(&targets[0], any("shaded", "temporal") || has("deferred") ? GL_RGBA16F
+  make_target(&targets[0], any("shaded", "temporal") || any("deferred", "curved") ? GL_RGBA16F
                            : any("two", "other-map")                    ? GL_RGBA32F
                            : has("srgb")                                ? GL_SRGB8_ALPHA8
+                           : has("bright")                              ? GL_RGBA8
                                                                         : GL_R32F);
   if (has("temporal")) make_target(&targets[1], GL_RGBA16F);
   if (has("deferred")) make_target(&targets[2], GL_R8);

@@ -112,6 +112,14 @@ uniform sampler2DShadow shadow_map;
 uniform sampler2D shadow_map, second_map;
 #endif
 
+void drop_holes() {
+#ifdef PROCEDURAL
+  if (masked == 1 && (int(uv.x * 4.0) + int(uv.y * 4.0)) % 2 == 0) discard;
+#else
+  if (masked == 1 && texture(holes, uv).r < 0.5) discard;
+#endif
+}
+
 float read_map(int light, int map, vec3 at) { // at: place in the map and depth, 0 to 1
 #if defined(COMPARE)
   return texture(shadow_map, vec3(at.xy, at.z - bias[light]));
@@ -187,7 +195,7 @@ float facing_light(int light, vec3 world, vec3 normal) { // cosine
 
 #if defined(MAP) || defined(DEPTH_ONLY)
 void main() {
-  if (masked == 1 && texture(holes, uv).r < 0.5) discard;
+  drop_holes();
 #if defined(MOMENTS)
   result = vec4(gl_FragCoord.z, gl_FragCoord.z * gl_FragCoord.z, 0, 1);
 #elif defined(EXPONENTIAL)
@@ -197,17 +205,23 @@ void main() {
 
 #elif defined(LIT)
 void main() {
-  if (masked == 1 && texture(holes, uv).r < 0.5) discard;
+  drop_holes();
 #if defined(DEFERRED)
   result = vec4(normalize(facing), albedo.x);
-#elif defined(SHADED) || defined(SRGB) || defined(TEMPORAL)
+#elif defined(SHADED) || defined(SRGB) || defined(TEMPORAL) || defined(CURVED) || defined(BRIGHT)
   if (show >= 0) {
     result = vec4(facing_light(show, in_world, facing) > 0.0 ? visibility(show, in_world) : 0.0);
     return;
   }
   vec3 light = vec3(0.06, 0.07, 0.09);
   for (int i = 0; i < LIGHTS; i++) light += colour[i] * facing_light(i, in_world, facing) * visibility(i, in_world);
+#ifdef BRIGHT
+  light *= 2.05;
+#endif
   result = vec4(albedo * light, 1);
+#ifdef CURVED
+  result.rgb /= 1.0 + result.rgb;
+#endif
 #ifdef TEMPORAL
   result = mix(texelFetch(history, ivec2(gl_FragCoord.xy), 0), result, 0.1);
 #endif
