@@ -13,7 +13,6 @@ from replay import Capture, Refusal
 
 SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's and OpenGL's standard places; others: the centre
 NO_SURFACE, NOT_JUDGED = -1.0, -2.0  # marks of frame.json
-MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
 EMPTY = 0.3  # of the receivers that read an empty texel, before the ground is taken for no caster of the map
 
 
@@ -138,7 +137,7 @@ class Reader:
         empty = np.mean(taps.read('none')[0][0][taps.inside] <= taps.z[taps.inside] - 1) if taps.inside.any() else 1.0
         reasons = {
             f'its shader moves the casters by {m.depth_off[0] / 2:.2g} to {m.depth_off[2] / 2:.2g} of window depth (a bias that grows with '
-            'the slope)': np.abs(m.depth_off).max() > MOVED,
+            'the slope)': m.is_moved,
             'it holds moments or packed depths, whose lookup is not known': m in self.pictures.in_colours,
             'its depths read as one value': np.ptp(m.depths) == 0,
             f'only {mine.sum()} pixels look it up': mine.sum() < lookup.FEWEST_RECEIVERS,
@@ -156,7 +155,7 @@ class Reader:
                 farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
                 # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
                 if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -lookup.AT_TEXEL:
-                    yield part.draw.name
+                    yield part.name
 
 
 def read(options):

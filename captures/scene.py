@@ -13,6 +13,8 @@ from lookup import AT_TEXEL, Taps
 from replay import Refusal
 from solve import usable
 
+HOLED = 0.05  # of the places of a part that the map lacks, with all texels around them, before it is said to have holes
+MOST_NAMED = 64  # instances of a draw, each a part of its own
 ENOUGH = 100  # places of a part that the map tells of, before its mask is looked for
 SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through two matrices
 CUTS = sorted(np.linspace(0.05, 0.95, 19), key=lambda cut: abs(cut - 0.5))  # that programs drop fragments below, the usual ones first
@@ -20,20 +22,32 @@ CUTS = sorted(np.linspace(0.05, 0.95, 19), key=lambda cut: abs(cut - 0.5))  # th
 
 @dataclasses.dataclass
 class Part:
+    name: str
     draw: object
     drawn: object  # the pass of the picture, or that of a map for what only that draws
     triangles: np.ndarray  # n x 3 x 3, of all instances
-    coordinates: np.ndarray  # n x 3 x 2, of a mask; less than 2 if the draw has none
+    coordinates: np.ndarray  # n x 3 x 2, of a mask; n x 3 x 0 if the draw has none
+    shows_front: bool  # the picture has no backs of them
     mask: tuple = None  # (texture, channel, cutoff)
 
 
-def part_of(draw, drawn, capture):
+def part_of(draw, drawn, capture, camera):
     clip, coordinates = capture.clip(draw), capture.coordinates(draw)
     places = clip @ np.linalg.inv(drawn.clip).T
     good = usable(clip) & (np.abs(places[:, 3]) > 1e-12)
     places = places[:, :3] / np.where(good, places[:, 3], 1)[:, None]
-    whole = good.reshape(-1, 3).all(1)
-    return Part(draw, drawn, places.reshape(-1, 3, 3)[whole], coordinates.reshape(len(whole), 3, -1)[whole])
+    whole, corners = good.reshape(-1, 3).all(1), [2, 1, 0] if camera.culls_ccw else [0, 1, 2]
+    return Part(draw.name, draw, drawn, places.reshape(-1, 3, 3)[whole][:, corners], coordinates.reshape(len(whole), 3, -1)[whole][:, corners],
+                drawn is camera and draw.culls_ccw is not None and draw.culls_ccw == camera.culls_ccw)
+
+
+def by_instance(part):
+    """A part for each instance, which a map's pass can lack alone."""
+    n = part.draw.instances
+    if not 1 < n <= MOST_NAMED or len(part.triangles) % n:
+        return [part]
+    each = zip(np.split(part.triangles, n), np.split(part.coordinates, n))
+    return [dataclasses.replace(part, name=f'{part.name}, instance {k}', triangles=t, coordinates=c) for k, (t, c) in enumerate(each)]
 
 
 def find_mask(part, m, draw, capture):
@@ -47,11 +61,11 @@ def find_mask(part, m, draw, capture):
     taps = Taps(m, (part.triangles[pick] * weight).sum(1))
     farther = taps.farther()
     told = farther < AT_TEXEL  # elsewhere something nearer hides it
-    if part.coordinates.shape[2] < 2 or told.sum() < ENOUGH:
-        return part.coordinates.shape[2] < 2
+    if told.sum() < ENOUGH:
+        return False
     there, uv = (farther > -AT_TEXEL)[told], (part.coordinates[pick] * weight).sum(1)[taps.inside][told] % 1
     agreement = max(there.mean(), 1 - there.mean())
-    for texture in draw.reads:
+    for texture in draw.reads if part.coordinates.shape[2] == 2 else ():
         try:
             image = mask_image(texture, draw, capture)
         except Refusal:
@@ -65,7 +79,7 @@ def find_mask(part, m, draw, capture):
     if part.mask:
         texture, channel, cut = part.mask
         print(f'{draw.name} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
-    return not part.mask and there.mean() < 0.95
+    return not part.mask and (taps.farther('box3')[told] < -AT_TEXEL).mean() > HOLED  # beside an outline a texel holds what is behind it
 
 
 def mask_image(texture, draw, capture):
@@ -95,16 +109,17 @@ def once(parts):
 
 def casters(camera, maps, capture):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
-    parts, masked = [], {}
+    parts, masked, paired = [], {}, {b for m in maps for b in m.pairs.values()}
     for draw in (d for d in camera.draws if d.writes_depth):
         clip = capture.clip(draw)
         if camera.orthographic or not usable(clip).any() or np.median(camera.off_depths(clip[usable(clip)])) <= 1e-3:
-            parts.append(part_of(draw, camera, capture))
+            part = part_of(draw, camera, capture, camera)
+            parts += [part] if draw in paired else by_instance(part)
         else:
             print(f'{draw.name} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
     for m in maps:
-        masked |= {d.geometry: (m, d) for d in m.draws if d.discards}
-        parts += [part_of(d, m, capture) for d in m.draws if d.event not in m.pairs]
+        masked |= {d.geometry: (m, d) for d in m.draws if d.discards and (d.reads or not m.is_moved)}
+        parts += [part_of(d, m, capture, camera) for d in m.draws if d.event not in m.pairs]
     parts = [p for p in parts if len(p.triangles)]
     if not parts:
         raise Refusal('the frame has no triangles that cast shadows')
@@ -143,21 +158,24 @@ def write_glb(path, parts, capture):
         blob.extend(data + b'\0' * (-len(data) % 4))
         return number
 
-    materials = {None: add('materials', doubleSided=True)}
+    materials = {}
     for part in sorted(parts, key=lambda p: p.draw.event):
         attributes = {}
         for name, rows in [('POSITION', part.triangles), ('TEXCOORD_0', part.coordinates)][:2 if part.mask else 1]:
             rows = np.ascontiguousarray(rows.reshape(-1, rows.shape[-1]), '<f4')
             attributes[name] = add('accessors', bufferView=view(rows.tobytes()), componentType=5126, count=len(rows),
                                    type=f'VEC{rows.shape[1]}', min=rows.min(0).tolist(), max=rows.max(0).tolist())
-        if part.mask not in materials:
-            texture, channel, cut = part.mask
-            alpha = mask_image(texture, part.draw, capture)[..., channel]
-            texture = add('textures', source=add('images', bufferView=view(png(alpha)), mimeType='image/png'))
-            materials[part.mask] = add('materials', doubleSided=True, alphaMode='MASK', alphaCutoff=cut,
-                                       pbrMetallicRoughness={'baseColorTexture': {'index': texture}})
-        mesh = add('meshes', name=part.draw.name, primitives=[{'attributes': attributes, 'material': materials[part.mask]}])
-        add('nodes', mesh=mesh, name=part.draw.name)
+        look = part.mask, part.shows_front
+        if look not in materials:
+            masked = {}
+            if part.mask:
+                texture, channel, cut = part.mask
+                alpha = mask_image(texture, part.draw, capture)[..., channel]
+                texture = add('textures', source=add('images', bufferView=view(png(alpha)), mimeType='image/png'))
+                masked = {'alphaMode': 'MASK', 'alphaCutoff': cut, 'pbrMetallicRoughness': {'baseColorTexture': {'index': texture}}}
+            materials[look] = add('materials', doubleSided=not part.shows_front, **masked)
+        mesh = add('meshes', name=part.name, primitives=[{'attributes': attributes, 'material': materials[look]}])
+        add('nodes', mesh=mesh, name=part.name)
     gltf |= {'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': list(range(len(parts)))}],
              'buffers': [{'byteLength': len(blob)}]}
     text = json.dumps(gltf).encode()

@@ -61,16 +61,17 @@ static void draw_objects(const unsigned programs[2], mat clip_from_world, int fo
     set(program, "bone", 1, bone_of(i).m);
     set_vec(program, "albedo", -1, o->albedo);
     set_int(program, "masked", i == HOLES);
+    const int instances = o->instances - (for_map && i == BOX && has("culled-instance"));
     if (o->instances > 1) glEnableVertexAttribArray(4);
     const GLenum kind = is_patched ? GL_PATCHES : has("strips") ? GL_TRIANGLE_STRIP : GL_TRIANGLES;
     if (indexed() && o->instances > 1)
       glDrawElementsInstanced(kind, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first),
-                              o->instances);
+                              instances);
     else if (indexed())
       glDrawElementsBaseVertex(kind, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first),
                                0);
     else
-      glDrawArraysInstanced(kind, o->first, o->count, o->instances);
+      glDrawArraysInstanced(kind, o->first, o->count, instances);
     glDisableVertexAttribArray(4);
   }
 }
@@ -177,7 +178,11 @@ static void draw_frame(int frame, int show) {  // `show`: see scene.glsl
   }
   for (int i = 0; i < 2; i++) use_lookup(lit_program[i], show);
   bind(3, GL_TEXTURE_2D, has("temporal") ? targets[1 - (frame & 1)].colour : 0);
+  if (has("backs")) glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glFrontFace(has("clockwise") ? GL_CW : GL_CCW);
   draw_objects(lit_program, clip_from_world, 0);
+  glDisable(GL_CULL_FACE);
   glDepthFunc(has("reversed") ? GL_GREATER : GL_LESS);
   glDepthMask(1);
   glDisable(GL_FRAMEBUFFER_SRGB);

@@ -15,6 +15,7 @@ enum {
   ARM,
   HOLES,
   OUTSIDE,
+  AWAY,
   OBJECTS
 };
 static const unsigned RESTART = 0xffffffff;  // begins a new strip
@@ -47,9 +48,9 @@ static void quad(vec o, vec u, vec v, float weight0,
     const float one[9] = {p[i].x, p[i].y, p[i].z, n.x, n.y, n.z, i == 1 || i == 2, i > 1, i > 1 ? weight1 : weight0};
     memcpy(vertices + 9 * (vertex_count + i), one, sizeof one);
   }
-  const unsigned triangles[6] = {0, 1, 2, 0, 2, 3}, strip[5] = {0, 1, 3, 2, RESTART};
+  const unsigned triangles[2][6] = {{0, 1, 2, 0, 2, 3}, {0, 2, 1, 0, 3, 2}}, strip[5] = {0, 1, 3, 2, RESTART};
   for (int i = 0; i < (has("strips") ? 5 : 6); i++) {
-    const unsigned at = has("strips") ? strip[i] : triangles[i];
+    const unsigned at = has("strips") ? strip[i] : triangles[has("clockwise")][i];
     indices[index_count++] = at == RESTART ? at : (unsigned)vertex_count + at;
   }
   vertex_count += 4;
@@ -89,11 +90,15 @@ static void make_scene(void) {
   first = index_count;
   quad((vec){-.5f, 0, 0}, (vec){1, 0, 0}, (vec){0, 1, 0}, 0, 0);
   object(HOLES, first, mul(moving(0, 0, 1.2f), mul(turning(30), scaling(1.1f, 1.1f, 1))), (vec){.3f, .7f, .4f});
+  first = index_count;
+  quad((vec){.5f, 0, 0}, (vec){-1, 0, 0}, (vec){0, 1, 0}, 0, 0);  // the camera sees its back
+  object(AWAY, first, mul(moving(-.6f, 0, -2.9f), scaling(2, 2.2f, 1)), (vec){.6f, .4f, .2f});
 }
 static int drawn(int which, int for_map) {  // is the object drawn in this pass
   if (has("multidraw")) return which == FLOOR || which == BOX;
   if (which == ARM) return has("skinned");
   if (which == HOLES) return has("masked");
+  if (which == AWAY) return has("backs");
   if (which == OUTSIDE) return has("outside") && for_map;
   return !(which == TALL && for_map && has("culled"));
 }
