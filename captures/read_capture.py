@@ -39,6 +39,7 @@ class Reader:
         depth = self.capture.image(cam.depth, cam.last, cam.viewport)[..., 0] if cam.depth else np.zeros(1)
         if np.ptp(depth) == 0:
             raise Refusal('the picture has no depth buffer, or it reads as one value (OpenGL ES cannot read some); nothing can be judged')
+        cam.depths = depth
         for m in self.maps:
             m.depths = self.capture.image(m.target, m.last, m.viewport)[..., 0]
         self.parts = scene.casters(cam, self.maps, self.capture)

@@ -207,17 +207,20 @@ class Capture:
             pixels = decode(self.control.GetTextureData(texture, rd.Subresource(mip, part, 0)), t.format, width, height, self.gl)
             pixels = pixels if self.gl else np.ascontiguousarray(pixels[::-1])
         else:  # compressed in blocks
-            pixels = np.stack([self._unpacked(target, channel, width, height) for channel in range(t.format.compCount)], -1)
+            pixels = self._unpacked(target, width, height)
         x, y, w, h = map(int, viewport or (0, 0, *pixels.shape[1::-1]))
         return pixels[y:y + h, x:x + w]
 
-    def _unpacked(self, target, channel, width, height):
-        """A channel of 8 bits, as RenderDoc decodes it into a file: a head of 54 bytes, rows from the bottom, three equal bytes a texel."""
-        save = rd.TextureSave()
+    @functools.cache
+    def _unpacked(self, target, width, height):
+        """Of 8 bits, as RenderDoc decodes a channel into a file: a head of 54 bytes, rows from the bottom, three equal bytes a texel."""
+        save, path, channels = rd.TextureSave(), os.path.join(os.environ['TMPDIR'], 'texture.bmp'), []
         save.resourceId, save.slice.sliceIndex, save.mip = target
-        save.destType, save.channelExtract, path = rd.FileType.BMP, channel, os.path.join(os.environ['TMPDIR'], 'texture.bmp')
-        self.control.SaveTexture(save, path)
-        return np.fromfile(path, 'u1', offset=54).reshape(height, -1)[:, :3 * width:3].astype('f4') / 255
+        save.destType = rd.FileType.BMP
+        for save.channelExtract in range(self.textures[target[0]].format.compCount):
+            self.control.SaveTexture(save, path)
+            channels.append(np.fromfile(path, 'u1', offset=54).reshape(height, -1)[:, :3 * width:3].astype('f4') / 255)
+        return np.stack(channels, -1)
 
     def describe(self, target):
         t = self.textures[target[0]]

@@ -11,16 +11,17 @@ import renderdoc as rd
 
 from lookup import AT_TEXEL, Taps
 from replay import Refusal
-from solve import usable
+from solve import grouped, usable
 
 HOLED = 0.05  # of the places of a part that the map lacks, with all texels around them, before it is said to have holes
 MOST_NAMED = 64  # instances of a draw, each a part of its own
 ENOUGH = 100  # places of a part that the map tells of, before its mask is looked for
 SAME_PLACE = 2e-5  # of the scene's size: rounding of the same vertices through two matrices
+FEWEST_HOLES = 0.005  # of the places of a part, before a mask is looked for
 CUTS = sorted(np.linspace(0.05, 0.95, 19), key=lambda cut: abs(cut - 0.5))  # that programs drop fragments below, the usual ones first
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Part:
     name: str
     draw: object
@@ -50,22 +51,37 @@ def by_instance(part):
     return [dataclasses.replace(part, name=f'{part.name}, instance {k}', triangles=t, coordinates=c) for k, (t, c) in enumerate(each)]
 
 
-def find_mask(part, m, draw, capture):
-    """Sets the part's mask, if one explains where the captured map holds it; otherwise returns whether it has holes there.
+def find_mask(part, shown_by, capture):
+    """Sets the part's mask, if one explains where the depths of a pass hold it. Returns '', 'holes' that none explains, or 'nothing' of it is there.
 
-    The shader's text tells nothing: a `discard` may stand under a constant that is 0.
+    shown_by: (pass, its draw of the part). The shader's text tells nothing: a `discard` may stand under a constant that is 0.
     """
-    seeds = np.random.default_rng(1)
+    seeds, found = np.random.default_rng(1), ''
     pick = seeds.integers(len(part.triangles), size=6000)
     weight = seeds.dirichlet((1, 1, 1), size=6000)[:, :, None]
-    taps = Taps(m, (part.triangles[pick] * weight).sum(1))
-    farther = taps.farther()
-    told = farther < AT_TEXEL  # elsewhere something nearer hides it
-    if told.sum() < ENOUGH:
-        return False
-    there, uv = (farther > -AT_TEXEL)[told], (part.coordinates[pick] * weight).sum(1)[taps.inside][told] % 1
-    agreement = max(there.mean(), 1 - there.mean())
-    for texture in draw.reads if part.coordinates.shape[2] == 2 else ():
+    places, all_uv = ((corners[pick] * weight).sum(1) for corners in (part.triangles, part.coordinates))
+    for drawn, draw in shown_by:
+        taps = Taps(drawn, places)
+        farther = taps.farther()
+        told = farther < AT_TEXEL  # elsewhere something nearer hides it
+        if told.sum() < ENOUGH:
+            continue
+        there, uv = (farther > -AT_TEXEL)[told], all_uv[taps.inside][told] % 1
+        part.mask = mask_of(there, uv, draw, capture) if uv.shape[1] == 2 else None
+        if part.mask:
+            texture, channel, cut = part.mask
+            print(f'{part.name} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
+            return ''
+        if (taps.farther('box3')[told] < -AT_TEXEL).mean() > HOLED:  # beside an outline a texel holds what is behind it
+            found = 'nothing' if drawn is part.drawn and there.mean() < HOLED else 'holes'
+    return found
+
+
+def mask_of(there, uv, draw, capture):
+    """(texture, channel, cutoff) that explains best which places are there; None if none explains a half of what one answer for all misses."""
+    missed, mask = min(there.mean(), 1 - there.mean()) / 2, None
+    drawn_into = {target[0] for d in capture.draws for target in (d.depth, *d.outputs) if target}
+    for texture in draw.reads - drawn_into if missed > FEWEST_HOLES else ():
         try:
             image = mask_image(texture, draw, capture)
         except Refusal:
@@ -73,13 +89,10 @@ def find_mask(part, m, draw, capture):
         rows, columns = image.shape[:2]
         values = image[(uv[:, 1] * rows).astype(int) % rows, (uv[:, 0] * columns).astype(int) % columns]
         for channel, cut in itertools.product(range(image.shape[2]), CUTS):
-            agrees = ((values[:, channel] >= cut) == there).mean()
-            if agrees > agreement + 0.01:
-                part.mask, agreement = (texture, channel, float(cut)), agrees
-    if part.mask:
-        texture, channel, cut = part.mask
-        print(f'{draw.name} drops fragments by channel {channel} of "{capture.names.get(texture, "")}" below {cut:.2f}')
-    return not part.mask and (taps.farther('box3')[told] < -AT_TEXEL).mean() > HOLED  # beside an outline a texel holds what is behind it
+            misses = ((values[:, channel] >= cut) != there).mean()
+            if misses < missed:
+                mask, missed = (texture, channel, float(cut)), misses
+    return mask
 
 
 def mask_image(texture, draw, capture):
@@ -109,7 +122,7 @@ def once(parts):
 
 def casters(camera, maps, capture):
     """Opaque draws of the picture, and what is only in the maps; the triangles of several passes once."""
-    parts, masked, paired = [], {}, {b for m in maps for b in m.pairs.values()}
+    parts, paired = [], {b for m in maps for b in m.pairs.values()}
     for draw in (d for d in camera.draws if d.writes_depth):
         clip = capture.clip(draw)
         if camera.orthographic or not usable(clip).any() or np.median(camera.off_depths(clip[usable(clip)])) <= 1e-3:
@@ -118,21 +131,21 @@ def casters(camera, maps, capture):
         else:
             print(f'{draw.name} does not lie on the depths of the camera (a sky, a full screen): it is no caster')
     for m in maps:
-        masked |= {d.geometry: (m, d) for d in m.draws if d.discards and (d.reads or not m.is_moved)}
         parts += [part_of(d, m, capture, camera) for d in m.draws if d.event not in m.pairs]
     parts = [p for p in parts if len(p.triangles)]
     if not parts:
         raise Refusal('the frame has no triangles that cast shadows')
-    kept, holed = once(parts), []
+    kept = once(parts)
     all_of, left, of_maps = (sum(len(p.triangles) for p in some) for some in (parts, kept, [p for p in kept if p.drawn is not camera]))
     print(f'{left} triangles of {len(kept)} draws; {of_maps} of them only in the maps; {all_of - left} are drawn again in other passes')
-    for part in kept:
-        m, draw = masked.get(part.draw.geometry, (None, None))
-        holed += [str(draw.event)] if m and find_mask(part, m, draw, capture) else []
+    discards = [(drawn, d) for drawn in (*maps, camera) for d in drawn.draws if d.discards and (d.reads or not drawn.is_moved)]
+    shown_by = grouped(discards, lambda row: row[1].geometry)
+    found = grouped(kept, lambda part: find_mask(part, shown_by.get(part.draw.geometry, ()), capture))
+    holed = [str(part.draw.event) for part in found.get('holes', ())]
     if holed:
         print(f'these draws may drop fragments, and no texture explains which: {", ".join(dict.fromkeys(holed))}; they are '
               'solid casters here, so the shadows through their holes are not to be trusted')
-    return kept
+    return [part for part in kept if part not in found.get('nothing', ())]
 
 
 def png(alpha):

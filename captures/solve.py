@@ -26,13 +26,13 @@ class Pass:
     viewport: tuple
     clip: np.ndarray = None  # 4 x 4: clip space from the camera's axes; None where the pass tells no camera
     orthographic: bool = False
+    depths: np.ndarray = None  # as captured; rows start at the bottom
     # Of a map:
     along: np.ndarray = None  # the way of the light in the middle of the map, of any length
     eye: np.ndarray = None  # 4, homogeneous: where the light is, or the way to it
     pairs: dict = None  # event of the map's draw -> draw of the camera's pass
     residual: float = None  # 99 in 100 vertices are nearer to the matrix, in clip units
-    depth_off: np.ndarray = None  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
-    depths: np.ndarray = None  # as captured; rows start at the bottom
+    depth_off: tuple = (0, 0, 0)  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
     is_clockwise: bool = False  # the front of the picture's triangles, on its screen
 
     def __post_init__(self):
