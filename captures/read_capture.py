@@ -80,7 +80,9 @@ class Reader:
         if use.sum() < FEWEST_PIXELS:
             raise Refusal(f'only {use.sum()} pixels that face the light react to the map of {group[0].name}')
         if mute.any():
-            notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
+            beyond = ~np.any([lookup.Taps(m, self.place[mute]).inside for m in group], axis=0)
+            notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged'
+                         + (f'; {beyond.sum()} of them lie beyond the borders or the far end of what it holds' if beyond.any() else ''))
         marks = np.select([~surface, reacts, facing], [NO_SURFACE, v, NOT_JUDGED])
         missing, lookups = sorted(self.not_in(group)), []
         for m, decides in zip(group, self.decided(group, target, lit, dark)):

@@ -52,7 +52,7 @@ FAULTS |= {f"{fault} {feature}": FAULTS[fault] for fault, feature in [("stale", 
 FAULTS["culled-instance instanced"] = "not in the map although in the picture: draw \\d+, instance 2$"
 # What a capture does not tell of a program that has no fault, and what the reader says of it.
 SAID = {"masked procedural": "no texture explains which: \\d+", "box curved": "the channels of the picture disagree",
-        "bright": "\\d+ pixels reach the end of their format"}
+        "beyond": "\\d{3,} of them lie beyond the borders", "bright": "\\d+ pixels reach the end of their format"}
 bad = []
 
 

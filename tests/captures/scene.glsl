@@ -121,6 +121,9 @@ void drop_holes() {
 }
 
 float read_map(int light, int map, vec3 at) { // at: place in the map and depth, 0 to 1
+#ifdef BEYOND
+  if (any(lessThan(at, vec3(0))) || any(greaterThan(at, vec3(1)))) return 1.0;
+#endif
 #if defined(COMPARE)
   return texture(shadow_map, vec3(at.xy, at.z - bias[light]));
 #elif defined(BOX)
