@@ -107,6 +107,11 @@ class Capture:
     def draws(self):
         return [Draw(a, self.at(a.eventId), self) for a in self.actions(rd.ActionFlags.Drawcall)]
 
+    @functools.cached_property
+    def drawn_into(self):
+        """Textures."""
+        return {target[0] for d in self.draws for target in (d.depth, *d.outputs) if target}
+
     # ---- vertices
     def _rows(self, kind, columns, *buffer):
         return rows_of(self.control.GetBufferData(*buffer), kind, columns)

@@ -80,8 +80,7 @@ def find_mask(part, shown_by, capture):
 def mask_of(there, uv, draw, capture):
     """(texture, channel, cutoff) that explains best which places are there; None if none explains a half of what one answer for all misses."""
     missed, mask = min(there.mean(), 1 - there.mean()) / 2, None
-    drawn_into = {target[0] for d in capture.draws for target in (d.depth, *d.outputs) if target}
-    for texture in draw.reads - drawn_into if missed > FEWEST_HOLES else ():
+    for texture in draw.reads - capture.drawn_into if missed > FEWEST_HOLES else ():
         try:
             image = mask_image(texture, draw, capture)
         except Refusal:

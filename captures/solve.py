@@ -4,6 +4,7 @@ The world is the camera's own axes: right, up, backwards, in the program's unit;
 A pass is all draws into one depth target, its colour targets and one viewport: a cascade, a cube's face or the picture.
 """
 import dataclasses
+import functools
 import itertools
 
 import numpy as np
@@ -68,10 +69,10 @@ class Pass:
         """Whether the map's shader moves the casters by a bias that grows with the slope."""
         return np.abs(self.depth_off).max() > MOVED
 
-    @property
+    @functools.cached_property
     def culls_ccw(self):
         """As most of the draws."""
-        return max((d.culls_ccw for d in self.draws), key=lambda ccw: sum(d.count for d in self.draws if d.culls_ccw == ccw))
+        return max((None, False, True), key=lambda ccw: sum(d.count for d in self.draws if d.culls_ccw == ccw))
 
     @property
     def cull(self):
