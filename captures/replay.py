@@ -30,9 +30,8 @@ class Draw:
     """A draw call, and the state that it is made in."""
 
     def __init__(self, action, state, capture):
-        self.event, self.count, self.topology = action.eventId, action.numIndices, state.GetPrimitiveTopology()
-        self.name = f'draw {self.event}'
-        self.first, self.index = action.vertexOffset, ()  # or (buffer, byte offset, bytes of an index, base vertex)
+        self.event, self.count, self.name = action.eventId, action.numIndices, f'draw {action.eventId}'
+        self.index = (NULL, 0, 0, action.vertexOffset)  # buffer, byte offset, bytes of an index, what is added to each
         buffers, inputs = state.GetVBuffers(), state.GetVertexInputs()
         mesh = [(b.resourceId, b.byteOffset) for b in buffers[inputs[0].vertexBuffer:][:1]] if len(inputs) else []
         if action.flags & rd.ActionFlags.Indexed:
@@ -40,7 +39,7 @@ class Draw:
             offset = buffer.byteOffset + action.indexOffset * buffer.byteStride
             mesh = self.index = (buffer.resourceId, offset, buffer.byteStride, action.baseVertex)
         self.instances = max(1, action.numInstances)
-        self.geometry = (*mesh, self.first, self.count, self.instances)  # equal in every pass that draws the same mesh
+        self.geometry = (*mesh, action.vertexOffset, self.count, self.instances)  # equal in every pass that draws the same mesh
         is_last = all(state.GetShader(stage) == NULL for stage in (rd.ShaderStage.Geometry, rd.ShaderStage.Tess_Eval))
         self.stage = rd.MeshDataStage.VSOut if is_last else rd.MeshDataStage.GSOut
         while action.parent and action.parent.flags & rd.ActionFlags.MultiAction:
@@ -116,20 +115,19 @@ class Capture:
     def _rows(self, kind, columns, *buffer):
         return rows_of(self.control.GetBufferData(*buffer), kind, columns)
 
-    def _corners(self, topology, count, restart, buffer, offset=0, width=0, base=0):
-        """The vertices of the triangles, three in a row; without an index buffer they are numbered from `base`."""
-        index, last = np.arange(count), 0
+    def _corners(self, topology, count, restart, buffer, offset, width, base):
+        """The vertices of the triangles, three in a row. restart: the index that begins a new strip, -1 without one."""
+        index = at = np.arange(count)
         if buffer != NULL and width:
             index = self._rows(f'<u{width}', 1, buffer, offset, count * width)[:, 0].astype('i8')
-            last = restart & (1 << 8 * width) - 1
-        at = np.arange(len(index))
-        start = np.maximum.accumulate(np.where(index == last, at + 1, 0)) if last else 0 * at
+            at, restart = at[:len(index)], restart & (1 << 8 * width) - 1 if restart > 0 else -1
+        start = np.maximum.accumulate(np.where(index == restart, at + 1, 0))
         i, odd = at[:-2], ((at - start) % 2)[:-2]
         rows = {rd.Topology.TriangleList: at[:len(at) // 3 * 3].reshape(-1, 3),
                 rd.Topology.TriangleStrip: np.stack([i + odd, i + 1 - odd, i + 2], 1),
                 rd.Topology.TriangleFan: np.stack([start[:-2], i + 1, i + 2], 1)}.get(topology, np.zeros((0, 3), int))
         corners = index[rows]
-        return (corners[(corners != last).all(1)] if last else corners).reshape(-1) + base
+        return corners[(corners != restart).all(1)].reshape(-1) + base
 
     @functools.cache
     def after_vertex_shader(self, draw):
@@ -144,7 +142,7 @@ class Capture:
             if mesh.vertexResourceId == NULL or mesh.numIndices == 0:
                 continue
             rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
-            index = self._corners(mesh.topology, mesh.numIndices, mesh.restartIndex if mesh.allowRestart else 0,
+            index = self._corners(mesh.topology, mesh.numIndices, mesh.restartIndex if mesh.allowRestart else -1,
                                   mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.baseVertex)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
         rows = np.concatenate(found) if found else np.zeros((0, 4))
@@ -165,8 +163,8 @@ class Capture:
     def vertex_inputs(self, draw):
         """Each attribute of floats as x, y, z, 1, a row for each of the clip positions. Which one is the place is found by a fit."""
         state, found = self.at(draw.event), []
-        buffer = draw.index or (NULL, 0, 0, draw.first)
-        index = self._corners(draw.topology, draw.count, state.GetRestartIndex() if state.IsRestartEnabled() else 0, *buffer)
+        restart = state.GetRestartIndex() if state.IsRestartEnabled() else -1
+        index = self._corners(state.GetPrimitiveTopology(), draw.count, restart, *draw.index)
         if len(index) != len(self.clip(draw)):
             return found
         for attribute in state.GetVertexInputs():
