@@ -152,13 +152,14 @@ class Capture:
         return self.after_vertex_shader(draw)[0]
 
     def coordinates(self, draw):
-        """The first output of two floats, a mask's texture coordinate, a row for each of the clip positions; without columns if there is none."""
+        """A mask's: the first output of two floats, or the first input of two where RenderDoc reads none; a row for each of the clip positions."""
         reflection, written, at = self.at(draw.event).GetShaderReflection(rd.ShaderStage.Vertex), self.after_vertex_shader(draw)[1], 0
         for output in reflection.outputSignature if reflection else []:
-            if output.compCount == 2 and output.systemValue == rd.ShaderBuiltin.Undefined:
-                return written[:, at:at + 2]
+            found = written[:, at:at + 2]
+            if output.compCount == 2 and output.systemValue == rd.ShaderBuiltin.Undefined and found.any():
+                return found
             at += 0 if output.systemValue == rd.ShaderBuiltin.Position else output.compCount
-        return written[:, :0]
+        return next((rows[:, :2] for rows in self.vertex_inputs(draw) if not rows[:, 2].any()), written[:, :0])
 
     def vertex_inputs(self, draw):
         """Each attribute of floats as x, y, z, 1, a row for each of the clip positions. Which one is the place is found by a fit."""

@@ -3,6 +3,11 @@
 #if defined(CASCADES_ATLAS) || defined(CASCADES_ARRAY) || defined(POINT) || defined(DEFERRED) || defined(FRAGMENT_LOOKUP)
 #define LOOKUP_IN_FRAGMENT // the other programs hand the place in the map over from the vertex shader
 #endif
+#ifdef PACKED
+#define COORDINATES vec4 // no output of two floats is handed over
+#else
+#define COORDINATES vec2
+#endif
 #ifdef POINT
 #define MAPS 6
 #elif defined(CASCADES_ATLAS) || defined(CASCADES_ARRAY)
@@ -30,12 +35,12 @@ layout(location = 4) in vec3 place;     // of an instance
 out Handed {
   vec3 in_world, facing;
   vec4 in_light[LIGHTS];
-  vec2 uv;
+  COORDINATES uv;
 };
 #else
 out vec3 in_world, facing;
 out vec4 in_light[LIGHTS];
-out vec2 uv;
+out COORDINATES uv;
 #endif
 invariant gl_Position;
 void main() {
@@ -43,7 +48,8 @@ void main() {
   at = mix(at, bone * at, weight) + vec4(place, 0);
   in_world = at.xyz;
   facing = mat3(model) * normal;
-  uv = coordinates;
+  uv = COORDINATES(0);
+  uv.xy = coordinates;
 #ifdef NO_MODEL
   for (int i = 0; i < LIGHTS; i++) in_light[i] = lookup[i * MAPS] * vec4(position, 1);
 #else
@@ -66,11 +72,11 @@ layout(triangles) in;
 in Handed {
   vec3 in_world, facing;
   vec4 in_light[LIGHTS];
-  vec2 uv;
+  COORDINATES uv;
 } handed[];
 out vec3 in_world, facing;
 out vec4 in_light[LIGHTS];
-out vec2 uv;
+out COORDINATES uv;
 void hand_over(int i) {
   in_world = handed[i].in_world;
   facing = handed[i].facing;
@@ -92,7 +98,7 @@ void main() {
 #else
 in vec3 in_world, facing;
 in vec4 in_light[LIGHTS];
-in vec2 uv;
+in COORDINATES uv;
 uniform sampler2D holes, picture, history;
 uniform sampler2DMS samples;
 layout(location = 0) out vec4 result;
@@ -116,7 +122,7 @@ void drop_holes() {
 #ifdef PROCEDURAL
   if (masked == 1 && (int(uv.x * 4.0) + int(uv.y * 4.0)) % 2 == 0) discard;
 #else
-  if (masked == 1 && texture(holes, uv).r < 0.5) discard;
+  if (masked == 1 && texture(holes, uv.xy).r < 0.5) discard;
 #endif
 }
 
