@@ -65,11 +65,9 @@ static void draw_objects(const unsigned programs[2], mat clip_from_world, int fo
     if (o->instances > 1) glEnableVertexAttribArray(4);
     const GLenum kind = is_patched ? GL_PATCHES : has("strips") ? GL_TRIANGLE_STRIP : GL_TRIANGLES;
     if (indexed() && o->instances > 1)
-      glDrawElementsInstanced(kind, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first),
-                              instances);
+      glDrawElementsInstanced(kind, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first), instances);
     else if (indexed())
-      glDrawElementsBaseVertex(kind, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first),
-                               0);
+      glDrawElementsBaseVertex(kind, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first), 0);
     else
       glDrawArraysInstanced(kind, o->first, o->count, instances);
     glDisableVertexAttribArray(4);
@@ -200,7 +198,8 @@ static void draw_frame(int frame, int show) {  // `show`: see scene.glsl
 }
 
 static char* source;
-static unsigned pass_program(const char* pass, GLenum between) {  // each option is a define: cascades-atlas is CASCADES_ATLAS
+static unsigned pass_program(const char* pass,
+                             GLenum between) {  // each option is a define: cascades-atlas is CASCADES_ATLAS
   char defines[1000];
   int end = snprintf(defines, sizeof defines, "#define LIGHTS %d\n#define %s\n", light_count, pass);
   for (int i = 0; options[i]; i++) {
@@ -275,10 +274,10 @@ static void make_all(void) {
       l->framebuffers[k] = framebuffer_of(colours, depths, kind, k);
   }
   make_target(&targets[0], any("shaded", "temporal") || any("deferred", "curved") ? GL_RGBA16F
-                           : any("two", "other-map")                    ? GL_RGBA32F
-                           : has("srgb")                                ? GL_SRGB8_ALPHA8
-                           : has("bright")                              ? GL_RGBA8
-                                                                        : GL_R32F);
+                           : any("two", "other-map")                              ? GL_RGBA32F
+                           : has("srgb")                                          ? GL_SRGB8_ALPHA8
+                           : has("bright")                                        ? GL_RGBA8
+                                                                                  : GL_R32F);
   if (has("temporal")) make_target(&targets[1], GL_RGBA16F);
   if (has("deferred")) make_target(&targets[2], GL_R8);
   make_target(&targets[3], GL_R32F);

@@ -19,7 +19,7 @@ enum {
   OBJECTS
 };
 static const unsigned RESTART = 0xffffffff;  // begins a new strip
-static char** options;  // the features and faults of the command line
+static char** options;                       // the features and faults of the command line
 static int has(const char* name) {
   for (int i = 0; options[i]; i++)
     if (!strcmp(options[i], name)) return 1;
@@ -127,7 +127,9 @@ static void place_light(struct light* l, const char* kind, int frame) {
     l->maps = any("cascades-atlas", "cascades-array") ? 3 : 1;
     l->bias = has("small") ? .0003f : has("large") ? .04f : has("normal-offset") ? 1.75f * 10 / MAP : .005f;
     for (int k = 0; k < l->maps; k++) {
-      const float e = has("beyond") ? 2 : l->maps == 1 ? 5 : (float[]){1.5f, 2.8f, 5.5f}[k],
+      const float e = has("beyond")  ? 2
+                      : l->maps == 1 ? 5
+                                     : (float[]){1.5f, 2.8f, 5.5f}[k],
                   z = l->maps == 1 ? 0 : (float[]){1.6f, .8f, 0}[k];
       const vec c = {view.m[8] * z, view.m[9] * z, 0};  // the cascades follow the view, from near to far
       l->map[k] = mul(parallel(c.x - e, c.x + e, c.y - e, c.y + e, 1, 14, at_near, at_far), view);
