@@ -152,7 +152,7 @@ class Capture:
         return self.after_vertex_shader(draw)[0]
 
     def coordinates(self, draw):
-        """A mask's: the first output of two floats, or the first input of two where RenderDoc reads none; a row for each of the clip positions."""
+        """Of a mask, a row for each of the clip positions: the first output of two floats, or the first such input where RenderDoc reads none."""
         reflection, written, at = self.at(draw.event).GetShaderReflection(rd.ShaderStage.Vertex), self.after_vertex_shader(draw)[1], 0
         for output in reflection.outputSignature if reflection else []:
             found = written[:, at:at + 2]

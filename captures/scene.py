@@ -38,7 +38,8 @@ def part_of(draw, drawn, capture, camera):
     good = usable(clip) & (np.abs(places[:, 3]) > 1e-12)
     places = places[:, :3] / np.where(good, places[:, 3], 1)[:, None]
     whole, corners = good.reshape(-1, 3).all(1), [2, 1, 0] if camera.culls_ccw else [0, 1, 2]
-    return Part(draw.name, draw, drawn, places.reshape(-1, 3, 3)[whole][:, corners], coordinates.reshape(len(whole), 3, -1)[whole][:, corners],
+    triangles, coordinates = (rows.reshape(len(whole), 3, -1)[whole][:, corners] for rows in (places, coordinates))
+    return Part(draw.name, draw, drawn, triangles, coordinates,
                 drawn is camera and draw.culls_ccw is not None and draw.culls_ccw == camera.culls_ccw)
 
 
@@ -52,9 +53,9 @@ def by_instance(part):
 
 
 def find_mask(part, shown_by, capture):
-    """Sets the part's mask, if one explains where the depths of a pass hold it. Returns '', 'holes' that none explains, or 'nothing' of it is there.
+    """Sets the part's mask, if one explains where the depths of a pass hold it. Returns '', or 'holes' if none does, or 'nothing'.
 
-    shown_by: (pass, its draw of the part). The shader's text tells nothing: a `discard` may stand under a constant that is 0.
+    shown_by: (pass, its draw of the part). nothing: the picture has none of it. The shader's text tells nothing: a `discard` may stand under a constant that is 0.
     """
     seeds, found = np.random.default_rng(1), ''
     pick = seeds.integers(len(part.triangles), size=6000)
@@ -78,7 +79,7 @@ def find_mask(part, shown_by, capture):
 
 
 def mask_of(there, uv, draw, capture):
-    """(texture, channel, cutoff) that explains best which places are there; None if none explains a half of what one answer for all misses."""
+    """(texture, channel, cutoff) that tells best which places are there; None if none tells a half of what one answer for all misses."""
     missed, mask = min(there.mean(), 1 - there.mean()) / 2, None
     for texture in draw.reads - capture.drawn_into if missed > FEWEST_HOLES else ():
         try:
@@ -144,7 +145,10 @@ def casters(camera, maps, capture):
     if holed:
         print(f'these draws may drop fragments, and no texture explains which: {", ".join(dict.fromkeys(holed))}; they are '
               'solid casters here, so the shadows through their holes are not to be trusted')
-    return [part for part in kept if part not in found.get('nothing', ())]
+    dropped = found.get('nothing', ())
+    if dropped:
+        print(f'these draws drop all their fragments, and are left out: {", ".join(part.name for part in dropped)}')
+    return [part for part in kept if part not in dropped]
 
 
 def png(alpha):

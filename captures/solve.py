@@ -237,7 +237,8 @@ def map_of(light, camera, capture):
         print(f'{light.name} draws with axes that are not at right angles (a warped map?): its light cannot be told')
         return None
     eye = np.append(-along, 0) if parallel else np.append(centre_of(clip), 1)
-    return dataclasses.replace(light, is_clockwise=camera.culls_ccw is True, clip=clip, along=along, eye=eye, pairs=pairs, residual=float(np.percentile(off(m, c, l), 99)),
+    return dataclasses.replace(light, is_clockwise=camera.culls_ccw is True, clip=clip, along=along, eye=eye, pairs=pairs,
+                               residual=float(np.percentile(off(m, c, l), 99)),
                                depth_off=np.percentile((z - k * t - b) / unit, [1, 50, 99]))
 
 

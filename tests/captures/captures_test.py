@@ -38,7 +38,7 @@ POINTS = 0.05
 
 # The features of a program, and the number of maps of each light, or the words of the refusal.
 FEATURES = {"sun": [1], "spot": [1], "point": [6], "cascades-atlas": [3], "cascades-array": [3], "reversed": [1], "infinite": [1], "depth16": [1],
-            "depth24": [1], "stencil": [1], "moments": [1], "exponential": [1], "compare": [1], "indexed instanced": [1], "indexed skinned": [1], "masked": [1], "masked compressed": [1], "masked packed": [1], "reversed infinite": [1], "point reversed": [6],
+            "depth24": [1], "stencil": [1], "moments": [1], "exponential": [1], "compare": [1], "indexed instanced": [1], "indexed skinned": [1], "masked": [1], "masked compressed": [1], "masked packed": [1], "masked gone": [1], "reversed infinite": [1], "point reversed": [6],
             "msaa": [1], "outside": [1], "prepass indexed": [1], "two": [1, 1], "deferred": [1], "deferred cascades-array": [3], "shaded": [1],
             "shaded two prepass": [1, 1], "srgb": [1], "box srgb": [1], "temporal": [1], "polygon-offset": [1], "vertex-bias": [1], "orthographic": [1],
             "fragment-lookup": [1], "normal-offset": [1], "patches": [1], "backs": [1], "backs clockwise": [1], "strips": [1], "strips instanced": [1], "geometry indexed instanced": [1], "multidraw": "[Ii]ndirect"}

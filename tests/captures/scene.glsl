@@ -119,7 +119,9 @@ uniform sampler2D shadow_map, second_map;
 #endif
 
 void drop_holes() {
-#ifdef PROCEDURAL
+#ifdef GONE
+  if (masked == 1) discard;
+#elif defined(PROCEDURAL)
   if (masked == 1 && (int(uv.x * 4.0) + int(uv.y * 4.0)) % 2 == 0) discard;
 #else
   if (masked == 1 && texture(holes, uv.xy).r < 0.5) discard;

@@ -89,7 +89,8 @@ static void make_scene(void) {
   object(ARM, first, mul(moving(1.8f, 0, .3f), scaling(.35f, 1.5f, .35f)), (vec){.8f, .5f, .6f});
   first = index_count;
   quad((vec){-.5f, 0, 0}, (vec){1, 0, 0}, (vec){0, 1, 0}, 0, 0);
-  object(HOLES, first, mul(moving(0, 0, 1.2f), mul(turning(30), scaling(1.1f, 1.1f, 1))), (vec){.3f, .7f, .4f});
+  object(HOLES, first, mul(moving(0, has("gone"), 1.2f), mul(turning(30), scaling(1.1f, 1.1f, 1))),
+         (vec){.3f, .7f, .4f});
   first = index_count;
   quad((vec){.5f, 0, 0}, (vec){-1, 0, 0}, (vec){0, 1, 0}, 0, 0);  // the camera sees its back
   object(AWAY, first, mul(moving(-.6f, 0, -2.9f), scaling(2, 2.2f, 1)), (vec){.6f, .4f, .2f});
