@@ -67,7 +67,7 @@ class Taps:
         self.map, self.place = m, place
         self.u, self.v, z = m.window(place)
         self.z, self.depths = (1 - z, 1 - m.depths) if m.reversed else (z, m.depths)  # near = 0
-        self.inside = (self.u > 0) & (self.u < 1) & (self.v > 0) & (self.v < 1) & (self.z < 1)
+        self.inside = (self.u > 0) & (self.u < 1) & (self.v > 0) & (self.v < 1) & (self.z > 0) & (self.z < 1)
 
     def read(self, name):
         """(window depth beyond each tap's texel, its weight): taps x places."""

@@ -138,9 +138,15 @@ def casters(camera, maps, capture):
     kept = once(parts)
     all_of, left, of_maps = (sum(len(p.triangles) for p in some) for some in (parts, kept, [p for p in kept if p.drawn is not camera]))
     print(f'{left} triangles of {len(kept)} draws; {of_maps} of them only in the maps; {all_of - left} are drawn again in other passes')
-    discards = [(drawn, d) for drawn in (*maps, camera) for d in drawn.draws if d.discards and (d.reads or not drawn.is_moved)]
-    shown_by = grouped(discards, lambda row: row[1].geometry)
-    found = grouped(kept, lambda part: find_mask(part, shown_by.get(part.draw.geometry, ()), capture))
+    in_maps = {}
+    for m, d in ((m, d) for m in maps for d in m.draws if d.discards and (d.reads or not m.is_moved)):
+        in_maps.setdefault(d.geometry, {})[m] = d
+
+    def holes_of(part):
+        is_shown = part.drawn is camera and part.draw.discards and part.draw.culls_ccw is None  # from both sides
+        return find_mask(part, [*in_maps.get(part.draw.geometry, {}).items()] + [(camera, part.draw)] * is_shown, capture)
+
+    found = grouped(kept, holes_of)
     holed = [str(part.draw.event) for part in found.get('holes', ())]
     if holed:
         print(f'these draws may drop fragments, and no texture explains which: {", ".join(dict.fromkeys(holed))}; they are '
