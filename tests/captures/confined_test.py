@@ -4,6 +4,7 @@ import ctypes
 import multiprocessing
 import os
 import resource
+import shutil
 import signal
 import socket
 import subprocess
@@ -85,6 +86,23 @@ for _ in range(500):
 else:
     os.kill(child, signal.SIGKILL)
     bad.append("it outlives a reader that is killed")
+# A replay that crashes once is made again; one that is killed is not.
+STAND_IN = """import os
+class Refusal(Exception): pass
+def read(options):
+    if not os.path.exists(options.out + '/once'):
+        open(options.out + '/once', 'w').close()
+        os.kill(os.getpid(), {})
+"""
+for number, code in ((signal.SIGSEGV, 0), (signal.SIGKILL, 3)):
+    place = tempfile.mkdtemp(dir=home)
+    shutil.copy(sys.argv[1] + "/captures/capture.py", place)
+    for name, text in (("read_capture.py", STAND_IN.format(int(number))), ("frame.rdc", "RDOC")):
+        with open(os.path.join(place, name), "w") as file:
+            file.write(text)
+    ran = subprocess.run([sys.executable, place + "/capture.py", place + "/frame.rdc", place + "/out"], stderr=subprocess.DEVNULL, timeout=60)
+    if ran.returncode != code:
+        bad.append(f"after a replay that ends by {number.name} once the code is {ran.returncode}, not {code}")
 if bad:
     sys.exit("FAILED: " + "; ".join(bad))
 print("a replay is confined")
