@@ -67,7 +67,7 @@ class Taps:
         self.map, self.place = m, place
         self.u, self.v, z = m.window(place)
         self.z, self.depths = (1 - z, 1 - m.depths) if m.reversed else (z, m.depths)  # near = 0
-        self.inside = (self.u > 0) & (self.u < 1) & (self.v > 0) & (self.v < 1) & (self.z < 1)
+        self.inside = (self.u > 0) & (self.u < 1) & (self.v > 0) & (self.v < 1) & (self.z > 0) & (self.z < 1)
 
     def read(self, name):
         """(window depth beyond each tap's texel, its weight): taps x places."""
@@ -79,9 +79,9 @@ class Taps:
         weights = np.abs(1 - i - (at[0] - x)) * np.abs(1 - j - (at[1] - y)) if blends else np.full((len(i), len(x)), 1 / len(i))
         return self.z - self.depths[np.clip(y + j, 0, rows - 1), np.clip(x + i, 0, columns - 1)], weights
 
-    def farther(self):
-        """Of the places inside: by how many texels they lie behind what their texel holds, along the light's ray."""
-        beyond, place = self.read('none')[0][0][self.inside], self.place[self.inside]
+    def farther(self, name='none'):
+        """Of the places inside: by how many texels they lie behind the nearest that their taps hold, along the light's ray."""
+        beyond, place = self.read(name)[0].max(0)[self.inside], self.place[self.inside]
         stored = self.z[self.inside] - beyond
         way = self.map.place(self.u[self.inside], self.v[self.inside], 1 - stored if self.map.reversed else stored) - place
         texels = np.linalg.norm(way, axis=1) / self.map.texel(place)

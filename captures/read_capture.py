@@ -13,7 +13,6 @@ from replay import Capture, Refusal
 
 SAMPLE_0 = {2: (0.75, 0.75), 4: (0.375, 0.125), 8: (0.5625, 0.3125)}  # Vulkan's and OpenGL's standard places; others: the centre
 NO_SURFACE, NOT_JUDGED = -1.0, -2.0  # marks of frame.json
-MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
 EMPTY = 0.3  # of the receivers that read an empty texel, before the ground is taken for no caster of the map
 
 
@@ -40,6 +39,7 @@ class Reader:
         depth = self.capture.image(cam.depth, cam.last, cam.viewport)[..., 0] if cam.depth else np.zeros(1)
         if np.ptp(depth) == 0:
             raise Refusal('the picture has no depth buffer, or it reads as one value (OpenGL ES cannot read some); nothing can be judged')
+        cam.depths = depth
         for m in self.maps:
             m.depths = self.capture.image(m.target, m.last, m.viewport)[..., 0]
         self.parts = scene.casters(cam, self.maps, self.capture)
@@ -80,7 +80,9 @@ class Reader:
         if use.sum() < FEWEST_PIXELS:
             raise Refusal(f'only {use.sum()} pixels that face the light react to the map of {group[0].name}')
         if mute.any():
-            notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged')
+            beyond = ~np.any([lookup.Taps(m, self.place[mute]).inside for m in group], axis=0)
+            notes.append(f'{mute.sum()} pixels face the light and do not react to its map: they are not judged'
+                         + (f'; {beyond.sum()} of them lie beyond the borders or the far end of what it holds' if beyond.any() else ''))
         marks = np.select([~surface, reacts, facing], [NO_SURFACE, v, NOT_JUDGED])
         missing, lookups = sorted(self.not_in(group)), []
         for m, decides in zip(group, self.decided(group, target, lit, dark)):
@@ -138,7 +140,7 @@ class Reader:
         empty = np.mean(taps.read('none')[0][0][taps.inside] <= taps.z[taps.inside] - 1) if taps.inside.any() else 1.0
         reasons = {
             f'its shader moves the casters by {m.depth_off[0] / 2:.2g} to {m.depth_off[2] / 2:.2g} of window depth (a bias that grows with '
-            'the slope)': np.abs(m.depth_off).max() > MOVED,
+            'the slope)': m.is_moved,
             'it holds moments or packed depths, whose lookup is not known': m in self.pictures.in_colours,
             'its depths read as one value': np.ptp(m.depths) == 0,
             f'only {mine.sum()} pixels look it up': mine.sum() < lookup.FEWEST_RECEIVERS,
@@ -156,7 +158,7 @@ class Reader:
                 farther = np.concatenate([lookup.Taps(m, places).farther() for m in group])
                 # A closed caster has a half of its faces at the map's depths or behind them, or all of those that are not culled.
                 if len(farther) >= 12 and np.percentile(farther, 90 if group[0].cull == 'front' else 50) < -lookup.AT_TEXEL:
-                    yield part.draw.name
+                    yield part.name
 
 
 def read(options):

@@ -4,6 +4,7 @@ Everything that this package knows of RenderDoc's state stands here. Conventions
 rows of an image start at the bottom, y of clip space grows upwards, matrices multiply column vectors.
 """
 import functools
+import os
 
 import numpy as np
 import renderdoc as rd
@@ -29,19 +30,18 @@ class Draw:
     """A draw call, and the state that it is made in."""
 
     def __init__(self, action, state, capture):
-        self.event, self.count, self.topology = action.eventId, action.numIndices, state.GetPrimitiveTopology()
-        self.name = f'draw {self.event}'
-        self.first, self.index = action.vertexOffset, ()  # or (buffer, byte offset, bytes of an index, base vertex)
+        self.event, self.count, self.name = action.eventId, action.numIndices, f'draw {action.eventId}'
+        self.index = (NULL, 0, 0, action.vertexOffset)  # buffer, byte offset, bytes of an index, what is added to each
         buffers, inputs = state.GetVBuffers(), state.GetVertexInputs()
         mesh = [(b.resourceId, b.byteOffset) for b in buffers[inputs[0].vertexBuffer:][:1]] if len(inputs) else []
         if action.flags & rd.ActionFlags.Indexed:
             buffer = state.GetIBuffer()
             offset = buffer.byteOffset + action.indexOffset * buffer.byteStride
             mesh = self.index = (buffer.resourceId, offset, buffer.byteStride, action.baseVertex)
-        instances, has_geometry_shader = max(1, action.numInstances), state.GetShader(rd.ShaderStage.Geometry) != NULL
-        self.geometry = (*mesh, self.first, self.count, instances)  # equal in every pass that draws the same mesh
-        self.stage = rd.MeshDataStage.GSOut if has_geometry_shader else rd.MeshDataStage.VSOut
-        self.instances = 1 if has_geometry_shader else instances  # that are read one by one: a geometry shader's output holds all
+        self.instances = max(1, action.numInstances)
+        self.geometry = (*mesh, action.vertexOffset, self.count, self.instances)  # equal in every pass that draws the same mesh
+        is_last = all(state.GetShader(stage) == NULL for stage in (rd.ShaderStage.Geometry, rd.ShaderStage.Tess_Eval))
+        self.stage = rd.MeshDataStage.VSOut if is_last else rd.MeshDataStage.GSOut
         while action.parent and action.parent.flags & rd.ActionFlags.MultiAction:
             action = action.parent  # of a draw out of a call for several RenderDoc counts on from the call's own place
         self.chunk = action.events[-1].chunkIndex  # of the capture's list of calls
@@ -106,29 +106,44 @@ class Capture:
     def draws(self):
         return [Draw(a, self.at(a.eventId), self) for a in self.actions(rd.ActionFlags.Drawcall)]
 
+    @functools.cached_property
+    def drawn_into(self):
+        """Textures."""
+        return {target[0] for d in self.draws for target in (d.depth, *d.outputs) if target}
+
     # ---- vertices
     def _rows(self, kind, columns, *buffer):
         return rows_of(self.control.GetBufferData(*buffer), kind, columns)
 
-    def _indices(self, buffer, offset, width, base, count):
-        return self._rows(f'<u{width}', 1, buffer, offset, count * width)[:, 0].astype('i8') + base
+    def _corners(self, topology, count, restart, buffer, offset, width, base):
+        """The vertices of the triangles, three in a row. restart: the index that begins a new strip, -1 without one."""
+        index = at = np.arange(count)
+        if buffer != NULL and width:
+            index = self._rows(f'<u{width}', 1, buffer, offset, count * width)[:, 0].astype('i8')
+            at, restart = at[:len(index)], restart & (1 << 8 * width) - 1 if restart > 0 else -1
+        start = np.maximum.accumulate(np.where(index == restart, at + 1, 0))
+        i, odd = at[:-2], ((at - start) % 2)[:-2]
+        rows = {rd.Topology.TriangleList: at[:len(at) // 3 * 3].reshape(-1, 3),
+                rd.Topology.TriangleStrip: np.stack([i + odd, i + 1 - odd, i + 2], 1),
+                rd.Topology.TriangleFan: np.stack([start[:-2], i + 1, i + 2], 1)}.get(topology, np.zeros((0, 3), int))
+        corners = index[rows]
+        return corners[(corners != restart).all(1)].reshape(-1) + base
 
     @functools.cache
     def after_vertex_shader(self, draw):
-        """(clip positions, all that the shader writes behind them), a row for each index of each instance that is read."""
+        """(clip positions, all that the shader writes behind them), three rows for each triangle of each instance."""
         self.at(draw.event)
         found, instances = [], draw.instances
-        if draw.topology == rd.Topology.PatchList_1CPs or instances > MOST_INSTANCES:
-            print(f'{draw.name} has patches, or {instances} instances where {MOST_INSTANCES} are read; this draw is left out')
+        if instances > MOST_INSTANCES:
+            print(f'{draw.name} has {instances} instances where {MOST_INSTANCES} are read; this draw is left out')
             instances = 0
         for instance in range(instances):
             mesh = self.control.GetPostVSData(instance, 0, draw.stage)
             if mesh.vertexResourceId == NULL or mesh.numIndices == 0:
                 continue
-            index = np.arange(mesh.numIndices)
             rows = self._rows('<f4', mesh.vertexByteStride // 4, mesh.vertexResourceId, mesh.vertexByteOffset, 0)
-            if mesh.indexResourceId != NULL and mesh.indexByteStride:
-                index = self._indices(mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.baseVertex, mesh.numIndices)
+            index = self._corners(mesh.topology, mesh.numIndices, mesh.restartIndex if mesh.allowRestart else -1,
+                                  mesh.indexResourceId, mesh.indexByteOffset, mesh.indexByteStride, mesh.baseVertex)
             found.append(rows[np.clip(index, 0, len(rows) - 1)])
         rows = np.concatenate(found) if found else np.zeros((0, 4))
         return rows[:, :4] * np.array([1, -1 if draw.y_down else 1, 1, 1.0]), rows[:, 4:]
@@ -137,20 +152,22 @@ class Capture:
         return self.after_vertex_shader(draw)[0]
 
     def coordinates(self, draw):
-        """The first output of two floats, a mask's texture coordinate, a row for each index; without columns if there is none."""
+        """Of a mask, a row for each of the clip positions: the first output of two floats, or the first such input where RenderDoc reads none."""
         reflection, written, at = self.at(draw.event).GetShaderReflection(rd.ShaderStage.Vertex), self.after_vertex_shader(draw)[1], 0
         for output in reflection.outputSignature if reflection else []:
-            if output.compCount == 2 and output.systemValue == rd.ShaderBuiltin.Undefined:
-                return written[:, at:at + 2]
+            found = written[:, at:at + 2]
+            if output.compCount == 2 and output.systemValue == rd.ShaderBuiltin.Undefined and found.any():
+                return found
             at += 0 if output.systemValue == rd.ShaderBuiltin.Position else output.compCount
-        return written[:, :0]
+        return next((rows[:, :2] for rows in self.vertex_inputs(draw) if not rows[:, 2].any()), written[:, :0])
 
     def vertex_inputs(self, draw):
         """Each attribute of floats as x, y, z, 1, a row for each of the clip positions. Which one is the place is found by a fit."""
-        index, found = self._indices(*draw.index, draw.count) if draw.index else np.arange(draw.count) + draw.first, []
+        state, found = self.at(draw.event), []
+        restart = state.GetRestartIndex() if state.IsRestartEnabled() else -1
+        index = self._corners(state.GetPrimitiveTopology(), draw.count, restart, *draw.index)
         if len(index) != len(self.clip(draw)):
             return found
-        state = self.at(draw.event)
         for attribute in state.GetVertexInputs():
             form, buffers = attribute.format, state.GetVBuffers()[attribute.vertexBuffer:][:1]
             size, columns = form.compByteWidth, form.compCount
@@ -189,11 +206,25 @@ class Capture:
         self.at(event)
         texture, part, mip = target
         t = self.textures[texture]
-        raw = self.control.GetTextureData(texture, rd.Subresource(mip, part, 0))
-        pixels = decode(raw, t.format, max(1, t.width >> mip), max(1, t.height >> mip), self.gl)
-        pixels = pixels if self.gl else np.ascontiguousarray(pixels[::-1])
+        width, height = max(1, t.width >> mip), max(1, t.height >> mip)
+        if t.format.compByteWidth or packed(t.format):
+            pixels = decode(self.control.GetTextureData(texture, rd.Subresource(mip, part, 0)), t.format, width, height, self.gl)
+            pixels = pixels if self.gl else np.ascontiguousarray(pixels[::-1])
+        else:  # compressed in blocks
+            pixels = self._unpacked(target, width, height)
         x, y, w, h = map(int, viewport or (0, 0, *pixels.shape[1::-1]))
         return pixels[y:y + h, x:x + w]
+
+    @functools.cache
+    def _unpacked(self, target, width, height):
+        """Of 8 bits, as RenderDoc decodes a channel into a file: a head of 54 bytes, rows from the bottom, three equal bytes a texel."""
+        save, path, channels = rd.TextureSave(), os.path.join(os.environ['TMPDIR'], 'texture.bmp'), []
+        save.resourceId, save.slice.sliceIndex, save.mip = target
+        save.destType = rd.FileType.BMP
+        for save.channelExtract in range(self.textures[target[0]].format.compCount):
+            self.control.SaveTexture(save, path)
+            channels.append(np.fromfile(path, 'u1', offset=54).reshape(height, -1)[:, :3 * width:3].astype('f4') / 255)
+        return np.stack(channels, -1)
 
     def describe(self, target):
         t = self.textures[target[0]]
@@ -218,21 +249,27 @@ PACKED = {'D24': lambda v, gl: v / (2.0 ** 32 - 1),  # spread over 32 bits
 KINDS = {rd.CompType.UNorm: 'u', rd.CompType.UNormSRGB: 'u', rd.CompType.Depth: 'u', rd.CompType.Float: 'f'}
 
 
+def packed(form):
+    """The name in PACKED, or ''."""
+    name = form.Name().split('_')[0].replace('D32S8', 'D32')
+    return name if name in PACKED else ''
+
+
 def step_of(form):
     """How far two values near 1 lie apart."""
-    packed, kind = {'R10G10B10A2': 1 / 1023, 'R11G11B10': 2 ** -6}, f'{KINDS[form.compType]}{form.compByteWidth}'
-    return packed.get(form.Name().split('_')[0]) or (1 / np.iinfo(kind).max if kind[0] == 'u' else np.finfo(kind).epsneg)
+    steps, kind = {'R10G10B10A2': 1 / 1023, 'R11G11B10': 2 ** -6}, f'{KINDS[form.compType]}{form.compByteWidth}'
+    return steps.get(packed(form)) or (1 / np.iinfo(kind).max if kind[0] == 'u' else np.finfo(kind).epsneg)
 
 
 def decode(raw, form, width, height, gl):
     """The values of a texture's bytes, as float32; sRGB formats are decoded."""
-    name, pixels, v = form.Name().split('_')[0].replace('D32S8', 'D32'), width * height, ()
-    if name in PACKED:
-        v = PACKED[name](rows_of(raw, '<u4', max(1, len(raw) // 4 // pixels))[:pixels, 0], gl)
+    pixels, v = width * height, ()
+    if packed(form):
+        v = PACKED[packed(form)](rows_of(raw, '<u4', max(1, len(raw) // 4 // pixels))[:pixels, 0], gl)
     elif form.compType in KINDS:
         v = rows_of(raw, f'<{KINDS[form.compType]}{form.compByteWidth}', form.compCount)[:pixels]
         v = v / np.iinfo(v.dtype).max if v.dtype.kind == 'u' else v
-    if len(v) < pixels:  # compressed, too
+    if len(v) < pixels:
         raise Refusal(f'a texture of the format {form.Name()} is not read')
     v = v.astype('f4').reshape(height, width, -1)
     if form.compType == rd.CompType.UNormSRGB:

@@ -4,6 +4,7 @@ The world is the camera's own axes: right, up, backwards, in the program's unit;
 A pass is all draws into one depth target, its colour targets and one viewport: a cascade, a cube's face or the picture.
 """
 import dataclasses
+import functools
 import itertools
 
 import numpy as np
@@ -14,6 +15,7 @@ ON_MATRIX = 2e-3  # of the clip unit: vertices of the same draw lie within 1e-5,
 SAME_LIGHT = 1e-3
 ON_LINE = 0.3  # of a pass's vertices, on the depths of one camera: the others are skies and quads
 SQUARE = 0.05  # cosine between the axes of a map
+MOVED = 1e-4  # clip units by which vertices of a map are off its own matrix, before a bias in its shader is said
 
 
 @dataclasses.dataclass(eq=False)
@@ -25,13 +27,14 @@ class Pass:
     viewport: tuple
     clip: np.ndarray = None  # 4 x 4: clip space from the camera's axes; None where the pass tells no camera
     orthographic: bool = False
+    depths: np.ndarray = None  # as captured; rows start at the bottom
     # Of a map:
     along: np.ndarray = None  # the way of the light in the middle of the map, of any length
     eye: np.ndarray = None  # 4, homogeneous: where the light is, or the way to it
     pairs: dict = None  # event of the map's draw -> draw of the camera's pass
     residual: float = None  # 99 in 100 vertices are nearer to the matrix, in clip units
-    depth_off: np.ndarray = None  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
-    depths: np.ndarray = None  # as captured; rows start at the bottom
+    depth_off: tuple = (0, 0, 0)  # 1, 50, 99 in 100: how far the vertices' depths lie off the matrix, clip units
+    is_clockwise: bool = False  # the front of the picture's triangles, on its screen
 
     def __post_init__(self):
         self.first, self.last = self.draws[0].event, self.draws[-1].event
@@ -62,11 +65,21 @@ class Pass:
         return np.abs(clip[:, 2] + self.clip[2, 2] * clip[:, 3] - self.clip[2, 3]) / np.abs(clip[:, 3])
 
     @property
+    def is_moved(self):
+        """Whether the map's shader moves the casters by a bias that grows with the slope."""
+        return np.abs(self.depth_off).max() > MOVED
+
+    @functools.cached_property
+    def culls_ccw(self):
+        """As most of the draws."""
+        return max((None, False, True), key=lambda ccw: sum(d.count for d in self.draws if d.culls_ccw == ccw))
+
+    @property
     def cull(self):
-        """map.cull: the side of the triangles that most of the map's draws leave out."""
-        ccw = max((d.culls_ccw for d in self.draws), key=lambda ccw: sum(d.count for d in self.draws if d.culls_ccw == ccw))
+        """map.cull, of the triangles of scene.glb, whose front is counterclockwise."""
         is_mirrored = (np.linalg.det(self.clip[:3, :3]) > 0) != self.reversed
-        return 'none' if ccw is None else 'front' if ccw != is_mirrored else 'back'
+        is_front = (self.culls_ccw != self.is_clockwise) != is_mirrored
+        return 'none' if self.culls_ccw is None else 'front' if is_front else 'back'
 
 
 def grouped(items, key):
@@ -224,7 +237,8 @@ def map_of(light, camera, capture):
         print(f'{light.name} draws with axes that are not at right angles (a warped map?): its light cannot be told')
         return None
     eye = np.append(-along, 0) if parallel else np.append(centre_of(clip), 1)
-    return dataclasses.replace(light, clip=clip, along=along, eye=eye, pairs=pairs, residual=float(np.percentile(off(m, c, l), 99)),
+    return dataclasses.replace(light, is_clockwise=camera.culls_ccw is True, clip=clip, along=along, eye=eye, pairs=pairs,
+                               residual=float(np.percentile(off(m, c, l), 99)),
                                depth_off=np.percentile((z - k * t - b) / unit, [1, 50, 99]))
 
 

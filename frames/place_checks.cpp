@@ -95,6 +95,18 @@ std::vector<uint32_t> surface_of_triangles(const Scene& scene) {
   return surface;
 }
 
+// How far a position lies off the scene, beyond what a step of its depth moves it. Depths of 24 bits, and floats near 1, have
+// steps of 2^-24; where the near plane is close, one of them is wide far away.
+double off_scene_m(const CheckEvidence& e, int x, int y) {
+  const size_t i = e.moved_m.index(x, y);
+  if (e.frame.receivers != GivenReceivers::depth || !(e.moved_m[i] > 0)) return e.moved_m[i];
+  const glm::dvec3 p = e.frame.positions[i];
+  const int width = e.moved_m.width, height = e.moved_m.height;
+  const double depth = e.frame.view.pixel_of(p, width, height).z;  // of clip space, where the step is twice that
+  const double step_m = glm::length(e.frame.view.world_at(x, y, depth - 0x1p-23, width, height) - p);
+  return std::max(0.0, e.moved_m[i] - step_m);
+}
+
 std::vector<SurfacePositions> positions_by_surface(const CheckEvidence& e, double least_stray_m) {
   const Scene& scene = e.scene;
   std::vector<SurfacePositions> surfaces(scene.parts.size() + 1);
@@ -116,7 +128,7 @@ std::vector<SurfacePositions> positions_by_surface(const CheckEvidence& e, doubl
         ++on.count;
         on.offsets[cut[triangle]].add(glm::dvec2(e.frame.view.pixel_of(p, width, height)) -
                                       glm::dvec2(x + 0.5, y + 0.5));
-        if (e.moved_m[i] > least_stray_m) on.stray_m.push_back(e.moved_m[i]);
+        if (const double off = off_scene_m(e, x, y); off > least_stray_m) on.stray_m.push_back(off);
       }
       if (e.seen[i] == no_primitive) continue;
       SurfacePositions& shown = surfaces[surface_of[e.seen[i]]];
@@ -189,7 +201,7 @@ GivenPositions given_positions(const CheckEvidence& e) {
       const glm::dvec2 at = glm::dvec2(e.frame.view.pixel_of(p, width, height)) - glm::dvec2(x + 0.5, y + 0.5);
       given.all.add(at);
       given.off_px.push_back(glm::length(at));
-      given.moved_m.push_back(e.moved_m[i]);
+      given.moved_m.push_back(off_scene_m(e, x, y));
       given.size_m.push_back(glm::length(p));
       given.half += is_half(p.x) && is_half(p.y) && is_half(p.z);
     }

@@ -91,21 +91,21 @@ static void open_context(int width, int height) {
                           EGL_NONE};
   const EGLint size[] = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};
   const EGLint core[] = {
-      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 0, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   EGLConfig config;
   EGLint found = 0;
   if (!eglChooseConfig(display, wants, &config, 1, &found) || !found) die("EGL has no pbuffer", "");
   surface = eglCreatePbufferSurface(display, config, size);
   if (!eglMakeCurrent(display, surface, surface, eglCreateContext(display, config, EGL_NO_CONTEXT, core)))
-    die("no OpenGL 3.3", "");
+    die("no OpenGL 4.0", "");
   unsigned vertex_array;
   glGenVertexArrays(1, &vertex_array);
   glBindVertexArray(vertex_array);
 }
 
 static unsigned shader_of(GLenum kind, const char* defines, const char* source) {
-  const char* text[] = {"#version 330\n", defines, source};
+  const char* text[] = {"#version 400\n", defines, source};
   const unsigned shader = glCreateShader(kind);
   glShaderSource(shader, 3, text, 0);
   glCompileShader(shader);
@@ -116,13 +116,16 @@ static unsigned shader_of(GLenum kind, const char* defines, const char* source) 
   if (!good) die(defines, log);
   return shader;
 }
-static unsigned program_of(const char* defines, const char* source) {  // one file holds both stages
-  char vertex[4000], fragment[4000];
-  snprintf(vertex, sizeof vertex, "%s#define VERTEX\n", defines);
-  snprintf(fragment, sizeof fragment, "%s#define FRAGMENT\n", defines);
+// One file holds all stages. between: the stage between both others, or 0.
+static unsigned program_of(const char* defines, const char* source, GLenum between) {
+  const GLenum stages[] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER, between};
+  const char* names[] = {"VERTEX", "FRAGMENT", "BETWEEN"};
   const unsigned program = glCreateProgram();
-  glAttachShader(program, shader_of(GL_VERTEX_SHADER, vertex, source));
-  glAttachShader(program, shader_of(GL_FRAGMENT_SHADER, fragment, source));
+  for (int i = 0; i < (between ? 3 : 2); i++) {
+    char all[4000];
+    snprintf(all, sizeof all, "%s#define %s\n", defines, names[i]);
+    glAttachShader(program, shader_of(stages[i], all, source));
+  }
   glLinkProgram(program);
   int good;
   glGetProgramiv(program, GL_LINK_STATUS, &good);
@@ -135,16 +138,18 @@ static unsigned texture_of(GLenum target, int format, int width, int height, GLe
   glGenTextures(1, &texture);
   glBindTexture(target, texture);
   const int depth = format == GL_DEPTH_COMPONENT16 || format == GL_DEPTH_COMPONENT24 || format == GL_DEPTH_COMPONENT32F;
-  const GLenum layout = depth ? GL_DEPTH_COMPONENT : GL_RGBA;
+  const int stencil = format == GL_DEPTH24_STENCIL8;
+  const GLenum layout = depth ? GL_DEPTH_COMPONENT : stencil ? GL_DEPTH_STENCIL : GL_RGBA;
+  const GLenum type = stencil ? GL_UNSIGNED_INT_24_8 : GL_FLOAT;
   if (target == GL_TEXTURE_2D_MULTISAMPLE)
     glTexImage2DMultisample(target, 4, format, width, height, 1);
   else if (target == GL_TEXTURE_2D_ARRAY)
-    glTexImage3D(target, 0, format, width, height, 3, 0, layout, GL_FLOAT, 0);
+    glTexImage3D(target, 0, format, width, height, 3, 0, layout, type, 0);
   else if (target == GL_TEXTURE_CUBE_MAP)
     for (int i = 0; i < 6; i++)
-      glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i, 0, format, width, height, 0, layout, GL_FLOAT, 0);
+      glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + i, 0, format, width, height, 0, layout, type, 0);
   else
-    glTexImage2D(target, 0, format, width, height, 0, layout, GL_FLOAT, 0);
+    glTexImage2D(target, 0, format, width, height, 0, layout, type, 0);
   if (target != GL_TEXTURE_2D_MULTISAMPLE) {
     glTexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);

@@ -29,7 +29,8 @@ clips, draws = {}, {True: [], False: []}
 for event in range(4):
     world = np.c_[random.uniform([-6, -6, -14], [6, 6, -2], (200, 3)), np.ones(200)]
     for of_camera, matrix in ((True, camera), (False, light)):
-        draw = SimpleNamespace(name="draw", event=2 * event + of_camera, geometry=event, count=200, reversed=False, zero_to_one=False)
+        draw = SimpleNamespace(name="draw", event=2 * event + of_camera, geometry=event, count=200,
+                               reversed=False, zero_to_one=False, culls_ccw=None)
         clips[draw.event] = (world @ matrix.T).astype("f4").astype("f8")
         draws[of_camera].append(draw)
 capture = SimpleNamespace(clip=lambda draw: clips[draw.event])

@@ -2,7 +2,8 @@
 #pragma once
 #include "scene.h"
 
-static unsigned map_program, depth_program, lit_program, screen_program, holes;
+// Of two kinds: that of all objects, and that of those which are drawn as patches.
+static unsigned map_program[2], depth_program[2], lit_program[2], screen_program, holes;
 static void set(unsigned program, const char* name, int matrices, const float* values) {
   const int at = glGetUniformLocation(program, name);
   if (matrices && at >= 0) glUniformMatrix4fv(at, matrices, 0, values);
@@ -27,9 +28,18 @@ static mat bone_of(int which) {                          // bends the arm's uppe
   const mat m = objects[ARM].model;
   return which == ARM ? mul(m, mul(mul(moving(.9f, -.1f, .5f), turning(70)), inverse(m))) : identity;
 }
-static const float* corner(int i) { return vertices + 9 * (vertex_count == index_count ? (unsigned)i : indices[i]); }
+static int indexed(void) { return any("indexed", "multidraw") || has("strips"); }
+static int corners(const struct object* o) { return has("strips") ? o->count / 5 * 6 : o->count; }
+static const float* corner(const struct object* o, int i) {  // of the corners of its triangles
+  const unsigned of_quad[6] = {0, 1, 2, 0, 2, 3};
+  return vertices + 9 * (has("strips") ? indices[o->first + i / 6 * 5] + of_quad[i % 6]
+                         : indexed()   ? indices[o->first + i]
+                                       : (unsigned)(o->first + i));
+}
 
-static void draw_objects(unsigned program, mat clip_from_world, int for_map) {
+static void draw_objects(const unsigned programs[2], mat clip_from_world, int for_map) {
+  unsigned program = programs[0];
+  glUseProgram(program);
   set(program, "clip_from_world", 1, clip_from_world.m);
   if (has("multidraw")) {  // floor and boxes in one call
     set(program, "model", 1, identity.m);
@@ -43,25 +53,28 @@ static void draw_objects(unsigned program, mat clip_from_world, int for_map) {
   for (int i = 0; i < OBJECTS; i++) {
     if (!drawn(i, for_map)) continue;
     const struct object* o = &objects[i];
+    const int is_patched = has("patches") && (i == TALL || i == TURNED);
+    program = programs[is_patched];
+    glUseProgram(program);
+    set(program, "clip_from_world", 1, clip_from_world.m);
     set(program, "model", 1, o->model.m);
     set(program, "bone", 1, bone_of(i).m);
     set_vec(program, "albedo", -1, o->albedo);
     set_int(program, "masked", i == HOLES);
+    const int instances = o->instances - (for_map && i == BOX && has("culled-instance"));
     if (o->instances > 1) glEnableVertexAttribArray(4);
-    if (has("indexed") && o->instances > 1)
-      glDrawElementsInstanced(GL_TRIANGLES, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first),
-                              o->instances);
-    else if (has("indexed"))
-      glDrawElementsBaseVertex(GL_TRIANGLES, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first),
-                               0);
+    const GLenum kind = is_patched ? GL_PATCHES : has("strips") ? GL_TRIANGLE_STRIP : GL_TRIANGLES;
+    if (indexed() && o->instances > 1)
+      glDrawElementsInstanced(kind, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first), instances);
+    else if (indexed())
+      glDrawElementsBaseVertex(kind, o->count, GL_UNSIGNED_INT, (void*)(sizeof(unsigned) * (size_t)o->first), 0);
     else
-      glDrawArraysInstanced(GL_TRIANGLES, o->first, o->count, o->instances);
+      glDrawArraysInstanced(kind, o->first, o->count, instances);
     glDisableVertexAttribArray(4);
   }
 }
 
 static void draw_maps(void) {
-  glUseProgram(map_program);
   bind(4, GL_TEXTURE_2D, holes);
   if (has("polygon-offset")) glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2, 4);
@@ -129,8 +142,10 @@ static unsigned shown_framebuffer;
 static void make_target(struct target* t, int colour) {
   const GLenum kind = has("msaa") ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
   t->colour = texture_of(kind, colour, WIDTH, HEIGHT, GL_NEAREST);
-  t->depth =
-      texture_of(kind, has("reversed") ? GL_DEPTH_COMPONENT32F : GL_DEPTH_COMPONENT24, WIDTH, HEIGHT, GL_NEAREST);
+  const int depth = has("reversed")  ? GL_DEPTH_COMPONENT32F
+                    : has("stencil") ? GL_DEPTH24_STENCIL8
+                                     : GL_DEPTH_COMPONENT24;
+  t->depth = texture_of(kind, depth, WIDTH, HEIGHT, GL_NEAREST);
   t->framebuffer = framebuffer_of(t->colour, t->depth, kind, 0);
   t->flat = texture_of(GL_TEXTURE_2D, colour, WIDTH, HEIGHT, GL_NEAREST);
   t->flat_framebuffer = framebuffer_of(t->flat, 0, 0, 0);
@@ -154,15 +169,18 @@ static void draw_frame(int frame, int show) {  // `show`: see scene.glsl
   if (has("srgb")) glEnable(GL_FRAMEBUFFER_SRGB);
   if (has("prepass")) {
     glColorMask(0, 0, 0, 0);
-    glUseProgram(depth_program);
     draw_objects(depth_program, clip_from_world, 0);
     glColorMask(1, 1, 1, 1);
     glDepthFunc(GL_EQUAL);
     glDepthMask(0);
   }
-  use_lookup(lit_program, show);
+  for (int i = 0; i < 2; i++) use_lookup(lit_program[i], show);
   bind(3, GL_TEXTURE_2D, has("temporal") ? targets[1 - (frame & 1)].colour : 0);
+  if (has("backs")) glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glFrontFace(has("clockwise") ? GL_CW : GL_CCW);
   draw_objects(lit_program, clip_from_world, 0);
+  glDisable(GL_CULL_FACE);
   glDepthFunc(has("reversed") ? GL_GREATER : GL_LESS);
   glDepthMask(1);
   glDisable(GL_FRAMEBUFFER_SRGB);
@@ -180,7 +198,8 @@ static void draw_frame(int frame, int show) {  // `show`: see scene.glsl
 }
 
 static char* source;
-static unsigned pass_program(const char* pass) {  // each option is a define: cascades-atlas is CASCADES_ATLAS
+static unsigned pass_program(const char* pass,
+                             GLenum between) {  // each option is a define: cascades-atlas is CASCADES_ATLAS
   char defines[1000];
   int end = snprintf(defines, sizeof defines, "#define LIGHTS %d\n#define %s\n", light_count, pass);
   for (int i = 0; options[i]; i++) {
@@ -188,7 +207,8 @@ static unsigned pass_program(const char* pass) {  // each option is a define: ca
     end += snprintf(c, sizeof defines - (size_t)end, "#define %s\n", options[i]);
     for (c += 8; *c != '\n'; c++) *c = *c == '-' ? '_' : (char)toupper(*c);
   }
-  const unsigned program = program_of(defines, source);
+  if (between) end += snprintf(defines + end, sizeof defines - (size_t)end, "#define HANDED_ON\n");
+  const unsigned program = program_of(defines, source, between);
   glUseProgram(program);
   const char* names[] = {"shadow_map", "second_map", "picture", "history", "holes", "samples"};
   for (int i = 0; i < 6; i++) set_int(program, names[i], i);
@@ -201,12 +221,15 @@ static void make_all(void) {
     const unsigned one[5] = {(unsigned)o->count, 1, (unsigned)o->first, 0, i ? (unsigned)i - 1 : 0};
     memcpy(commands[i], one, sizeof one);
   }
-  if (!has("indexed") && !has("multidraw")) {  // a vertex for each index
+  if (!indexed()) {  // a vertex for each index
     static float flat[9 * 2000];
     for (int i = 0; i < index_count; i++) memcpy(flat + 9 * i, vertices + 9 * indices[i], 9 * sizeof(float));
     memcpy(vertices, flat, sizeof vertices);
     vertex_count = index_count;
   }
+  glPatchParameteri(GL_PATCH_VERTICES, 3);
+  if (has("strips")) glEnable(GL_PRIMITIVE_RESTART);
+  glPrimitiveRestartIndex(RESTART);
   glGenBuffers(4, buffers);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[0]);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, (long)sizeof(unsigned) * index_count, indices, GL_STATIC_DRAW);
@@ -230,11 +253,15 @@ static void make_all(void) {
   for (int i = 0; i < 64; i++) mask[i / 4][i % 4] = (float)opaque(i / 4 % 4, i / 16);
   holes = texture_of(GL_TEXTURE_2D, GL_RGBA8, 4, 4, GL_NEAREST);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 4, 4, GL_RGBA, GL_FLOAT, mask);
+  unsigned char block[8] = {255, 255};  // of S3TC: the colours 0, white, and 1, black, and the two bits of each texel
+  for (int i = 0; i < 16; i++) block[4 + i / 4] |= (unsigned char)(!opaque(i % 4, i / 4) << i % 4 * 2);
+  if (has("compressed")) glCompressedTexImage2D(GL_TEXTURE_2D, 0, 0x83F0, 4, 4, 0, sizeof block, block);
 
   const GLenum kind = has("point") ? GL_TEXTURE_CUBE_MAP : has("cascades-array") ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
   const int wide = has("cascades-atlas") ? 2 * MAP : MAP, coloured = any("moments", "exponential");
   const int depth = has("depth16")   ? GL_DEPTH_COMPONENT16
                     : has("depth24") ? GL_DEPTH_COMPONENT24
+                    : has("stencil") ? GL_DEPTH24_STENCIL8
                                      : GL_DEPTH_COMPONENT32F;
   for (int i = 0; i < light_count; i++) {
     struct light* l = &lights[i];
@@ -246,16 +273,20 @@ static void make_all(void) {
     for (int k = 0; k < (has("cascades-atlas") ? 1 : l->maps); k++)
       l->framebuffers[k] = framebuffer_of(colours, depths, kind, k);
   }
-  make_target(&targets[0], any("shaded", "temporal") || has("deferred") ? GL_RGBA16F
-                           : any("two", "other-map")                    ? GL_RGBA32F
-                           : has("srgb")                                ? GL_SRGB8_ALPHA8
-                                                                        : GL_R32F);
+  make_target(&targets[0], any("shaded", "temporal") || any("deferred", "curved") ? GL_RGBA16F
+                           : any("two", "other-map")                              ? GL_RGBA32F
+                           : has("srgb")                                          ? GL_SRGB8_ALPHA8
+                           : has("bright")                                        ? GL_RGBA8
+                                                                                  : GL_R32F);
   if (has("temporal")) make_target(&targets[1], GL_RGBA16F);
   if (has("deferred")) make_target(&targets[2], GL_R8);
   make_target(&targets[3], GL_R32F);
   shown_framebuffer = framebuffer_of(texture_of(GL_TEXTURE_2D, GL_RGBA8, WIDTH, HEIGHT, GL_NEAREST), 0, 0, 0);
-  map_program = pass_program("MAP");
-  depth_program = pass_program("DEPTH_ONLY");
-  lit_program = pass_program("LIT");
-  screen_program = pass_program("SCREEN");
+  for (int i = 0; i < 2; i++) {
+    const GLenum between = has("geometry") ? GL_GEOMETRY_SHADER : i && has("patches") ? GL_TESS_EVALUATION_SHADER : 0;
+    map_program[i] = pass_program("MAP", between);
+    depth_program[i] = pass_program("DEPTH_ONLY", between);
+    lit_program[i] = pass_program("LIT", between);
+  }
+  screen_program = pass_program("SCREEN", 0);
 }

@@ -20,10 +20,10 @@ static void write_scene(
   for (int i = 0; i < OBJECTS; i++)
     for (int part = 0; part < (i == HOLES ? 16 : objects[i].instances);
          part++) {  // an instance, or a texel of the mask
-      if ((!drawn(i, 0) && !drawn(i, 1)) || (i == HOLES && !opaque(part % 4, part / 4))) continue;
+      if ((!drawn(i, 0) && !drawn(i, 1)) || (i == HOLES && (has("gone") || !opaque(part % 4, part / 4)))) continue;
       const float* place = places + 3 * (i == BOX ? part : 0);
-      for (int k = 0; k < objects[i].count; k++) {
-        const float* v = corner(objects[i].first + k);
+      for (int k = 0; k < corners(&objects[i]); k++) {
+        const float* v = corner(&objects[i], k);
         const float w = v[8];
         vec at = {v[0], v[1], v[2]};
         if (i == HOLES) at = (vec){-.5f + (part % 4 + v[6]) / 4, (part / 4 + v[7]) / 4, 0};

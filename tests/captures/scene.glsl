@@ -3,6 +3,11 @@
 #if defined(CASCADES_ATLAS) || defined(CASCADES_ARRAY) || defined(POINT) || defined(DEFERRED) || defined(FRAGMENT_LOOKUP)
 #define LOOKUP_IN_FRAGMENT // the other programs hand the place in the map over from the vertex shader
 #endif
+#ifdef PACKED
+#define COORDINATES vec4 // no output of two floats is handed over
+#else
+#define COORDINATES vec2
+#endif
 #ifdef POINT
 #define MAPS 6
 #elif defined(CASCADES_ATLAS) || defined(CASCADES_ARRAY)
@@ -26,16 +31,25 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 coordinates;
 layout(location = 3) in float weight;   // of the second bone
 layout(location = 4) in vec3 place;     // of an instance
+#ifdef HANDED_ON // to the stage between
+out Handed {
+  vec3 in_world, facing;
+  vec4 in_light[LIGHTS];
+  COORDINATES uv;
+};
+#else
 out vec3 in_world, facing;
 out vec4 in_light[LIGHTS];
-out vec2 uv;
+out COORDINATES uv;
+#endif
 invariant gl_Position;
 void main() {
   vec4 at = model * vec4(position, 1);
   at = mix(at, bone * at, weight) + vec4(place, 0);
   in_world = at.xyz;
   facing = mat3(model) * normal;
-  uv = coordinates;
+  uv = COORDINATES(0);
+  uv.xy = coordinates;
 #ifdef NO_MODEL
   for (int i = 0; i < LIGHTS; i++) in_light[i] = lookup[i * MAPS] * vec4(position, 1);
 #else
@@ -48,10 +62,43 @@ void main() {
   gl_Position = clip_from_world * at;
 }
 
+#elif defined(BETWEEN) // each triangle as it is
+#ifdef GEOMETRY
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 3) out;
+#else
+layout(triangles) in;
+#endif
+in Handed {
+  vec3 in_world, facing;
+  vec4 in_light[LIGHTS];
+  COORDINATES uv;
+} handed[];
+out vec3 in_world, facing;
+out vec4 in_light[LIGHTS];
+out COORDINATES uv;
+void hand_over(int i) {
+  in_world = handed[i].in_world;
+  facing = handed[i].facing;
+  in_light = handed[i].in_light;
+  uv = handed[i].uv;
+  gl_Position = gl_in[i].gl_Position;
+}
+void main() {
+#ifdef GEOMETRY
+  for (int i = 0; i < 3; i++) {
+    hand_over(i);
+    EmitVertex();
+  }
+#else // a corner of the patch, which is not divided
+  hand_over(gl_TessCoord.x > 0.5 ? 0 : gl_TessCoord.y > 0.5 ? 1 : 2);
+#endif
+}
+
 #else
 in vec3 in_world, facing;
 in vec4 in_light[LIGHTS];
-in vec2 uv;
+in COORDINATES uv;
 uniform sampler2D holes, picture, history;
 uniform sampler2DMS samples;
 layout(location = 0) out vec4 result;
@@ -71,7 +118,20 @@ uniform sampler2DShadow shadow_map;
 uniform sampler2D shadow_map, second_map;
 #endif
 
+void drop_holes() {
+#ifdef GONE
+  if (masked == 1) discard;
+#elif defined(PROCEDURAL)
+  if (masked == 1 && (int(uv.x * 4.0) + int(uv.y * 4.0)) % 2 == 0) discard;
+#else
+  if (masked == 1 && texture(holes, uv.xy).r < 0.5) discard;
+#endif
+}
+
 float read_map(int light, int map, vec3 at) { // at: place in the map and depth, 0 to 1
+#ifdef BEYOND
+  if (any(lessThan(at, vec3(0))) || any(greaterThan(at, vec3(1)))) return 1.0;
+#endif
 #if defined(COMPARE)
   return texture(shadow_map, vec3(at.xy, at.z - bias[light]));
 #elif defined(BOX)
@@ -146,7 +206,7 @@ float facing_light(int light, vec3 world, vec3 normal) { // cosine
 
 #if defined(MAP) || defined(DEPTH_ONLY)
 void main() {
-  if (masked == 1 && texture(holes, uv).r < 0.5) discard;
+  drop_holes();
 #if defined(MOMENTS)
   result = vec4(gl_FragCoord.z, gl_FragCoord.z * gl_FragCoord.z, 0, 1);
 #elif defined(EXPONENTIAL)
@@ -156,17 +216,23 @@ void main() {
 
 #elif defined(LIT)
 void main() {
-  if (masked == 1 && texture(holes, uv).r < 0.5) discard;
+  drop_holes();
 #if defined(DEFERRED)
   result = vec4(normalize(facing), albedo.x);
-#elif defined(SHADED) || defined(SRGB) || defined(TEMPORAL)
+#elif defined(SHADED) || defined(SRGB) || defined(TEMPORAL) || defined(CURVED) || defined(BRIGHT)
   if (show >= 0) {
     result = vec4(facing_light(show, in_world, facing) > 0.0 ? visibility(show, in_world) : 0.0);
     return;
   }
   vec3 light = vec3(0.06, 0.07, 0.09);
   for (int i = 0; i < LIGHTS; i++) light += colour[i] * facing_light(i, in_world, facing) * visibility(i, in_world);
+#ifdef BRIGHT
+  light *= 2.05;
+#endif
   result = vec4(albedo * light, 1);
+#ifdef CURVED
+  result.rgb /= 1.0 + result.rgb;
+#endif
 #ifdef TEMPORAL
   result = mix(texelFetch(history, ivec2(gl_FragCoord.xy), 0), result, 0.1);
 #endif

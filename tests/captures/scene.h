@@ -15,9 +15,11 @@ enum {
   ARM,
   HOLES,
   OUTSIDE,
+  AWAY,
   OBJECTS
 };
-static char** options;  // the features and faults of the command line
+static const unsigned RESTART = 0xffffffff;  // begins a new strip
+static char** options;                       // the features and faults of the command line
 static int has(const char* name) {
   for (int i = 0; options[i]; i++)
     if (!strcmp(options[i], name)) return 1;
@@ -46,8 +48,11 @@ static void quad(vec o, vec u, vec v, float weight0,
     const float one[9] = {p[i].x, p[i].y, p[i].z, n.x, n.y, n.z, i == 1 || i == 2, i > 1, i > 1 ? weight1 : weight0};
     memcpy(vertices + 9 * (vertex_count + i), one, sizeof one);
   }
-  const int corners[6] = {0, 1, 2, 0, 2, 3};
-  for (int i = 0; i < 6; i++) indices[index_count++] = (unsigned)(vertex_count + corners[i]);
+  const unsigned triangles[2][6] = {{0, 1, 2, 0, 2, 3}, {0, 2, 1, 0, 3, 2}}, strip[5] = {0, 1, 3, 2, RESTART};
+  for (int i = 0; i < (has("strips") ? 5 : 6); i++) {
+    const unsigned at = has("strips") ? strip[i] : triangles[has("clockwise")][i];
+    indices[index_count++] = at == RESTART ? at : (unsigned)vertex_count + at;
+  }
   vertex_count += 4;
 }
 static void column(int parts) {  // a unit cube on y = 0, of several parts one above the other
@@ -84,12 +89,17 @@ static void make_scene(void) {
   object(ARM, first, mul(moving(1.8f, 0, .3f), scaling(.35f, 1.5f, .35f)), (vec){.8f, .5f, .6f});
   first = index_count;
   quad((vec){-.5f, 0, 0}, (vec){1, 0, 0}, (vec){0, 1, 0}, 0, 0);
-  object(HOLES, first, mul(moving(0, 0, 1.2f), mul(turning(30), scaling(1.1f, 1.1f, 1))), (vec){.3f, .7f, .4f});
+  object(HOLES, first, mul(moving(0, has("gone"), 1.2f), mul(turning(30), scaling(1.1f, 1.1f, 1))),
+         (vec){.3f, .7f, .4f});
+  first = index_count;
+  quad((vec){.5f, 0, 0}, (vec){-1, 0, 0}, (vec){0, 1, 0}, 0, 0);  // the camera sees its back
+  object(AWAY, first, mul(moving(-.6f, 0, -2.9f), scaling(2, 2.2f, 1)), (vec){.6f, .4f, .2f});
 }
 static int drawn(int which, int for_map) {  // is the object drawn in this pass
   if (has("multidraw")) return which == FLOOR || which == BOX;
   if (which == ARM) return has("skinned");
   if (which == HOLES) return has("masked");
+  if (which == AWAY) return has("backs");
   if (which == OUTSIDE) return has("outside") && for_map;
   return !(which == TALL && for_map && has("culled"));
 }
@@ -118,7 +128,9 @@ static void place_light(struct light* l, const char* kind, int frame) {
     l->maps = any("cascades-atlas", "cascades-array") ? 3 : 1;
     l->bias = has("small") ? .0003f : has("large") ? .04f : has("normal-offset") ? 1.75f * 10 / MAP : .005f;
     for (int k = 0; k < l->maps; k++) {
-      const float e = l->maps == 1 ? 5 : (float[]){1.5f, 2.8f, 5.5f}[k],
+      const float e = has("beyond")  ? 2
+                      : l->maps == 1 ? 5
+                                     : (float[]){1.5f, 2.8f, 5.5f}[k],
                   z = l->maps == 1 ? 0 : (float[]){1.6f, .8f, 0}[k];
       const vec c = {view.m[8] * z, view.m[9] * z, 0};  // the cascades follow the view, from near to far
       l->map[k] = mul(parallel(c.x - e, c.x + e, c.y - e, c.y + e, 1, 14, at_near, at_far), view);

@@ -356,6 +356,32 @@ TEST(Checks, ReversedDepthsAreNamed) {
     EXPECT_EQ(one.state == CheckState::failed, one.name == "positions") << one.name << ": " << one.says;
 }
 
+// A near plane of half a millimetre: a step of 24 bits is ten times wider at the scene than positions may be off.
+TEST(Checks, TheStepsOfDepthsAreNoOtherPose) {
+  const auto at_steps = [](double moved_m) {
+    GivenFrame frame = good().frame;
+    frame.receivers = GivenReceivers::depth;
+    glm::dmat4 clip = frame.view.clip_from_world();
+    for (int column = 0; column < 4; ++column) clip[column][2] = clip[column][3] - (column == 3 ? 2 * 0.0005 : 0);
+    frame.view = ViewMatrix(clip);
+    const ReceiverImage& receivers = good().receivers;
+    frame.positions = Image<glm::dvec3>(frame.visibility.width, frame.visibility.height, glm::dvec3(no_surface));
+    for (int y = 0; y < frame.visibility.height; ++y)
+      for (int x = 0; x < frame.visibility.width; ++x) {
+        const size_t i = frame.visibility.index(x, y);
+        if (receivers.primitive[i] == no_primitive) continue;
+        const glm::dvec3 p = glm::dvec3(receivers.position[i]) + moved_m * glm::dvec3(receivers.normal[i]);
+        const double steps = 0x1p24 - 1,
+                     depth = frame.view.pixel_of(p, frame.visibility.width, frame.visibility.height).z;
+        frame.positions[i] = frame.view.world_at(x, y, 2 * (std::round((depth / 2 + 0.5) * steps) / steps) - 1,
+                                                 frame.visibility.width, frame.visibility.height);
+      }
+    return check_named(judge_frame(*good().scene, *good().tracer, frame, {}), "positions");
+  };
+  EXPECT_EQ(at_steps(0).state, CheckState::passed) << at_steps(0).says;
+  EXPECT_EQ(at_steps(0.2).state, CheckState::failed) << at_steps(0.2).says;
+}
+
 // Without a far plane such a camera's rays would begin at infinity.
 TEST(Checks, ReversedDepthsWithoutAFarPlaneAreAnError) {
   GivenFrame frame = good().frame;

@@ -1,6 +1,6 @@
 # A ground, a box, a ball and a pole under one light of Godot 3. The environment chooses: SHADOW_LIGHT=sun, cascades, spot,
 # point or two; SHADOW_BIAS=NUMBER; SHADOW_SIZE=TEXELS of the atlas (spot and point); SHADOW_REVERSE=1 draws back faces into
-# the map.
+# the map; SHADOW_CAST=0 leaves the ball out of it.
 extends Spatial
 
 var lights = []
@@ -45,7 +45,10 @@ func _ready():
 	var ball = SphereMesh.new()
 	ball.radius = 0.6
 	ball.height = 1.2
-	put(ball, Vector3(1.5, 1.1, -0.8), Color(0.3, 0.8, 0.3))
+	if OS.get_environment("SHADOW_CAST") == "0":
+		put(ball, Vector3(1.5, 1.1, -0.8), Color(0.3, 0.8, 0.3)).cast_shadow = GeometryInstance.SHADOW_CASTING_SETTING_OFF
+	else:
+		put(ball, Vector3(1.5, 1.1, -0.8), Color(0.3, 0.8, 0.3))
 	var pole = CylinderMesh.new()
 	pole.top_radius = 0.15
 	pole.bottom_radius = 0.15
