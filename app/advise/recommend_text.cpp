@@ -12,7 +12,7 @@
 #include "app/advise/recommend_filtered_text.h"
 #include "app/advise/recommend_lookups.h"
 #include "base/text.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 

@@ -2,16 +2,18 @@
 //
 //   write_file_atomically(out + "/index.html", index_page(entries, version));
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "compare/judge/verdict.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
 
 struct IndexEntry {
-  enum class Verdict { held, broken, not_judged } verdict = Verdict::not_judged;
-  std::string experiment;  // path as given
+  std::optional<Verdict> verdict;  // empty: not judged
+  std::string experiment;          // path as given
   std::string title;
   std::string report;   // the report's path below the index page; empty if there is none
   std::string words;    // what is broken, with its value, then the verdict; or why nothing was judged

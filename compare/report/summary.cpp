@@ -14,11 +14,7 @@
 #include "compare/judge/deliveries.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
-#include "compare/judge/machines.h"
-#include "compare/judge/no_flicker.h"
-#include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
-#include "compare/judge/verdict.h"
 #include "compare/report/escape.h"
 #include "compare/results/metrics.h"
 #include "compare/results/number_text.h"
@@ -46,17 +42,18 @@ std::string short_or_missing(const PointRecord& point, const std::string& name) 
   return value ? text_with_room(*value, ambiguous_room(point, name), find_metric(name).unit) : "–";
 }
 
-std::string verdict(const Results& results) {
-  const Verdict verdict = verdict_of(results);
-  std::string text = fmt::format("**{}**", markdown(verdict_sentence(results)));
-  if (verdict == Verdict::unsound) text += " Do not rely on these numbers.";
-  if (verdict == Verdict::incomplete) text += " Run it again to continue.";
-  if (verdict == Verdict::refused) text += " The bounds are judged over the other frames.";
-  if (verdict == Verdict::measured) text += " The experiment sets no bounds.";
-  const auto warnings = std::count_if(results.bounds.begin(), results.bounds.end(),
-                                      [](const BoundResult& bound) { return !bound.held && bound.warns; });
-  if (warnings > 0) text += fmt::format(" {}.", counted(static_cast<size_t>(warnings), "warning"));
-  return text + "\n";
+// What the reader of a verdict can do with it.
+std::string_view advice_on(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unsound:
+      return " Do not rely on these numbers.";
+    case Verdict::incomplete:
+      return " Run it again to continue.";
+    case Verdict::refused:
+      return " The bounds are judged over the other frames.";
+    default:
+      return "";
+  }
 }
 
 std::string laws_table(const Results& results) {
@@ -89,7 +86,8 @@ std::string baseline_list(const BaselineComparison& baseline) {
   return text;
 }
 
-std::string bounds_table(const Results& results) {
+std::string bounds_table(const Findings& found) {
+  const Results& results = found.all;
   std::string text = "\n## Bounds\n\n";
   add_heading(text, {"", "bound", "found", "points", "worst at"});
   for (const BoundResult& bound : results.bounds) {
@@ -103,11 +101,8 @@ std::string bounds_table(const Results& results) {
                    bound.points == 0 ? "–" : found_text(bound, results.points), fmt::format("{}", bound.points),
                    markdown(fmt::format("{}", fmt::join(at, ", ")))});
   }
-  for (const BoundResult& bound : results.bounds) {
-    if (bound.held) continue;
-    const std::string why = describe(bound, find_point(results.points, bound.point), results.info.swept);
-    text += "\n" + markdown_block(why);
-  }
+  for (const Promise& one : found.promises)
+    if (one.of == Promise::Of::bound && one.state != Promise::State::held) text += "\n" + markdown_block(one.text);
   return text;
 }
 
@@ -233,23 +228,17 @@ std::string best_table(const Results& results) {
 
 }  // namespace
 
-std::string to_summary(const Results& results, const std::vector<SummaryPicture>& pictures) {
+std::string to_summary(const Findings& found, const std::vector<SummaryPicture>& pictures) {
+  const Results& results = found.all;
   const RunInfo& info = results.info;
-  std::string text =
-      fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
-  if (const std::string poor = poor_view_note(results.points); !poor.empty())
-    text += fmt::format("\nNote: {}.\n", markdown(poor));
-  if (const std::string still = no_flicker_note(results.points); !still.empty())
-    text += fmt::format("\nNote: {}.\n", markdown(still));
-  for (const std::string& note : machine_notes(results).warnings)
-    text += fmt::format("\nWarning: {}.\n", markdown(note));
-  for (const std::string& note : info.sweep_notes) text += fmt::format("\nWarning: {}.\n", markdown(note));
-  if (const std::string doubt = undecided_note(results.points); !doubt.empty())
-    text += fmt::format("\nNote: {}.\n", markdown(doubt));
-  for (const std::string& note : info.scene_notes) text += fmt::format("\nAbout the scene {}.\n", markdown(note));
+  std::string text = fmt::format("# {}\n\n**{}.**{}\n", markdown(info.title.empty() ? "Noonmark" : info.title),
+                                 markdown(found.sentence), advice_on(found.verdict));
+  for (const Note& note : found.notes)
+    if (note.of != Note::Of::machines)
+      text += fmt::format("\n{}: {}.\n", note.of == Note::Of::sweep ? "Warning" : "Note", markdown(note.text));
   if (results.baseline) text += baseline_list(*results.baseline);
   if (!results.laws.empty()) text += laws_table(results);
-  if (!results.bounds.empty()) text += bounds_table(results);
+  if (!results.bounds.empty()) text += bounds_table(found);
   for (const SummaryPicture& picture : pictures)
     text += fmt::format("\n![the worst pixel, enlarged]({})\n\n{}\n", picture.path, markdown(picture.text));
   // Points of different parts are not meant to be compared.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/results/records.h"
+#include "compare/judge/findings.h"
 
 namespace noonmark {
 
@@ -15,7 +15,7 @@ struct SummaryPicture {
 
 // First the verdict, then the bounds (broken ones with the command that reproduces them), then the points with the
 // least error and the bias that each needs. A comparison with a baseline stands before the bounds; pictures: stand after them.
-std::string to_summary(const Results& results, const std::vector<SummaryPicture>& pictures = {});
+std::string to_summary(const Findings& found, const std::vector<SummaryPicture>& pictures = {});
 
 // The reason why nothing was judged.
 std::string to_summary(const Unjudged& unjudged);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compare/judge/recommendation.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 #include "compare/report/report.h"
 #include "compare/report/shown.h"
 #include "compare/results/quantities.h"

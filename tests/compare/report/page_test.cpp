@@ -506,7 +506,7 @@ class PackedPage : public Browser {};
 
 TEST_F(PackedPage, HasTheSameDataAndDrawsThem) {
   const Results results = packed_results();
-  const json data = report::chart_data(results, report::shown_points(results));
+  const json data = report::chart_data(report::shown_points(results));
   ASSERT_GT(data.dump().size(), size_t{1} << 20) << "the page of this test must be packed";
   open(render_report(results, sample_picture), "packed_probe.js");
   if (IsSkipped()) return;
