@@ -116,7 +116,8 @@ Findings::Findings(const Results& of)
                                  [](const LawResult& law) { return !law.samples.empty() && !law.found.empty(); });
   if (says != of.laws.end()) headline = &*says;
   for (const ComparedGroup& group : groups) techniques.push_back(techniques_of(group, of));
-  const std::vector<Recommendation> good = good_choices(groups);
+  const std::vector<Recommendation> good =
+      conditions_of(of.info) == of.info.over ? good_choices(groups) : good_choices(of);
   recommended = recommend(of, good);
   accurate = recommend_accurate(of, good);
 }

@@ -88,7 +88,7 @@ bool has_criterion(const Choice& choice, const Results& results);
 // Whether the choice was judged by a bound that the experiment asks of other choices alone (good_choice).
 bool keeps_bounds_of_others(const Choice& choice, const Results& results);
 
-// All choices that are good enough, in order.
+// All choices that are good enough under conditions_of(), in order.
 std::vector<Recommendation> good_choices(const Results& results);
 
 // Whether the points of some choices are not measured yet under every condition, so that nothing can be recommended.

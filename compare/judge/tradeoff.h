@@ -45,7 +45,7 @@ struct ComparedGroup {
 };
 std::vector<ComparedGroup> compared_groups(const Results& results);
 
-// good_choices() of the results, from their groups.
+// good_choices() of the results, from their groups, where RunInfo::over has all conditions_of().
 std::vector<Recommendation> good_choices(const std::vector<ComparedGroup>& groups);
 
 // Where a choice is looked at: at its own bias (ComparedChoice::bias), or with the bias that its points were rendered with.

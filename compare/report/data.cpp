@@ -173,7 +173,7 @@ json points_data(const ShownPoints& shown, const std::set<std::string>& shared) 
   const auto reductions =
       static_cast<size_t>(std::count_if(shown.results.points.begin(), shown.results.points.end(),
                                         [](const PointRecord& point) { return !point.lookup_curve.empty(); }));
-  const std::map<int64_t, double> biases = recommended_biases(shown.groups);
+  const std::map<int64_t, double> biases = recommended_biases(shown);
   json out = json::array();
   for (const PointRecord& point : shown.results.points) {
     json entry = point_data(point, shown.all, shared);

@@ -136,7 +136,7 @@ Markup figure_of(const PointRecord& point, const std::string& bytes, const Shown
   head["point"] = point.id;
   const bool stack = head.value("kind", "thresholds") == "stack";
   head["marks"] = stack ? stack_marks(point, shown.recommended, head) : marks_of(point, shown.recommended);
-  const std::vector<PictureRecord> pictures = pictures_for_page(point, recommended_biases(shown.groups));
+  const std::vector<PictureRecord> pictures = pictures_for_page(point, recommended_biases(shown));
   const bool at_other = std::any_of(pictures.begin(), pictures.end(), [](const PictureRecord& picture) {
     return picture.name == at_recommended_bias("map");
   });

@@ -67,7 +67,7 @@ const PointRecord* answer_point(const Findings& found) {
 Opening opening(const Findings& found) {
   Opening first{point_to_open(found), {}};
   if (!first.point || opens_as_set(found)) return first;
-  const std::map<int64_t, double> biases = recommended_biases(found.groups);
+  const std::map<int64_t, double> biases = recommended_biases(found);
   const auto bias = biases.find(first.point->id);
   if (bias != biases.end() && number_of(setting_of(*first.point, curve_parameter(*first.point))) != bias->second)
     first.bias = bias->second;

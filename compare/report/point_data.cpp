@@ -21,12 +21,14 @@ constexpr std::array curve_metrics{"error",         "error_soft",     "wrong",  
 
 }  // namespace
 
-std::map<int64_t, double> recommended_biases(const std::vector<ComparedGroup>& groups) {
+std::map<int64_t, double> recommended_biases(const Findings& found) {
   std::map<int64_t, double> biases;
-  for (const ComparedGroup& group : groups)
+  for (const ComparedGroup& group : found.groups)
     for (const ComparedChoice& one : group.choices)
       for (const PointRecord* point : one.choice.points)
         if (one.bias && has_curve(*point)) biases[point->id] = *one.bias;
+  if (found.recommended.bias)
+    for (const PointRecord* point : found.recommended.choice.points) biases[point->id] = found.recommended.bias->value;
   return biases;
 }
 

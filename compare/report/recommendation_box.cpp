@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/shell_words.h"
 #include "base/text.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
@@ -67,9 +68,10 @@ const char* praise(const Results& results) {
 }
 
 std::string conditions_text(const Results& results, const Choice& choice) {
-  if (results.info.over.empty()) return "";
+  const std::vector<std::string> conditions = conditions_of(results.info);
+  if (conditions.empty()) return "";
   std::string names;
-  for (const std::string& name : results.info.over) names += (names.empty() ? "" : ", ") + setting_label(name);
+  for (const std::string& name : conditions) names += (names.empty() ? "" : ", ") + setting_label(name);
   return choice.points.size() == 1 ? fmt::format(" under the one condition ({})", names)
                                    : fmt::format(" under all {} conditions ({})", choice.points.size(), names);
 }
@@ -180,7 +182,7 @@ std::optional<NoAnswer> why_no_answer(const Findings& found) {
       return NoAnswer{
           "broken",
           fmt::format("None of {} is good enough{}.", these,
-                      found.all.info.over.empty() ? "" : " under all conditions"),
+                      conditions_of(found.all.info).empty() ? "" : " under all conditions"),
           fmt::format("None has a usable {} window and meets every bound, also those that the experiment asks of other "
                       "settings alone. Sweep a higher resolution, a smaller extent or {}, or loosen a bound.",
                       free_setting_words(found.all.points),
@@ -211,7 +213,8 @@ AnswerWords answer_words(const Findings& found) {
   if (answer.bias && answer.bias->as_set) return {"", "I" + error, "", point};
   const std::string settings = chosen_phrase(answer, results),
                     bias = answer.bias ? named_bias(answer.choice.points, answer.bias->value) : "";
-  const std::string good = praise(results) + std::string(results.info.over.empty() ? "" : " under all conditions");
+  const std::string good =
+      praise(results) + std::string(conditions_of(results.info).empty() ? "" : " under all conditions");
   if (settings.empty())
     return {"", bias.empty() ? "What is set" : "A " + bias, fmt::format(" {}; i{}", good, error), point};
   const bool kept = found.verdict == Verdict::held && !your_bias(results.points).empty();
@@ -325,11 +328,17 @@ Markup recommendation_box(const ShownPoints& shown) {
             kept ? "What is set" : fmt::format("Of {} the cheapest that", these_points(shown.all.points)),
             praise(shown.all), conditions_text(shown.all, found.choice), kept ? ". It" : "",
             cost_and_error(found, shown.all), found.bias ? bias_margin_text(*found.bias, free_noun(found)) : "");
-  const Markup reasons = prose("It is {}: {}.{}{}", point_links(found.choice), criterion_text(found, shown.all),
+  const Markup search = shown.all.info.experiment.empty() || choice_settings(shown.all.info).empty()
+                            ? Markup()
+                            : prose(" {} searches beyond {}, so its answer can be another one.",
+                                    code("noonmark recommend " + shell_quoted(shown.all.info.experiment)),
+                                    these_points(shown.all.points));
+  const Markup reasons = prose("It is {}: {}.{}{}{}", point_links(found.choice), criterion_text(found, shown.all),
                                noise_text(found.noise, shown.all),
                                compares_choices(shown.groups) ? prose(" {} compares by other costs and errors.",
                                                                       section_link("cost", "Speed against accuracy"))
-                                                              : Markup());
+                                                              : Markup(),
+                               search);
   // Green only if the verdict is: a reader would take the colour for it.
   return box(passes(shown.verdict) ? "held" : "none", kept ? "What is set" : "What to set",
              paragraph(answer) + element("dl", settings_and_bias(found, shown.all)) + "\n" + causes_text(found) +

@@ -139,7 +139,7 @@ Markup picture_figure(const PictureRecord& record, const ReadFile& read_file) {
 }
 
 Markup pictures_section(const ShownPoints& shown, const ReadFile& read_file) {
-  const std::map<int64_t, double> biases = recommended_biases(shown.groups);
+  const std::map<int64_t, double> biases = recommended_biases(shown);
   Markup sets, legend, sections;
   for (const PointRecord& point : shown.all.points)
     if (!point.pictures.empty()) {
