@@ -21,9 +21,9 @@
 namespace noonmark {
 namespace {
 
-// The answer, or what is known instead; a line's end even so.
+// What the report says first: a law's own sentence, or the answer, or what is known instead.
 std::string answer_line(const Findings& found) {
-  const std::string text = report::answer_words(found).text();
+  const std::string text = found.headline ? found.headline->found : report::answer_words(found).text();
   return text.empty() ? "" : printable(text) + "\n";
 }
 

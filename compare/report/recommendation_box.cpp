@@ -218,7 +218,8 @@ AnswerWords answer_words(const Findings& found) {
   if (settings.empty())
     return {"", bias.empty() ? "What is set" : "A " + bias, fmt::format(" {}; i{}", good, error), point};
   const bool kept = found.verdict == Verdict::held && !your_bias(results.points).empty();
-  return {kept ? "Cheaper: " : fmt::format("Of {} the cheapest that {}: ", these_points(results.points), good),
+  return {kept ? fmt::format("Cheaper{}: ", conditions_of(results.info).empty() ? "" : ", under all conditions")
+               : fmt::format("Of {} the cheapest that {}: ", these_points(results.points), good),
           settings,
           fmt::format("{}; i{}",
                       !answer.bias ? ""

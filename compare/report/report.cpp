@@ -79,7 +79,7 @@ bool opens_with_motion(const Results& results) {
 // Parts are measured to be compared, so there the chart stands above the live picture.
 bool opens_with_speed(const ShownPoints& shown) {
   const bool parts = !shown.all.points.empty() && !shown.all.points.front().part.empty();
-  return (parts || !report::has_live_picture(shown.all)) && !report::has_diagram(shown.all) &&
+  return ((parts && !shown.headline) || !report::has_live_picture(shown.all)) && !report::has_diagram(shown.all) &&
          !report::has_flicker(shown.all) && report::has_speed_chart(shown);
 }
 Markup motion(const Results& results) {

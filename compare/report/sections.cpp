@@ -42,8 +42,8 @@ Markup swept_cells(const Results& results, const PointRecord& point, const Class
 }
 
 Markup bias_cells(double depth, const BiasCurve& curve) {
-  return td(css("first"), number(depth)) + td(number(depth * curve.m_per_depth)) +
-         td(number(depth * curve.texels_per_depth));
+  return td(css("first"), number(depth * curve.m_per_depth)) + td(number(depth * curve.texels_per_depth)) +
+         td(number(depth));
 }
 
 // What the curves of the points have in common. alike: all vary the same parameter and were made in the same way.
@@ -71,7 +71,8 @@ Markup window_row(const Results& results, const PointRecord& point, const Classe
                   : td(Attribute("colspan", 6), css("fails first"),
                        hides_window(point) ? std::string(window_not_known) : "none: no bias is good enough");
   cells += bias_cells(curve.best_bias_depth, curve) + td(cell(curve.best_error, "fraction"));
-  cells += td(css("first"), number(curve.flat_min_depth), " … ", number(curve.flat_max_depth));
+  cells += td(css("first"), number(curve.flat_min_depth * curve.m_per_depth), " … ",
+              number(curve.flat_max_depth * curve.m_per_depth));
   if (!alike) cells += td(css("text"), curve.parameter) + td(css("text"), curve.made);
   return tr(css(usable ? "" : "broken"), cells);
 }
@@ -86,8 +87,8 @@ Markup windows_head(const Results& results, const Classes& classes, bool alike) 
   if (!alike) names += heads({"Parameter", "Made"});
   Markup units = td();
   for (size_t i = 0; i < results.info.swept.size() + (has_parts(results) ? 1 : 0); ++i) units += td();
-  for (int i = 0; i < 3; ++i) units += th(css("first"), "depth") + heads({"m", "texels"});
-  units += th("error %") + th(css("first"), "depth");
+  for (int i = 0; i < 3; ++i) units += th(css("first"), "m") + heads({"texels", "depth"});
+  units += th("error %") + th(css("first"), "m");
   if (!alike) units += td() + td();
   return element("thead", tr(names), element("tr", css("units"), units));
 }

@@ -16,6 +16,7 @@
 #include "compare/judge/laws.h"
 #include "compare/judge/undecided.h"
 #include "compare/report/escape.h"
+#include "compare/report/recommendation_box.h"
 #include "compare/results/metrics.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
@@ -117,28 +118,21 @@ std::string parameter_of_all(const Results& results) {
   return parameter.empty() ? "bias" : parameter;
 }
 
-// Of a point of the table: its usable window and the best value of its free setting, with the error there. In places of the
-// curve's axis, and if any point has a bias the best one in metres and texels too. A reduction among biases says that it is one.
+// Of a point of the table: its usable window and the value of its free setting with the least error, and the error there. If any point
+// has a bias, biases stand in metres, and the best one in texels too. A reduction among biases says that it is one.
 std::vector<std::string> window_cells(const PointRecord& point, bool biases, bool mixed) {
-  const bool reduction = free_setting(point) == FreeSetting::reduction;
-  const char* const what = reduction && mixed ? "reduction " : "";
-  if (hides_window(point)) return std::vector<std::string>(biases ? 5 : 3, "not known");
+  if (hides_window(point)) return std::vector<std::string>(biases ? 4 : 3, "not known");
   const std::optional<Interval> window = usable_window(point);
+  const bool curve = has_curve(point), reduction = free_setting(point) == FreeSetting::reduction;
+  const double unit = point.curve && !reduction ? point.curve->m_per_depth : 1;
+  const char* const what = reduction && mixed ? "reduction " : "";
   std::vector<std::string> cells{
-      window             ? fmt::format("{}{} … {}", what, number_text(window->low), number_text(window->high))
-      : has_curve(point) ? "none"
-                         : "–"};
-  if (reduction) {
-    cells.push_back(what + short_or_missing(best_depth(point)));
-    if (biases) cells.insert(cells.end(), 2, "–");
-    cells.push_back(short_or_missing(best_error(point), "fraction"));
-    return cells;
-  }
-  cells.push_back(short_or_missing(quantity(point, "best_bias_depth")));
-  if (biases)
-    for (const char* name : {"best_bias_m", "best_bias_texels"})
-      cells.push_back(short_or_missing(quantity(point, name)));
-  cells.push_back(short_or_missing(quantity(point, "best_error"), "fraction"));
+      window  ? fmt::format("{}{} … {}", what, number_text(window->low * unit), number_text(window->high * unit))
+      : curve ? "none"
+              : "–",
+      curve ? what + number_text(best_depth(point) * unit) : "–"};
+  if (biases) cells.push_back(reduction ? "–" : short_or_missing(quantity(point, "best_bias_texels")));
+  cells.push_back(curve ? quantity_text(best_error(point), "fraction") : "–");
   return cells;
 }
 
@@ -200,11 +194,11 @@ std::string best_table(const Results& results) {
   heading.push_back(markdown(results.info.cost));
   const std::string words = free_setting_words(results.points), parameter = markdown(parameter_of_all(results));
   const bool biases = words.starts_with("bias"), mixed = words != "bias" && biases;
-  const char* const unit = biases ? " (depth)" : "";
+  const char* const unit = biases ? " (m)" : "";
   heading.push_back(fmt::format("usable {}{}", parameter, unit));
   // Not the recommended one, which keeps away from the ends of the window.
   heading.push_back(fmt::format("{} of least error{}", parameter, unit));
-  if (biases) heading.insert(heading.end(), {"(m)", "(texels)"});
+  if (biases) heading.emplace_back("(texels)");
   heading.emplace_back("error there");
   add_heading(text, heading);
   for (const PointRecord* point : order) {
@@ -233,6 +227,8 @@ std::string to_summary(const Findings& found, const std::vector<SummaryPicture>&
   const RunInfo& info = results.info;
   std::string text = fmt::format("# {}\n\n**{}.**{}\n", markdown(info.title.empty() ? "Noonmark" : info.title),
                                  markdown(found.sentence), advice_on(found.verdict));
+  if (const std::string answer = report::answer_words(found).text(); !answer.empty())
+    text += fmt::format("\n{}\n", markdown(answer));
   for (const Note& note : found.notes)
     if (note.of != Note::Of::machines)
       text += fmt::format("\n{}: {}.\n", note.of == Note::Of::sweep ? "Warning" : "Note", markdown(note.text));

@@ -109,7 +109,7 @@ TEST_F(Page, ChartsAreReadByKeyboard) {
   const json& keys = saw_["keys"];
   EXPECT_EQ(keys["bias"]["stop"], 0);
   const std::vector<std::string> bias = keys["bias"]["said"];
-  EXPECT_NE(bias[0].find("depth = "), std::string::npos) << bias[0];
+  EXPECT_NE(bias[0].find(" m = "), std::string::npos) << bias[0];
   EXPECT_NE(bias[0].find("Peter Panning "), std::string::npos) << bias[0];
   EXPECT_NE(bias[1], bias[0]) << "the next bias";
   EXPECT_EQ(bias[2], bias[0]) << "Home is the first";

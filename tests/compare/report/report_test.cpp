@@ -177,9 +177,9 @@ TEST(Report, NumbersAreThereWithoutJavaScript) {
     }
     if (point.curve->window_min_depth) {
       EXPECT_NE(body.find(fmt::format("<td class=\"first\">{}</td><td>{}</td><td>{}</td>",
-                                      report::number(*point.curve->window_min_depth),
                                       report::number(*point.curve->window_min_depth * point.curve->m_per_depth),
-                                      report::number(*point.curve->window_min_depth * point.curve->texels_per_depth))),
+                                      report::number(*point.curve->window_min_depth * point.curve->texels_per_depth),
+                                      report::number(*point.curve->window_min_depth))),
                 std::string::npos);
     }
   }
