@@ -99,7 +99,7 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
   entry.report = page.report_of(listed);
   entry.numbers = worst_numbers(results);
   const std::string broken = broken_in_words(results);
-  entry.words = (broken.empty() ? "" : broken + "; ") + found.sentence;
+  entry.words = found.sentence + (broken.empty() ? "" : ". " + broken);
   entry.verdict = found.verdict;
   checked.exit_code = exit_code_of(found.verdict);
   if (under_github_actions() && !outcome.interrupted) checked.annotations = to_annotations(path, found);

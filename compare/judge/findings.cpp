@@ -119,7 +119,6 @@ Findings::Findings(const Results& of)
   const std::vector<Recommendation> good =
       conditions_of(of.info) == of.info.over ? good_choices(groups) : good_choices(of);
   recommended = recommend(of, good);
-  accurate = recommend_accurate(of, good);
 }
 
 }  // namespace noonmark

@@ -57,8 +57,8 @@ struct Findings {
   const LawResult* headline = nullptr;  // the first law with a sentence of its own (LawResult::found); null: none
   // The answer, and what it was chosen from. Of thousands of choices this takes its time.
   std::vector<ComparedGroup> groups;
-  std::vector<Techniques> techniques;    // of each group
-  Recommendation recommended, accurate;  // recommend(), recommend_accurate()
+  std::vector<Techniques> techniques;  // of each group
+  Recommendation recommended;          // recommend()
 };
 
 }  // namespace noonmark

@@ -265,24 +265,12 @@ const Recommendation* cheapest(const std::vector<Recommendation>& good) {
   });
 }
 
-const Recommendation* most_accurate(const std::vector<Recommendation>& good) {
-  return best_by(good, [](const auto& a, const auto& b) {
-    return std::make_pair(a.error.worst, a.cost.middle) < std::make_pair(b.error.worst, b.cost.middle);
-  });
-}
-
 Recommendation recommend(const Results& results, const std::vector<Recommendation>& good) {
   Recommendation found = answered(results, cheapest(good));
   if (found.outcome != Outcome::incomplete) found.noise = noise_of(good);
   return found;
 }
 
-Recommendation recommend_accurate(const Results& results, const std::vector<Recommendation>& good) {
-  return answered(results, most_accurate(good));
-}
-
 Recommendation recommend(const Results& results) { return recommend(results, good_choices(results)); }
-
-Recommendation recommend_accurate(const Results& results) { return recommend_accurate(results, good_choices(results)); }
 
 }  // namespace noonmark

@@ -36,12 +36,11 @@ struct ComparedChoice {
 };
 ComparedChoice at_best_bias(const Choice& choice, const Results& results);
 
-// Choices that can be compared (comparable_choices), and the indices of two of them. An index is empty if no choice is
+// Choices that can be compared (comparable_choices), and the index of one of them. It is empty if no choice is
 // good enough, or if the sweep is incomplete (is_incomplete).
 struct ComparedGroup {
   std::vector<ComparedChoice> choices;
   std::optional<size_t> recommended;  // the cheapest choice that is good enough
-  std::optional<size_t> accurate;     // the most accurate one that is good enough
 };
 std::vector<ComparedGroup> compared_groups(const Results& results);
 

@@ -51,7 +51,7 @@ std::string worst_numbers(const Results& results) {
   return out;
 }
 
-std::string broken_in_words(const Results& results) { return report::broken_words(results); }
+std::string broken_in_words(const Results& results) { return report::broken_words(results).text(); }
 
 std::string index_words(const std::vector<IndexEntry>& entries) {
   std::map<std::optional<Verdict>, size_t> counts;

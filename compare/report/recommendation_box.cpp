@@ -284,17 +284,6 @@ Markup causes_text(const Recommendation& found) {
   return paragraph(prose("Largest causes there{}: {}.", at, causes));
 }
 
-// The most accurate setting, if it is another one.
-Markup accurate_text(const Recommendation& found, const Recommendation& accurate, const Results& results) {
-  const std::string phrase = accurate.choice.points.empty() ? "" : chosen_phrase(accurate, results);
-  if (&accurate.choice.first() == &found.choice.first()) return "";
-  const std::string bias =
-      accurate.bias ? fmt::format("{} {}", accurate.bias->parameter, bias_of(accurate, accurate.bias->value)) : "";
-  return paragraph(prose("The most accurate setting that {}: {}{}{}, for {} ({}).", praise(results), phrase,
-                         phrase.empty() || bias.empty() ? "" : ", ", bias, cost_and_error(accurate, results),
-                         point_links(accurate.choice)));
-}
-
 // By what it is the answer.
 Markup criterion_text(const Recommendation& found, const Results& results) {
   if (found.bias && found.bias->as_set)
@@ -343,7 +332,7 @@ Markup recommendation_box(const ShownPoints& shown) {
   // Green only if the verdict is: a reader would take the colour for it.
   return box(passes(shown.verdict) ? "held" : "none", kept ? "What is set" : "What to set",
              paragraph(answer) + element("dl", settings_and_bias(found, shown.all)) + "\n" + causes_text(found) +
-                 accurate_text(found, shown.accurate, shown.all) + element("p", css("small"), reasons));
+                 element("p", css("small"), reasons));
 }
 
 }  // namespace noonmark::report

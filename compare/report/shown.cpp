@@ -28,8 +28,7 @@ std::vector<size_t> spoken_of(const ShownPoints& shown) {
     if (const auto found = place.find(id); found != place.end()) out.push_back(found->second);
   };
   if (shown.all.points.front().part.empty()) {
-    for (const Recommendation* found : {&shown.recommended, &shown.accurate})
-      for (const PointRecord* point : found->choice.points) add(point->id);
+    for (const PointRecord* point : shown.recommended.choice.points) add(point->id);
   }
   for (const BoundResult& bound : shown.all.bounds) add(bound.point);
   for (const LawResult& law : shown.all.laws)
@@ -44,8 +43,7 @@ std::vector<size_t> spoken_of(const ShownPoints& shown) {
   const std::string& error = shown.error_first;
   for (const ComparedGroup& group : groups) {
     std::vector<size_t> named = front_of(group, shown.all.info.cost, error);
-    for (const std::optional<size_t>& one : {group.recommended, group.accurate})
-      if (one) named.push_back(*one);
+    if (group.recommended) named.push_back(*group.recommended);
     for (size_t i : named)
       if (const PointRecord* at = value_of(group.choices[i], error).at) add(at->id);
   }

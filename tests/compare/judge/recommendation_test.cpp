@@ -66,15 +66,12 @@ TEST(Recommend, SaysFromWhichEndsTheBiasKeepsItsDistance) {
   EXPECT_EQ(of_window(0, 0), "no bias is needed, so there is no lower end, and 0 is furthest from the upper one");
 }
 
-TEST(Recommend, AccurateTakesTheLeastErrorAtTheChosenBias) {
+TEST(Recommend, TakesTheErrorAtTheChosenBias) {
   Results results;
   results.points = {point_with(0, 1, 0.75, 1.0), point_with(1, 3, 0.25, 0.75), point_with(2, 2, 0.25, 0.75),
                     point_with(3, 1, {}, {})};
   EXPECT_EQ(id_of(recommend(results)), 0);
   EXPECT_NEAR(recommend(results).error.worst, 0.3, 1e-15);
-  EXPECT_EQ(id_of(recommend_accurate(results)), 2);  // as accurate as point 1, and cheaper
-  EXPECT_EQ(recommend_accurate(results).error.worst, 0.125);
-  EXPECT_EQ(recommend_accurate(results).cost.middle, 2);
 }
 
 // Points of the given times, each with an error of its own; the cost is the time.

@@ -56,7 +56,7 @@ TEST(Answer, AFilteredMapIsAnsweredWithItsReduction) {
   const std::string body = without_scripts(render_report(filtered_sample_results(), sample_picture));
   const auto says = [&](const std::string& words) { return body.find(words) != std::string::npos; };
   for (const char* fact :
-       {"lookup.reduction 0.19", "<dt>lookup.reduction</dt>", "<section id=\"reduction\"",
+       {"lookup.reduction of 0.19", "<dt>lookup.reduction</dt>", "<section id=\"reduction\"",
         "Of 3 choices 2 have a usable", "No reduction is usable at 1 of 3 points",
         "The reduction as set is too small at 1 of 3 points", "as set is too large at 1 of 3 points"})
     EXPECT_TRUE(says(fact)) << fact;

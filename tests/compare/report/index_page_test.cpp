@@ -60,8 +60,9 @@ TEST(IndexPage, NamesTheBrokenBoundAndItsValue) {
   results.bounds = {
       {.metric = "error", .max = 1, .join = "worst", .held = true, .found = 0.5, .point = 0, .points = 32},
       {.metric = "acne", .max = 0.005, .join = "worst", .found = 0.0083, .point = 3, .points = 32}};
-  EXPECT_EQ(broken_in_words(results), "Acne 0.83\u202f% (at most 0.5\u202f%) at " +
-                                          report::settings_phrase(results.points[3], results.info.swept));
+  EXPECT_EQ(broken_in_words(results), "Acne is 0.83\u202f% where at most 0.5\u202f% is allowed, at " +
+                                          report::settings_phrase(results.points[3], results.info.swept) +
+                                          ", with a bias of 0 as set.");
   results.bounds[1].held = true;
   EXPECT_EQ(broken_in_words(results), "");
 }
