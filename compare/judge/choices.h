@@ -2,7 +2,7 @@
 // select the *conditions*: views, lights, frames (RunInfo::over lists them). A recommended choice must hold under every
 // condition.
 //
-//   for (const Choice& choice : choices_of(results)) print(joined(choice, "error").worst);
+//   for (const Choice& choice : choices_of(results, conditions_of(results.info))) print(joined(choice, "error").worst);
 #pragma once
 #include <optional>
 #include <string>

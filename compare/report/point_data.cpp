@@ -39,7 +39,7 @@ nlohmann::json at_bias(const PointRecord& point, double bias) {
   nlohmann::json out{{"parameter", curve_parameter(point)},
                      {"word", free_setting_words(point)},
                      {"value", bias},
-                     {"text", bias_in_unit(bias, curve_unit(point))},
+                     {"text", amount_of_bias(std::array{&point}, bias)},
                      {"depth", depth},
                      // The bias may lie on an end of the window, and its depth was rounded twice.
                      {"usable", window && depth >= window->low * (1 - 1e-12) && depth <= window->high * (1 + 1e-12)}};

@@ -54,7 +54,7 @@ TEST_F(Page, AClickOnABrokenPointShowsTheFailure) {
   for (const char* how : {"failure", "failure_by_row"}) {
     const json& seen = saw_["card"][how];
     EXPECT_EQ(seen["words"].get<std::string>().find(
-                  "Broken: Acne is 0.83\u202f% where at most 0.5\u202f% is allowed, with bias.constant "),
+                  "Broken: Acne is 0.83\u202f% where at most 0.5\u202f% is allowed, with a bias of "),
               0u)
         << seen["words"];
     EXPECT_EQ(seen["pixel"], "Worst pixel (56, 78) from the top left. Acne 50\u202f% there, with the bias as set.")
