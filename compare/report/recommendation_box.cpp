@@ -158,7 +158,8 @@ struct NoAnswer {
 };
 
 std::optional<NoAnswer> why_no_answer(const Findings& found) {
-  const std::string poor = poor_view_note(found.all.points), these = these_points(found.all.points);
+  const std::string poor = poor_view_note(found.all.points), these = these_points(found.all.points),
+                    none_is = found.all.points.size() == 1 ? "This point is not" : fmt::format("None of {} is", these);
   if (!any_point(found, [](const PointRecord& point) { return !nothing_judged(point); }))
     return NoAnswer{"broken", fmt::format("Nothing was measured: {}.", poor),
                     "This gives no information about the method."};
@@ -178,10 +179,10 @@ std::optional<NoAnswer> why_no_answer(const Findings& found) {
                       "The same command continues the sweep."};
     case Recommendation::Outcome::none_holds:
       if (any_point(found, hides_window))
-        return NoAnswer{"broken", fmt::format("None of {} is known to be good enough: {}.", these, poor), ""};
+        return NoAnswer{"broken", fmt::format("{} known to be good enough: {}.", none_is, poor), ""};
       return NoAnswer{
           "broken",
-          fmt::format("None of {} is good enough{}.", these,
+          fmt::format("{} good enough{}.", none_is,
                       conditions_of(found.all.info).empty() ? "" : " under all conditions"),
           fmt::format("None has a usable {} window and meets every bound, also those that the experiment asks of other "
                       "settings alone. Sweep a higher resolution, a smaller extent or {}, or loosen a bound.",
