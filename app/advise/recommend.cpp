@@ -44,6 +44,14 @@ bool is_fragile(const BiasChoice& bias) {
   return bias.window.low > (1 - fragile_below) * bias.value || bias.window.high < (1 + fragile_below) * bias.value;
 }
 
+AnswerKind printed_answer(AnswerKind usual, const std::function<bool(AnswerKind)>& is_fragile) {
+  const int at = static_cast<int>(usual), kinds = static_cast<int>(std::size(answer_kinds));
+  for (int step = 0; step < kinds; ++step)
+    for (const int kind : {at + step, at - step})
+      if (kind >= 0 && kind < kinds && !is_fragile(answer_kinds[kind])) return answer_kinds[kind];
+  return usual;
+}
+
 const Answer* Advice::of(AnswerKind kind) const {
   for (const Answer& answer : answers)
     if (std::find(answer.kinds.begin(), answer.kinds.end(), kind) != answer.kinds.end()) return &answer;
@@ -51,6 +59,8 @@ const Answer* Advice::of(AnswerKind kind) const {
 }
 
 namespace {
+
+bool is_fragile(const Candidate& of) { return of.tried.bias && noonmark::is_fragile(*of.tried.bias); }
 
 // A wider answer is preferred to a fragile one up to this factor of its cost.
 constexpr double factor_for_width = 1.3;
@@ -68,10 +78,13 @@ class Search {
     Advice advice;
     advice.request = request_;
     const std::optional<Chosen> chosen = settle();
-    if (chosen)
+    if (chosen) {
       take(*chosen, advice);
-    else
+      advice.request.answer = printed(*chosen);
+      if (advice.answer() != advice.of(request_.answer)) advice.passed_over = request_.answer;
+    } else {
       take_narrow(advice);
+    }
     take_the_others(advice);
     if (const Answer* answer = advice.answer(); !request_.levels.empty() && !request_.levels.front().filtered() &&
                                                 (!answer || answer->tried.level != request_.levels.front().name))
@@ -104,7 +117,7 @@ class Search {
         confirm(candidates()[*open]);
         continue;
       }
-      const size_t asked = chosen->at[static_cast<size_t>(request_.answer)];
+      const size_t asked = chosen->at[static_cast<size_t>(printed(*chosen))];
       bool verified_all = true;
       for (const size_t i : chosen->at) {
         Candidate& one = candidates()[i];
@@ -115,6 +128,12 @@ class Search {
       }
       if (verified_all) return chosen;
     }
+  }
+
+  AnswerKind printed(const Chosen& chosen) {
+    return request_.answer_given ? request_.answer : printed_answer(request_.answer, [&](AnswerKind kind) {
+      return is_fragile(candidates()[chosen.at[static_cast<size_t>(kind)]]);
+    });
   }
 
   // The three answers among what holds, as far as is known.
@@ -143,11 +162,10 @@ class Search {
   bool is_simpler(const Candidate& one, const Candidate& than) const {
     const auto moves = [&](const Candidate& of) { return request_.places[of.tried.place].moves_with; };
     const auto maps = [](const Candidate& of) { return of.tried.settings.maps(); };
-    const auto fragile = [](const Candidate& of) { return of.tried.bias && is_fragile(*of.tried.bias); };
     if (!one.holds() || one.level > than.level || moves(one) > moves(than) || maps(one) > maps(than) ||
-        fragile(one) > fragile(than))
+        is_fragile(one) > is_fragile(than))
       return false;
-    const bool wider = fragile(one) < fragile(than);
+    const bool wider = is_fragile(one) < is_fragile(than);
     if (one.level == than.level && moves(one) == moves(than) && maps(one) == maps(than) && !wider) return false;
     const double factor = wider ? factor_for_width : factor_that_pays;
     return one.tried.cost <= factor * than.tried.cost && one.tried.screened_error <= factor * than.tried.screened_error;

@@ -43,6 +43,9 @@ namespace noonmark {
 enum class AnswerKind { least, balanced, best };
 inline constexpr AnswerKind answer_kinds[] = {AnswerKind::least, AnswerKind::balanced, AnswerKind::best};
 std::string answer_name(AnswerKind kind);  // "least"
+// The answer that is printed where none was asked for by name: `usual`, or if that is fragile the nearest kind that is not, the dearer
+// one first. `usual` if all are.
+AnswerKind printed_answer(AnswerKind usual, const std::function<bool(AnswerKind)>& is_fragile);
 
 struct Tried;
 
@@ -71,6 +74,7 @@ struct AdviceRequest {
   std::optional<double> error;   // the most of `accuracy`
   std::optional<double> budget;  // the most texel_work; empty: budget_of_least times that of `least`
   AnswerKind answer = AnswerKind::least;
+  bool answer_given = false;         // by the user; otherwise one that is not fragile is printed (printed_answer)
   std::vector<std::string> about;    // what it is asked for, as sentences (app/advise/recommend_request.h)
   std::string given;                 // what the user gave that decides the answer, for a sentence; empty: nothing
   std::string source_of_bounds;      // for a sentence: "the defaults of recommend"; empty: it is not said
@@ -129,7 +133,8 @@ struct Advice {
   // Without an answer: the one of them that came nearest. Its record is rendered with its nearest bias, and its worst pixel
   // is the one with most acne and Peter Panning, if these are what failed.
   std::optional<Tried> nearest;
-  double budget = 0;  // of `best`
+  double budget = 0;                      // of `best`
+  std::optional<AnswerKind> passed_over;  // the answer that would be printed if it were not fragile
   // The cost of the cheapest settings of each lookup that was asked for, measured or not. Empty if nothing was measured.
   std::map<std::string, double> least_costs;
   // Share of the counted receivers that are dark in the hard truth, the largest over the conditions that were measured: the

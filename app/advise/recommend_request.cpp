@@ -14,6 +14,7 @@
 #include "app/advise/recommend_filtered.h"
 #include "app/definition/share_text.h"
 #include "base/error.h"
+#include "base/shell_words.h"
 #include "base/text.h"
 #include "compare/judge/choices.h"
 #include "compare/results/number_text.h"
@@ -257,13 +258,22 @@ std::string floor_text(const Settings& first, const Scene& scene) {
       high.x - low.x, low.y, middle.x, middle.z);
 }
 
+// Of an experiment that sweeps choices: which answer its own report has, so that neither surprises beside the other.
+std::string sweep_text(const Experiment& experiment) {
+  const int64_t points = point_count(experiment);
+  if (experiment.path.empty() || swept_names(experiment) == condition_names(experiment)) return "";
+  return fmt::format(
+      "The report of noonmark check {} has the cheapest of its {} alone, so its answer can be another one.",
+      shell_quoted(experiment.path), counted(static_cast<size_t>(points), "point"));
+}
+
 }  // namespace
 
 std::vector<std::string> about_text(const Experiment& experiment, std::span<const Settings> conditions,
                                     const Scene& scene) {
   const Settings& first = conditions.front();
-  std::vector<std::string> lines = {no_ground_text(first, scene), light_text(experiment, conditions, scene),
-                                    floor_text(first, scene)};
+  std::vector<std::string> lines = {sweep_text(experiment), no_ground_text(first, scene),
+                                    light_text(experiment, conditions, scene), floor_text(first, scene)};
   std::erase_if(lines, [](const std::string& line) { return line.empty(); });
   return lines;
 }
@@ -306,6 +316,7 @@ AdviceRequest request_of(const Experiment& experiment, const AdviceWishes& wishe
   request.about = about_text(experiment, request.conditions, scene);
   request.given = given_text(experiment, request);
   request.source_of_bounds = source_of_bounds(experiment, wishes);
+  request.answer_given = wishes.answer.has_value();
   request.answer = wishes.answer.value_or(wishes.budget ? AnswerKind::best : AnswerKind::least);
   return request;
 }

@@ -12,7 +12,7 @@
 #include "app/advise/recommend_filtered_text.h"
 #include "app/advise/recommend_lookups.h"
 #include "base/text.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 
@@ -474,8 +474,9 @@ std::vector<std::string> answer_text(const Advice& advice) {
   const Tried& tried = answer.tried;
   std::vector<std::string> lines = {fmt::format("Set {}.", settings_text(tried, advice.request, answer.extent_m))};
   lines.push_back(fmt::format(
-      "That is the answer \"{}\". All answers keep {}{}{}{}{}:", kinds_text(answer), glossed_bounds_text(advice),
-      eye_bounds_text(advice.request),
+      "That is the answer \"{}\"{}. All answers keep {}{}{}{}{}:", kinds_text(answer),
+      advice.passed_over ? fmt::format(", because \"{}\" is fragile", answer_name(*advice.passed_over)) : "",
+      glossed_bounds_text(advice), eye_bounds_text(advice.request),
       advice.request.error ? fmt::format(", {} within {}", advice.request.accuracy, share_text(*advice.request.error))
                            : "",
       advice.request.source_of_bounds.empty() ? "" : fmt::format(" (bounds: {})", advice.request.source_of_bounds),

@@ -78,8 +78,9 @@ std::optional<BaselineComparison> BaselineFile::compare_or_update(const Experime
   const Baseline now = baseline_of(experiment, outcome, options_.times.has_value());
   if (!options_.update) return compare_with_baseline(before_, now, options_.file, options_.times, experiment.chosen);
   // Its values would be written as "not measured", and a later one could not be worse.
-  if (const std::string refused = refused_words(outcome.results.points); !refused.empty()) {
-    said += fmt::format("the baseline {} is not written: {}\n", printable(options_.file), refused);
+  if (const size_t refused = refused_frames(outcome.results.points).size()) {
+    said += fmt::format("the baseline {} is not written: {} of {} refused\n", printable(options_.file), refused,
+                        counted(outcome.results.points.size(), "frame"));
     return {};
   }
   write_file_atomically(options_.file, baseline_text(now));

@@ -7,7 +7,7 @@
 #include "app/pictures/image_file.h"
 #include "app/pictures/pictures.h"
 #include "app/sweep/results_folder.h"
-#include "compare/judge/bounds.h"
+#include "compare/judge/findings.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 
@@ -22,17 +22,8 @@ std::vector<FailingPixel> failing_pixels(const Results& results) {
     };
     if (found.size() < most && std::none_of(found.begin(), found.end(), same)) found.push_back(std::move(one));
   };
-  for (const BoundResult& bound : results.bounds) {
-    const PointRecord* point = bound.held ? nullptr : find_point(results.points, bound.point);
-    if (const auto pixel = point ? failing_pixel(bound, *point) : std::nullopt)
-      add({point, *pixel, bound_text(bound), true});
-  }
-  for (const LawResult& law : results.laws) {
-    if (law.held || law.worst < 0) continue;
-    const PointRecord* point = find_point(results.points, law.samples[static_cast<size_t>(law.worst)].point);
-    if (const auto pixel = point ? worst_pixel_of(*point, "error") : std::nullopt)
-      add({point, *pixel, law.name, false});
-  }
+  for (const Promise& one : promises_of(results))
+    if (one.pixel) add({one.point, *one.pixel, one.title, one.of == Promise::Of::bound});
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.point->id < b.point->id; });
   return found;
 }

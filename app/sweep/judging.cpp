@@ -10,13 +10,10 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "compare/judge/baseline.h"
 #include "compare/judge/bounds.h"
-#include "compare/judge/deliveries.h"
 #include "compare/judge/last_run.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
-#include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/report/report.h"
 
@@ -73,40 +70,20 @@ void judge(const Experiment& experiment, Results& results, const std::vector<Bou
   add_last_run(results.bounds, earlier);
 }
 
-std::string verdict_words(const Results& results) {
-  size_t bounds_held = 0, warnings = 0, laws_held = 0;
-  for (const BoundResult& bound : results.bounds) {
-    bounds_held += bound.held;
-    warnings += !bound.held && bound.warns;
-  }
-  for (const LawResult& law : results.laws) laws_held += law.held;
-  std::string verdict = refused_words(results.points);
-  if (results.baseline) verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*results.baseline);
-  if (!results.bounds.empty())
-    verdict += fmt::format("{}{} of {} held", verdict.empty() ? "" : ", ", bounds_held,
-                           counted(results.bounds.size(), "bound"));
-  if (warnings > 0) verdict += fmt::format(", {}", counted(warnings, "warning"));
-  if (!results.laws.empty())
-    verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
-                           results.laws.size() == 1 ? "holds" : "hold");
-  if (verdict.empty()) return "nothing is promised";
-  return verdict +
-         (bounds_held > 0 && !poor_view_note(results.points).empty() ? " in a poor picture, see its note" : "");
-}
-
-std::string refused_text(const Results& results) {
-  const std::vector<const PointRecord*> refused = refused_frames(results.points);
+std::string refused_text(const Findings& found) {
   std::string text;
-  for (const PointRecord* frame : refused) text += fmt::format("refused: {}\n", printable(why_refused(*frame)));
-  if (!refused.empty())
+  for (const Promise& one : found.promises)
+    if (one.state == Promise::State::refused) text += fmt::format("refused: {}\n", printable(one.text));
+  if (!text.empty())
     text += "  deliver it anew; a check that fails for a known reason is passed over with the frame's key 'accept'\n";
   return text;
 }
 
-std::string findings_text(const Results& results) {
-  std::string text = refused_text(results);
-  for (const BoundResult& bound : results.bounds)
-    text += describe(bound, find_point(results.points, bound.point), results.info.swept);
+std::string findings_text(const Findings& found) {
+  const Results& results = found.all;
+  std::string text = refused_text(found);
+  for (const Promise& one : found.promises)
+    if (one.of == Promise::Of::bound) text += one.text;
   if (!results.laws.empty()) text += (results.bounds.empty() ? "" : "\n") + law_table(results.laws);
   for (const LawResult& law : results.laws)
     if (!law.found.empty()) text += fmt::format("found: {}\n", printable(law.found));
@@ -115,6 +92,12 @@ std::string findings_text(const Results& results) {
     for (const auto* lines : {&compared->changed, &compared->worse, &compared->better, &compared->notes})
       for (const std::string& line : *lines) text += printable(line) + "\n";
   return text;
+}
+
+std::string verdict_line(const Findings& found, const std::string& file, const std::string& counts,
+                         const std::string& folder) {
+  return fmt::format("{}: {}; {}; the report is {}/report.html\n", printable(file), printable(found.sentence), counts,
+                     printable(folder));
 }
 
 void require_sound(const Results& results) {

@@ -44,7 +44,7 @@ std::vector<PictureRecord> pictures_at_bias(const Measurement& m, const report::
 
 void keep_recommended_picture(Results& results, ResultStore& store, const std::string& out,
                               const std::function<Measurement(int64_t, const Settings&)>& measure) {
-  const report::Opening opened = report::opening(results, compared_groups(results), recommend(results));
+  const report::Opening opened = report::opening(results);
   for (PointRecord& point : results.points) {
     const auto old = std::find_if(point.pictures.begin(), point.pictures.end(), is_at_bias);
     const bool wanted = opened.bias && opened.point == &point, there = old != point.pictures.end();

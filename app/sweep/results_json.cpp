@@ -9,8 +9,6 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/deliveries.h"
 #include "compare/judge/laws.h"
-#include "compare/judge/poor_view.h"
-#include "compare/judge/recommendation.h"
 #include "compare/results/quantities.h"
 #include "technique/setting_json.h"
 
@@ -69,7 +67,7 @@ Json bound_of(const BoundResult& bound, std::span<const PointRecord> points) {
   json["join"] = bound.join;
   if (!bound.placement.empty()) json["placement"] = bound.placement;
   if (!bound.where.empty()) json["where"] = bound.where;
-  json["verdict"] = bound.held ? "held" : bound.warns ? "warning" : "broken";
+  json["verdict"] = verdict_of(bound);
   json["found"] = bound.points == 0 ? Json() : Json(number_json(bound.found));
   if (const double room = room_of(bound, points); room > 0) json["found_room"] = number_json(room);
   if (bound.before) json["found_before"] = number_json(*bound.before);
@@ -97,8 +95,7 @@ Json law_of(const LawResult& law) {
   return json;
 }
 
-Json answer_of(const Results& results) {
-  const Recommendation found = recommend(results);
+Json answer_of(const Recommendation& found, const Results& results) {
   using Outcome = Recommendation::Outcome;
   Json json;
   json["outcome"] = found.outcome == Outcome::found          ? "found"
@@ -132,11 +129,12 @@ Json answer_of(const Results& results) {
 
 }  // namespace
 
-Json results_json(const SweepOutcome& outcome, const JsonRun& run) {
+Json results_json(const SweepOutcome& outcome, const Findings& found, const JsonRun& run) {
   const Results& results = outcome.results;
   const RunInfo& info = results.info;
-  Json json = {{"experiment", run.experiment}, {"title", info.title}, {"exit_code", exit_code_of(run.verdict)}};
-  json["verdict"] = word_of(run.verdict);
+  Json json = {{"experiment", run.experiment}, {"title", info.title}, {"exit_code", run.exit_code}};
+  json["verdict"] = word_of(found.verdict);
+  json["verdict_text"] = found.sentence;
   json["folder"] = run.folder;
   json["points_planned"] = results.planned_points;
   json["points_measured"] = outcome.measured;
@@ -146,14 +144,15 @@ Json results_json(const SweepOutcome& outcome, const JsonRun& run) {
   json["warnings"] = info.sweep_notes;
   json["notes"] = info.scene_notes;
   json["doubts"] = Json::array();
-  for (std::string& doubt : doubts_of(results.points)) json["doubts"].push_back(std::move(doubt));
+  for (const Note& note : found.notes)
+    if (note.of == Note::Of::picture) json["doubts"].push_back(note.text);
   for (const char* list : {"bounds", "laws"}) json[list] = Json::array();
   for (const BoundResult& bound : results.bounds) json["bounds"].push_back(bound_of(bound, results.points));
   for (const LawResult& law : results.laws) json["laws"].push_back(law_of(law));
   if (const auto& baseline = results.baseline)
     json["baseline"] = {{"held", baseline->held()}, {"compared", baseline->compared}, {"changed", baseline->changed},
                         {"worse", baseline->worse}, {"better", baseline->better},     {"notes", baseline->notes}};
-  json["answer"] = answer_of(results);
+  json["answer"] = answer_of(found.recommended, results);
   json["points"] = Json::array();
   for (const PointRecord& point : results.points) json["points"].push_back(point_of(point, info));
   return json;

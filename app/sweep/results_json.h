@@ -1,25 +1,25 @@
 // What `run` and `check` print with --json: the results of each experiment, for programs. docs/reference/command-line.md describes the
 // keys.
 //
-//   nlohmann::ordered_json one = results_json(outcome, {.folder = "out/x", .verdict = verdict_of(outcome.results)});
+//   nlohmann::ordered_json one = results_json(outcome, Findings(outcome.results), {.experiment = "x.toml", .folder = "out/x"});
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "app/sweep/sweep.h"
-#include "compare/judge/verdict.h"
+#include "compare/judge/findings.h"
 
 namespace noonmark {
 
 struct JsonRun {
   std::string experiment, folder;
-  Verdict verdict = Verdict::measured;
+  int exit_code = 0;
 };
 
 // The points with their swept settings, metrics and quantities of the curve, bounds and laws with what was found, the
 // answer, and the warnings of the sweep. Numbers have all digits.
-nlohmann::ordered_json results_json(const SweepOutcome& outcome, const JsonRun& run);
+nlohmann::ordered_json results_json(const SweepOutcome& outcome, const Findings& found, const JsonRun& run);
 
 // An experiment without results: why.
 nlohmann::ordered_json failure_json(const std::string& experiment, const std::string& message, int exit_code);

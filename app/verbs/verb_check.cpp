@@ -26,10 +26,8 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "compare/judge/bounds.h"
-#include "compare/judge/deliveries.h"
-#include "compare/judge/laws.h"
-#include "compare/judge/verdict.h"
+#include "compare/judge/findings.h"
+#include "compare/report/annotations.h"
 #include "compare/report/index_page.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
@@ -39,53 +37,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A message may have several lines; a property ends at a comma or a colon.
-std::string escaped(std::string_view text, bool property) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ',')))
-      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    else
-      out += c;
-  }
-  return out;
-}
-
-// location: "file:line:column"; empty: the file is named without a line.
-std::string annotation(std::string_view kind, const std::string& file, const std::string& location,
-                       std::string_view title, std::string_view message) {
-  std::string line;
-  if (const size_t column = location.rfind(':'); column != location.npos && column > 0)
-    if (const size_t before = location.rfind(':', column - 1); before != location.npos)
-      line = fmt::format(",line={}", location.substr(before + 1, column - before - 1));
-  return fmt::format("::{} file={}{},title={}::{}\n", kind, escaped(file, true), line, escaped(title, true),
-                     escaped(message, false));
-}
-
 // Whether this process is a step of GitHub Actions, which sets GITHUB_ACTIONS to "true".
 bool under_github_actions() {
   const char* const set = std::getenv("GITHUB_ACTIONS");
   return set != nullptr && std::string_view(set) == "true";
-}
-
-// One workflow command a line: ::error for a broken bound, law or baseline and for a refused frame, ::warning for a bound that
-// warns. Format and escapes: "Workflow commands for GitHub Actions", docs.github.com. experiment: its path, as seen from the
-// root of the repository.
-std::string github_annotations(const std::string& experiment, const Results& results) {
-  std::string text;
-  for (const PointRecord* frame : refused_frames(results.points))
-    text += annotation("error", experiment, "", "frame refused", why_refused(*frame));
-  for (const BoundResult& bound : results.bounds)
-    if (!bound.held)
-      text += annotation(bound.warns ? "warning" : "error", experiment, bound.location, bound_text(bound),
-                         describe(bound, find_point(results.points, bound.point), results.info.swept));
-  for (const LawResult& law : results.laws)
-    if (!law.held)
-      text += annotation("error", experiment, "", "law broken", fmt::format("{}: {}", law.name, law_text(law)));
-  if (results.baseline)
-    for (const std::string& line : results.baseline->worse)
-      text += annotation("error", experiment, "", "baseline", line);
-  return text;
 }
 
 struct CheckOptions {
@@ -93,13 +48,6 @@ struct CheckOptions {
   BaselineOptions baseline;
   ExperimentArguments arguments;
 };
-
-// The bounds and laws, each with what was found, and the verdict in the last line.
-std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& outcome) {
-  return findings_text(outcome.results) + fmt::format("{}: {}; {}; the report is {}/report.html\n",
-                                                      printable(listed.file), verdict_words(outcome.results),
-                                                      outcome.counts(), printable(listed.out));
-}
 
 // Where the experiment does not say which points get pictures, those that break a bound do.
 Experiment experiment_to_check(const std::string& path, const ExperimentArguments& arguments) {
@@ -145,21 +93,21 @@ Checked check_one(const ListedExperiment& listed, const CheckOptions& options, c
                                             return baseline.compare_or_update(experiment, judged, checked.text);
                                           }});
   const Results& results = outcome.results;
-  const Verdict verdict = verdict_of(results);
-  write_file_atomically(out + "/junit.xml", to_junit(results));
-  write_file_atomically(out + "/summary.md", to_summary(results, outcome.worst_pixels));
+  const Findings found(results);
+  write_file_atomically(out + "/junit.xml", to_junit(found));
+  write_file_atomically(out + "/summary.md", to_summary(found, outcome.worst_pixels));
   entry.report = page.report_of(listed);
   entry.numbers = worst_numbers(results);
   const std::string broken = broken_in_words(results);
-  entry.words =
-      outcome.interrupted ? "stopped before its end" : (broken.empty() ? "" : broken + "; ") + verdict_words(results);
-  if (!outcome.interrupted) entry.verdict = passes(verdict) ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
-  checked.exit_code = exit_code_of(verdict);
-  if (under_github_actions() && !outcome.interrupted) checked.annotations = github_annotations(path, results);
+  entry.words = found.sentence + (broken.empty() ? "" : ". " + broken);
+  entry.verdict = found.verdict;
+  checked.exit_code = exit_code_of(found.verdict);
+  if (under_github_actions() && !outcome.interrupted) checked.annotations = to_annotations(path, found);
   if (arguments.json)
-    checked.json = results_json(outcome, {path, out, verdict});
+    checked.json = results_json(outcome, found, {path, out, checked.exit_code});
   else
-    checked.text += outcome.interrupted ? stopped_text(outcome) + "\n" : verdict_text(listed, outcome);
+    checked.text += outcome.interrupted ? stopped_text(outcome) + "\n"
+                                        : findings_text(found) + verdict_line(found, path, outcome.counts(), out);
   return checked;
 }
 
@@ -180,9 +128,9 @@ Checked measure_share(const ListedExperiment& listed, const ExperimentArguments&
                                           .quiet = arguments.quiet,
                                           .shard = arguments.shard,
                                           .points = share});
-  const Verdict verdict = verdict_without_promises(outcome.results);
-  checked.exit_code = exit_code_of(verdict);
-  checked.json = results_json(outcome, {.experiment = listed.file, .folder = out, .verdict = verdict});
+  const Findings found(outcome.results);
+  checked.exit_code = exit_code_of_run(found.verdict);
+  checked.json = results_json(outcome, found, {listed.file, out, checked.exit_code});
   checked.text = outcome.interrupted ? stopped_text(outcome) + "\n"
                                      : fmt::format("{}: share {}: {}; not judged: noonmark merge does that\n",
                                                    printable(listed.file), arguments.shard->text(), outcome.counts());

@@ -57,25 +57,26 @@ int merge_shares(const MergeOptions& options, const std::string& command) {
   for (const std::string& text : machines.warnings) fmt::print(stderr, "warning: {}\n", printable(text));
   for (const std::string& text : merged.notes) fmt::print(stderr, "note: {}\n", printable(text));
   for (const std::string& text : merged.missing) fmt::print(stderr, "{}\n", printable(text));
-  const Verdict verdict = verdict_of(results);
-  const int exit_code = exit_code_of(verdict);
+  const Findings found(results);
+  const int exit_code = exit_code_of(found.verdict);
   if (options.json) {
     SweepOutcome outcome;
     outcome.results = merged.results;
     outcome.interrupted = !merged.missing.empty();
     outcome.kept = static_cast<int64_t>(results.points.size());
     outcome.scenes.resize(static_cast<size_t>(results.planned_points));
-    fmt::print(
-        "{}",
-        results_text(command, exit_code,
-                     {results_json(
-                         outcome, {.experiment = merged.experiment.path, .folder = options.out, .verdict = verdict})}));
+    fmt::print("{}", results_text(command, exit_code,
+                                  {results_json(outcome, found, {merged.experiment.path, options.out, exit_code})}));
   } else {
-    fmt::print("{}{}: {}; {} of {} from {}{}; the report is {}/report.html\n", findings_text(results),
-               printable(merged.experiment.path), verdict_words(results), results.points.size(),
-               counted(static_cast<size_t>(results.planned_points), "point"), counted(options.shares.size(), "store"),
-               merged.shared > 0 ? fmt::format(" ({} in more than one, and alike)", merged.shared) : "",
-               printable(options.out));
+    fmt::print(
+        "{}{}", findings_text(found),
+        verdict_line(
+            found, merged.experiment.path,
+            fmt::format("{} of {} from {}{}", results.points.size(),
+                        counted(static_cast<size_t>(results.planned_points), "point"),
+                        counted(options.shares.size(), "store"),
+                        merged.shared > 0 ? fmt::format(" ({} in more than one, and alike)", merged.shared) : ""),
+            options.out));
   }
   require_sound(results);
   return exit_code;

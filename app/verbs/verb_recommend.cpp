@@ -333,7 +333,7 @@ void add_search_options(CLI::App& verb, RecommendOptions& options) {
                       error_that_pays))
       ->check(one_of(kinds))
       ->type_name(joined(kinds))
-      ->default_str("least, and best with --budget");
+      ->default_str("least, and best with --budget; if that is fragile, the nearest that is not");
   verb.add_option("--views", options.views,
                   "Number of views without an [over]: the view that is given, and up to 4 turned ones")
       ->check(whole_number(1, 5))

@@ -16,9 +16,16 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "compare/report/recommendation_box.h"
 
 namespace noonmark {
 namespace {
+
+// What the report says first: a law's own sentence, or the answer, or what is known instead.
+std::string answer_line(const Findings& found) {
+  const std::string text = found.headline ? found.headline->found : report::answer_words(found).text();
+  return text.empty() ? "" : printable(text) + "\n";
+}
 
 int run_experiment(const std::string& path, const ExperimentArguments& arguments) {
   const std::string out = (arguments.out.empty() ? default_folder(path) : arguments.out) +
@@ -50,17 +57,19 @@ int run_experiment(const std::string& path, const ExperimentArguments& arguments
                                           .quiet = arguments.quiet,
                                           .shard = arguments.shard,
                                           .points = share});
-  const Verdict verdict = verdict_without_promises(outcome.results);
-  const int exit_code = exit_code_of(verdict);
+  const Findings found(outcome.results);
+  const int exit_code = exit_code_of_run(found.verdict);
   if (arguments.json)
-    fmt::print("{}", results_text(arguments.command, exit_code,
-                                  {results_json(outcome, {.experiment = path, .folder = out, .verdict = verdict})}));
+    fmt::print("{}",
+               results_text(arguments.command, exit_code, {results_json(outcome, found, {path, out, exit_code})}));
   else if (outcome.interrupted)
     fmt::print("{}\n", stopped_text(outcome));
   else
-    fmt::print("{}{}{}; the report is {}/report.html\n", refused_text(outcome.results),
-               arguments.shard ? fmt::format("share {}: ", arguments.shard->text()) : "", outcome.counts(),
-               printable(out));
+    fmt::print("{}{}{}", refused_text(found),
+               verdict_line(
+                   found, path,
+                   (arguments.shard ? fmt::format("share {}: ", arguments.shard->text()) : "") + outcome.counts(), out),
+               arguments.shard ? "" : answer_line(found));
   return exit_code;
 }
 

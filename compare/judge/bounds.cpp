@@ -344,7 +344,7 @@ std::string failing_pixel_text(const BoundResult& bound, const PointRecord& poin
                      error ? fmt::format("|{} - R1|", judged_rung(point)) : worst->metric,
                      bound.placement == "worst" ? ", at placement 0" : "", worst->x, worst->y,
                      error ? "error" : worst->metric,
-                     quantity_text(worst->size, find_quantity(worst->metric, {&point, 1}).unit),
+                     quantity_text(worst->size, quantity_unit(worst->metric, "fraction")),
                      error && !point.worst.cause.empty() ? ", " + point.worst.cause : "");
 }
 
@@ -397,8 +397,7 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
           point && std::isnan(bound.found) && bound.metric.starts_with("flicker") ? why_no_flicker(*point) : "";
       !why.empty())
     text += fmt::format("  {}\n", why);
-  if (point && find_quantity(bound.metric, {point, 1}).of_curve && !nothing_judged(*point) &&
-      !why_no_curve(*point).empty())
+  if (point && curve_quantity(bound.metric) && !nothing_judged(*point) && !why_no_curve(*point).empty())
     text += fmt::format("  it is read off the bias curve, but this point has no curve: {}\n", why_no_curve(*point));
   if (point) {
     text += fmt::format("  {}\n", printable(point_text(*point, swept)));

@@ -12,8 +12,8 @@
 namespace noonmark {
 namespace {
 
-bool is_condition(const Results& results, const std::string& name) {
-  return std::find(results.info.over.begin(), results.info.over.end(), name) != results.info.over.end();
+bool is_in(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // Groups the items by key(item), in order of appearance.
@@ -38,17 +38,23 @@ bool decides_what_is_seen(const std::string& name) {
   return true;
 }
 
-std::vector<std::string> choice_settings(const RunInfo& info) {
-  std::vector<std::string> names;
+std::vector<std::string> conditions_of(const RunInfo& info) {
+  std::vector<std::string> names = info.over;
   for (const std::string& name : info.swept)
-    if (std::find(info.over.begin(), info.over.end(), name) == info.over.end()) names.push_back(name);
+    if (!is_in(info.over, name) && decides_what_is_seen(name)) names.push_back(name);
   return names;
 }
 
-std::vector<Choice> choices_of(const Results& results) {
+std::vector<std::string> choice_settings(const RunInfo& info) {
+  std::vector<std::string> names = info.swept;
+  std::erase_if(names, [all = conditions_of(info)](const std::string& name) { return is_in(all, name); });
+  return names;
+}
+
+std::vector<Choice> choices_of(const Results& results, const std::vector<std::string>& conditions) {
   std::vector<const PointRecord*> points;
   for (const PointRecord& point : results.points) points.push_back(&point);
-  if (results.info.over.empty()) {
+  if (conditions.empty()) {
     std::vector<Choice> choices;
     for (const PointRecord* point : points) choices.push_back({{point}});
     return choices;
@@ -57,7 +63,7 @@ std::vector<Choice> choices_of(const Results& results) {
   for (auto& group : grouped(points, [&](const PointRecord* point) {
          std::string key = point->part;
          for (const auto& [name, text] : point->settings)
-           if (!is_condition(results, name)) key += '\n' + text;
+           if (!is_in(conditions, name)) key += '\n' + text;
          return key;
        }))
     choices.push_back({std::move(group)});
@@ -66,11 +72,11 @@ std::vector<Choice> choices_of(const Results& results) {
 
 std::vector<std::vector<Choice>> comparable_choices(const Results& results) {
   std::unordered_map<std::string, bool> decides;
-  return grouped(choices_of(results), [&](const Choice& choice) {
+  return grouped(choices_of(results, results.info.over), [&](const Choice& choice) {
     std::string key;
     for (const auto& [name, text] : choice.first().settings) {
       const auto [known, is_new] = decides.emplace(name, false);
-      if (is_new) known->second = decides_what_is_seen(name) && !is_condition(results, name);
+      if (is_new) known->second = decides_what_is_seen(name) && !is_in(results.info.over, name);
       if (known->second) key += name + '=' + text + '\n';
     }
     return key;

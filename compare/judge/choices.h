@@ -2,7 +2,7 @@
 // select the *conditions*: views, lights, frames (RunInfo::over lists them). A recommended choice must hold under every
 // condition.
 //
-//   for (const Choice& choice : choices_of(results)) print(joined(choice, "error").worst);
+//   for (const Choice& choice : choices_of(results, conditions_of(results.info))) print(joined(choice, "error").worst);
 #pragma once
 #include <optional>
 #include <string>
@@ -19,11 +19,15 @@ struct Choice {
   const PointRecord& first() const { return *points.front(); }
 };
 
-// The swept settings that are choices: RunInfo::swept without RunInfo::over.
+// The conditions of an answer: RunInfo::over, and what was swept although no one can choose it, because it decides what is seen: a
+// light, a camera, a scene. Numbers of different ones are compared only where RunInfo::over asks for it (comparable_choices).
+std::vector<std::string> conditions_of(const RunInfo& info);
+
+// The swept settings that are choices: all but conditions_of().
 std::vector<std::string> choice_settings(const RunInfo& info);
 
 // In the order of their first points. They point into the results.
-std::vector<Choice> choices_of(const Results& results);
+std::vector<Choice> choices_of(const Results& results, const std::vector<std::string>& conditions);
 
 // Whether numbers of points with different values of the setting cannot be compared: it decides the scene, the view or the
 // truth. So does a setting that this version does not know.

@@ -188,6 +188,23 @@ double parameter_per_depth(const PointRecord& point) {
   return not_a_number;
 }
 
+std::string amount_of_bias(std::span<const PointRecord* const> points, double value) {
+  const std::string unit = curve_unit(*points.front());
+  if (value == 0) return "0";
+  if (unit != "depth") return quantity_text(value, unit == "texel" ? "texels" : unit);
+  const auto metres = [](const PointRecord* point) { return point->curve ? point->curve->m_per_depth : not_a_number; };
+  const double first = metres(points.front());
+  const std::string depth = quantity_text(value, "of the depth");
+  return std::all_of(points.begin(), points.end(), [&](const PointRecord* one) { return metres(one) == first; })
+             ? fmt::format("{} ({})", length_text(value * first), depth)
+             : depth;
+}
+
+std::string named_bias(std::span<const PointRecord* const> points, double value) {
+  const std::string parameter = curve_parameter(*points.front());
+  return fmt::format("{} of {}", parameter == "bias.constant" ? "bias" : parameter, amount_of_bias(points, value));
+}
+
 std::optional<double> bias_as_set(const PointRecord& point) {
   if (!has_curve(point)) return std::nullopt;
   const std::optional<double> value = number_of(setting_of(point, curve_parameter(point)));

@@ -61,6 +61,12 @@ std::optional<double> curve_value(const PointRecord& point, const std::string& m
 // reduction.
 double parameter_per_depth(const PointRecord& point);
 
+// A value of the parameter with its unit, for a sentence about all of the points, of which the first has a curve: "2 texels". Window
+// depth says little, so metres stand before it where they are the same at every point: "3.1 mm (0.00012 of the depth)".
+std::string amount_of_bias(std::span<const PointRecord* const> points, double value);
+// The same with its name: "bias of 2 texels", "bias.slope of 2 texels".
+std::string named_bias(std::span<const PointRecord* const> points, double value);
+
 // The amount, in window depth, with which the point was rendered, of the parameter that its curve varies. Empty if the
 // settings do not give it.
 std::optional<double> bias_as_set(const PointRecord& point);

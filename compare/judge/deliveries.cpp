@@ -13,11 +13,6 @@ std::vector<const PointRecord*> refused_frames(std::span<const PointRecord> poin
   return refused;
 }
 
-std::string refused_words(std::span<const PointRecord> points) {
-  const size_t refused = refused_frames(points).size();
-  return refused == 0 ? "" : fmt::format("{} of {} refused", refused, counted(points.size(), "frame"));
-}
-
 std::string frame_name(const PointRecord& point) {
   const auto name = point.settings.find("given.frame");
   return name == point.settings.end() ? fmt::format("frame {}", point.id) : name->second;

@@ -12,9 +12,6 @@ namespace noonmark {
 // The frames that are not judged.
 std::vector<const PointRecord*> refused_frames(std::span<const PointRecord> points);
 
-// "1 of 3 frames refused"; empty if none is.
-std::string refused_words(std::span<const PointRecord> points);
-
 // The frame's name in the experiment.
 std::string frame_name(const PointRecord& point);
 

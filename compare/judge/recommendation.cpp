@@ -27,9 +27,12 @@ bool speaks_of(const BoundResult& bound, const PointRecord& point) {
 
 // The conditions without the swept choices.
 Conditions without_choices(Conditions where, const RunInfo& info) {
-  for (const std::string& name : choice_settings(info))
-    if (!decides_what_is_seen(name)) where.erase(name);
+  for (const std::string& name : choice_settings(info)) where.erase(name);
   return where;
+}
+
+bool lacks_conditions(const Results& results, const std::vector<std::string>& conditions) {
+  return !conditions.empty() && static_cast<int64_t>(results.points.size()) < results.planned_points;
 }
 
 // A bound on other choices than the point's, which the point must keep too: no bound on that metric speaks of the point itself,
@@ -98,12 +101,13 @@ CostNoise noise_of(const std::vector<Recommendation>& good) {
 // The choice that was picked of the good ones, or why nothing can be recommended. picked: null if none is good.
 Recommendation answered(const Results& results, const Recommendation* picked) {
   Recommendation none;
-  if (is_incomplete(results)) {
+  const std::vector<std::string> conditions = conditions_of(results.info);
+  if (lacks_conditions(results, conditions)) {
     none.outcome = Outcome::incomplete;
     return none;
   }
   if (picked) return *picked;
-  const std::vector<Choice> all = choices_of(results);
+  const std::vector<Choice> all = choices_of(results, conditions);
   if (std::any_of(all.begin(), all.end(), [&](const Choice& choice) { return has_criterion(choice, results); }))
     none.outcome = Outcome::none_holds;
   return none;
@@ -245,14 +249,12 @@ std::optional<Recommendation> good_choice(const Choice& choice, const Results& r
 
 std::vector<Recommendation> good_choices(const Results& results) {
   std::vector<Recommendation> good;
-  for (const Choice& choice : choices_of(results))
+  for (const Choice& choice : choices_of(results, conditions_of(results.info)))
     if (std::optional<Recommendation> candidate = good_choice(choice, results)) good.push_back(std::move(*candidate));
   return good;
 }
 
-bool is_incomplete(const Results& results) {
-  return !results.info.over.empty() && static_cast<int64_t>(results.points.size()) < results.planned_points;
-}
+bool is_incomplete(const Results& results) { return lacks_conditions(results, results.info.over); }
 
 const Recommendation* cheapest(const std::vector<Recommendation>& good) {
   const MedianInterval bar = least_cost(good);
@@ -263,24 +265,12 @@ const Recommendation* cheapest(const std::vector<Recommendation>& good) {
   });
 }
 
-const Recommendation* most_accurate(const std::vector<Recommendation>& good) {
-  return best_by(good, [](const auto& a, const auto& b) {
-    return std::make_pair(a.error.worst, a.cost.middle) < std::make_pair(b.error.worst, b.cost.middle);
-  });
-}
-
 Recommendation recommend(const Results& results, const std::vector<Recommendation>& good) {
   Recommendation found = answered(results, cheapest(good));
-  if (!is_incomplete(results)) found.noise = noise_of(good);
+  if (found.outcome != Outcome::incomplete) found.noise = noise_of(good);
   return found;
 }
 
-Recommendation recommend_accurate(const Results& results, const std::vector<Recommendation>& good) {
-  return answered(results, most_accurate(good));
-}
-
 Recommendation recommend(const Results& results) { return recommend(results, good_choices(results)); }
-
-Recommendation recommend_accurate(const Results& results) { return recommend_accurate(results, good_choices(results)); }
 
 }  // namespace noonmark

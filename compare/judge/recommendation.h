@@ -88,25 +88,20 @@ bool has_criterion(const Choice& choice, const Results& results);
 // Whether the choice was judged by a bound that the experiment asks of other choices alone (good_choice).
 bool keeps_bounds_of_others(const Choice& choice, const Results& results);
 
-// All choices that are good enough, in order.
+// All choices that are good enough under conditions_of(), in order.
 std::vector<Recommendation> good_choices(const Results& results);
 
 // Whether the points of some choices are not measured yet under every condition, so that nothing can be recommended.
 bool is_incomplete(const Results& results);
 
-// Of choices that are good enough the one of least cost, and the one of least error (as recommend and
-// recommend_accurate). Null if there is none.
+// Of choices that are good enough the one of least cost (as recommend). Null if there is none.
 const Recommendation* cheapest(const std::vector<Recommendation>& good);
-const Recommendation* most_accurate(const std::vector<Recommendation>& good);
 
 // Of the good choices whose cost is not certainly above the least (compare/judge/interval.h; costs that do not depend on
 // the machine have no interval and are compared exactly) the one of least error, then of least cost, then the first.
 Recommendation recommend(const Results& results);
-// The one of least error; among equal errors the one of least cost.
-Recommendation recommend_accurate(const Results& results);
 // The same where good_choices() are known already: of thousands of choices they are most of the work.
 Recommendation recommend(const Results& results, const std::vector<Recommendation>& good);
-Recommendation recommend_accurate(const Results& results, const std::vector<Recommendation>& good);
 
 // Whether one point meets a bound's limits, in the way that the bound takes placements. Metrics of the curve are read at
 // the bias (window depth), if it is given.

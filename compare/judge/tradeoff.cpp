@@ -78,7 +78,6 @@ std::vector<ComparedGroup> compared_groups(const Results& results) {
     }
     if (!is_incomplete(results)) {
       group.recommended = place_of(cheapest(good), group.choices);
-      group.accurate = place_of(most_accurate(good), group.choices);
     }
     groups.push_back(std::move(group));
   }

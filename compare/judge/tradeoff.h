@@ -36,16 +36,15 @@ struct ComparedChoice {
 };
 ComparedChoice at_best_bias(const Choice& choice, const Results& results);
 
-// Choices that can be compared (comparable_choices), and the indices of two of them. An index is empty if no choice is
+// Choices that can be compared (comparable_choices), and the index of one of them. It is empty if no choice is
 // good enough, or if the sweep is incomplete (is_incomplete).
 struct ComparedGroup {
   std::vector<ComparedChoice> choices;
   std::optional<size_t> recommended;  // the cheapest choice that is good enough
-  std::optional<size_t> accurate;     // the most accurate one that is good enough
 };
 std::vector<ComparedGroup> compared_groups(const Results& results);
 
-// good_choices() of the results, from their groups.
+// good_choices() of the results, from their groups, where RunInfo::over has all conditions_of().
 std::vector<Recommendation> good_choices(const std::vector<ComparedGroup>& groups);
 
 // Where a choice is looked at: at its own bias (ComparedChoice::bias), or with the bias that its points were rendered with.

@@ -1,10 +1,11 @@
-// The verdict on an experiment: one word, in one order, that the terminal, the exit code, the report, summary.md, junit.xml,
-// JSON and the index all say.
+// The verdict on an experiment: one word, in one order, and its sentence, that the terminal, the exit code, the report, summary.md,
+// junit.xml, JSON, the annotations and the index all say. They decide nothing themselves.
 //
 //   const Verdict verdict = verdict_of(results);
-//   fmt::print("{}\n", verdict_sentence(results));   // "Broken: 1 of 2 bounds."
+//   fmt::print("{}\n", verdict_sentence(results));   // "Broken: 1 of 2 bounds"
 //   return exit_code_of(verdict);
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,18 +26,23 @@ enum class Verdict {
 
 Verdict verdict_of(const Results& results);
 
-// Of a verb that measures and judges nothing: what does not depend on bounds, laws and a baseline.
-Verdict verdict_without_promises(const Results& results);
-
 // "unsound", "incomplete" ...
 std::string_view word_of(Verdict verdict);
 
 // Of a run with this verdict (docs/reference/exit-codes.md).
 int exit_code_of(Verdict verdict);
+// The same of a verb that was not asked to judge (`run`): what is broken or worse is told, and is no failure of it.
+int exit_code_of_run(Verdict verdict);
 
 inline bool passes(Verdict verdict) { return verdict == Verdict::held || verdict == Verdict::measured; }
 
-// The verdict and what it is about, with a full stop: "Worse than the baseline in 1 of 2 values; broken: 1 of 2 bounds."
+// The verdict and what it is about, without a full stop; it begins with the verdict's word. "Worse than the baseline in 1 of 2 values;
+// broken: 1 of 2 bounds", "Held: your bias of 2 texels holds all 4 bounds at these 12 points".
 std::string verdict_sentence(const Results& results);
+
+// "your bias of 2 texels": where every point was rendered with this one, and its curve says what others would do. Otherwise empty.
+std::string your_bias(std::span<const PointRecord> points);
+// "these 12 points", "this frame"
+std::string these_points(std::span<const PointRecord> points);
 
 }  // namespace noonmark

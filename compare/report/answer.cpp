@@ -13,16 +13,11 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/deliveries.h"
 #include "compare/judge/last_run.h"
-#include "compare/judge/machines.h"
-#include "compare/judge/no_flicker.h"
-#include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
 #include "compare/judge/soundness.h"
-#include "compare/judge/undecided.h"
-#include "compare/judge/verdict.h"
 #include "compare/report/blocks.h"
 #include "compare/report/broken.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 #include "compare/report/laws.h"
 #include "compare/report/part_answers.h"
 #include "compare/report/recommendation_box.h"
@@ -188,9 +183,6 @@ Markup unsound_items(const Results& results) {
   return out;
 }
 
-// A note that is a clause without its full stop; nothing if it is empty.
-Markup note_item(std::string_view kind, const std::string& note) { return note.empty() ? "" : item(kind, note + "."); }
-
 Markup refused_items(const Results& results) {
   Markup out;
   for (const PointRecord* frame : refused_frames(results.points))
@@ -225,7 +217,8 @@ Markup baseline_items(const Results& results) {
   return out;
 }
 
-Markup health_items(const Results& results) {
+Markup health_items(const Findings& found) {
+  const Results& results = found.all;
   Markup out = unsound_items(results) + refused_items(results) + baseline_items(results);
   size_t not_finite = 0;
   double ambiguous = 0;
@@ -240,17 +233,10 @@ Markup health_items(const Results& results) {
   if (not_finite)
     out += item("bad", prose("{} ha{} a metric that is {}: it could not be measured, which breaks every bound on it.",
                              points_text(not_finite), not_finite == 1 ? "s" : "ve", bold("not finite")));
-  out += note_item("bad", poor_view_note(results.points)) + note_item("bad", no_flicker_note(results.points));
-  if (const std::string doubt = undecided_note(results.points); !doubt.empty())
-    out += item("note", prose("At the point with the largest share, {}.", doubt));
   if (ambiguous > 0)
     out += item("note", prose("At most {} of the facing receivers have an ambiguous truth; they are left out.",
                               quantity(ambiguous, "fraction")));
-  const MachineNotes machines = machine_notes(results);
-  for (const std::string& note : results.info.sweep_notes) out += note_item("bad", note);
-  for (const std::string& note : machines.warnings) out += note_item("bad", note);
-  for (const std::string& note : machines.machines) out += note_item("note", note);
-  for (const std::string& note : results.info.scene_notes) out += item("note", prose("About the scene {}.", note));
+  for (const Note& note : found.notes) out += item(note.warns() ? "bad" : "note", note.text + ".");
   return out + delivery_items(results);
 }
 
@@ -321,87 +307,49 @@ Markup bounds_section(const Results& results) {
 
 }  // namespace
 
-Markup verdict_line(const Results& results) {
-  std::vector<Markup> pills;
-  const auto add = [&](std::string_view kind, const Markup& text) {
-    pills.push_back(span(css(fmt::format("pill {}", kind)), text));
-  };
-  // Bounds are judged as rendered. The page also shows other biases, so it is said which one.
-  const bool other_biases = std::any_of(results.points.begin(), results.points.end(), has_curve);
-  const std::string as_set =
-      other_biases ? fmt::format(", with the {} as set", free_setting_words(results.points)) : "";
-  const auto judge = [&](const auto& list, const char* noun, const char* alone, const std::string& at,
-                         const auto& is_broken) {
-    if (list.empty()) return;
-    const auto broken = std::count_if(list.begin(), list.end(), is_broken);
-    const auto kept = std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
-    const bool warned = !broken && kept < static_cast<std::ptrdiff_t>(list.size());
-    const std::string text = broken   ? fmt::format("{} of {} {}s broken", broken, list.size(), noun)
-                             : warned ? fmt::format("{} of {} {}s hold, the others warn", kept, list.size(), noun)
-                             : list.size() == 1 ? std::string(alone)
-                                                : fmt::format("All {} {}s hold", list.size(), noun);
-    add(broken ? "broken" : "held", text + at);
-  };
-  const Verdict verdict = verdict_of(results);
-  if (verdict == Verdict::unsound) {
-    // If the numbers are not sound, the verdicts on them have no meaning.
-    add("broken", "Not sound: the measurement contradicts itself");
-  } else {
-    if (verdict == Verdict::incomplete)
-      add("broken", prose("Incomplete: {} of {} points", results.points.size(), results.planned_points));
-    if (const std::string refused = refused_words(results.points); !refused.empty()) add("broken", refused);
-    if (results.baseline) {
-      std::string words = baseline_verdict(*results.baseline);
-      words.front() = results.baseline->held() ? 'N' : 'W';
-      add(results.baseline->held() ? "held" : "broken", words);
-    }
-    judge(results.bounds, "bound", "The bound holds", as_set, breaks);
-    judge(results.laws, "law", "The law holds", "", [](const LawResult& law) { return !law.held; });
-  }
-  if (verdict == Verdict::measured) add("none", "No bounds were set");
-  return paragraph(css("verdict"), joined(pills, " "));
+Markup verdict_line(const Findings& found) {
+  const char* const kind = found.verdict == Verdict::measured ? "none" : passes(found.verdict) ? "held" : "broken";
+  return paragraph(css("verdict"), span(css(fmt::format("pill {}", kind)), found.sentence));
 }
 
 namespace {
 
 // Points of different parts are not meant to be compared, so none of them is the answer.
-bool has_answer(const Results& results, const ShownPoints& shown) {
-  return !results.points.empty() && results.points.front().part.empty() &&
+bool has_answer(const ShownPoints& shown) {
+  return !shown.all.points.empty() && shown.all.points.front().part.empty() &&
          shown.recommended.outcome == Recommendation::Outcome::found;
 }
 
 }  // namespace
 
-const char* answer_label(const Results& results, const ShownPoints& shown) {
-  return has_answer(results, shown) ? "Answer" : "Findings";
-}
+const char* answer_label(const ShownPoints& shown) { return has_answer(shown) ? "Answer" : "Findings"; }
 
-Markup answer_section(const Results& results, const ShownPoints& shown) {
-  if (results.points.empty()) return "";
-  const char* const title = has_answer(results, shown) ? "The answer" : "What was found";
+Markup answer_section(const ShownPoints& shown) {
+  if (shown.all.points.empty()) return "";
+  const char* const title = has_answer(shown) ? "The answer" : "What was found";
   const auto findings = [](const Markup& items) { return element("ul", css("findings"), "\n", items); };
-  Markup items = precision_items(results) + health_items(results);
-  if (!results.points.front().part.empty()) {
-    const Markup found = laws_table(results) + part_answers(results, shown) + bounds_section(results) +
+  Markup items = precision_items(shown.all) + health_items(shown);
+  if (!shown.all.points.front().part.empty()) {
+    const Markup found = laws_table(shown.all) + part_answers(shown) + bounds_section(shown.all) +
                          (items.empty() ? "" : findings(items));
     return found.empty() ? "" : section("answer", title, found);
   }
   std::vector<const PointRecord*> all;
-  for (const PointRecord& point : results.points) all.push_back(&point);
+  for (const PointRecord& point : shown.all.points) all.push_back(&point);
   Markup causes = cause_sentence(all);
   if (!causes.empty())
-    causes = item(
-        "note", judges_frames(results.points)
-                    ? prose("Where most of the error is: {}.", causes)
-                    : prose("Largest causes of error over {}, with the {} as rendered: {}.",
-                            all.size() == 1 ? "this point" : "all points", free_setting_words(results.points), causes));
-  if (judges_frames(results.points))  // nothing is set here, so nothing is recommended
-    return section("answer", title, findings(causes + items) + bounds_section(results));
-  items = window_items(results) + causes + items;
+    causes = item("note", judges_frames(shown.all.points)
+                              ? prose("Where most of the error is: {}.", causes)
+                              : prose("Largest causes of error over {}, with the {} as rendered: {}.",
+                                      all.size() == 1 ? "this point" : "all points",
+                                      free_setting_words(shown.all.points), causes));
+  if (judges_frames(shown.all.points))  // nothing is set here, so nothing is recommended
+    return section("answer", title, findings(causes + items) + bounds_section(shown.all));
+  items = window_items(shown.all) + causes + items;
   const Markup what_breaks = div(css("breaks"), element("h3", "What breaks"), findings(items));
   return section("answer", title,
-                 div(css("answer"), recommendation_box(results, shown), what_breaks) + "\n" + bounds_section(results) +
-                     laws_table(results));
+                 div(css("answer"), recommendation_box(shown), what_breaks) + "\n" + bounds_section(shown.all) +
+                     laws_table(shown.all));
 }
 
 }  // namespace noonmark::report

@@ -6,11 +6,11 @@
 
 namespace noonmark::report {
 
-// "All 4 bounds hold", as the coloured line at the top of the page.
-Markup verdict_line(const Results& results);
+// The verdict's sentence, as the coloured line at the top of the page.
+Markup verdict_line(const Findings& found);
 // Empty if there is nothing to say.
-Markup answer_section(const Results& results, const ShownPoints& shown);
+Markup answer_section(const ShownPoints& shown);
 // The section's name in the page's head: "Answer" if a setting is recommended, otherwise "Findings".
-const char* answer_label(const Results& results, const ShownPoints& shown);
+const char* answer_label(const ShownPoints& shown);
 
 }  // namespace noonmark::report

@@ -59,7 +59,8 @@ std::string set_bias_phrase(const PointRecord& point) {
   const std::string set = setting_of(point, curve_parameter(point));
   const std::optional<double> value = number_of(set);
   if (!value) return "";
-  return fmt::format("{} {} as set", curve_parameter(point), bias_in_unit(*value, curve_unit(point)));
+  const PointRecord* const only[] = {&point};
+  return fmt::format("a {} as set", named_bias(only, *value));
 }
 
 Markup failure_link(const BoundResult& bound, const Markup& content) {
@@ -67,38 +68,29 @@ Markup failure_link(const BoundResult& bound, const Markup& content) {
                  content);
 }
 
-Markup broken_sentence(const Results& results) {
+BrokenWords broken_words(const Results& results) {
   const std::vector<const BoundResult*> broken = broken_bounds(results);
-  if (broken.empty()) return "";
+  if (broken.empty()) return {};
   const BoundResult& bound = *broken.front();
-  Markup out;
-  if (bound.points == 0) {
-    out = prose("The bound on {} fits no point", metric_label(bound.metric));
-  } else {
-    out = prose("{} is {}{} where {} is allowed{}", metric_label(bound.metric), value_text(bound), joined_text(bound),
-                limits_text(bound), place_text(bound));
-    if (const PointRecord* point = find_point(results.points, bound.point)) {
-      const std::string phrase = point_phrase(*point, results), bias = set_bias_phrase(*point);
-      out += prose(", at {}{}", failure_link(bound, phrase.empty() ? fmt::format("point {}", point->id) : phrase),
-                   bias.empty() ? "" : ", with " + bias);
-    }
+  BrokenWords words{&bound, fmt::format("The bound on {} fits no point", metric_label(bound.metric)), "", "."};
+  if (bound.points > 0)
+    words.before = fmt::format("{} is {}{} where {} is allowed{}", metric_label(bound.metric), value_text(bound),
+                               joined_text(bound), limits_text(bound), place_text(bound));
+  if (const PointRecord* point = find_point(results.points, bound.point)) {
+    const std::string phrase = point_phrase(*point, results), bias = set_bias_phrase(*point);
+    words.before += ", at ";
+    words.subject = phrase.empty() ? fmt::format("point {}", point->id) : phrase;
+    words.after = bias.empty() ? "." : fmt::format(", with {}.", bias);
   }
-  out += ".";
   if (broken.size() > 1)
-    out += prose(" {} more bound{} broken.", broken.size() - 1, broken.size() == 2 ? " is" : "s are");
-  return out;
+    words.after += fmt::format(" {} more bound{} broken.", broken.size() - 1, broken.size() == 2 ? " is" : "s are");
+  return words;
 }
 
-std::string broken_words(const Results& results) {
-  const std::vector<const BoundResult*> broken = broken_bounds(results);
-  if (broken.empty()) return "";
-  const BoundResult& bound = *broken.front();
-  if (bound.points == 0) return fmt::format("the bound on {} fits no point", metric_label(bound.metric));
-  std::string out = fmt::format("{} {} ({})", metric_label(bound.metric), value_text(bound), limits_text(bound));
-  if (const PointRecord* point = find_point(results.points, bound.point))
-    if (const std::string phrase = settings_phrase(*point, results.info.swept); !phrase.empty())
-      out += fmt::format(" at {}", phrase);
-  return out;
+Markup broken_sentence(const Results& results) {
+  const BrokenWords words = broken_words(results);
+  if (words.subject.empty()) return words.text();
+  return words.before + failure_link(*words.bound, words.subject) + words.after;
 }
 
 nlohmann::json failures_of(const PointRecord& point, const Results& results) {

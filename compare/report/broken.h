@@ -9,12 +9,16 @@
 
 namespace noonmark::report {
 
-// "Acne is 0.83 % where at most 0.5 % is allowed, at resolution 2048 texels with bias.constant 2 texels as set", with a link
-// to the point: of the first broken bound, and how many more there are. Empty if none is broken.
+// "Acne is 0.83 % where at most 0.5 % is allowed, at resolution 2048 texels, with a bias of 2 texels as set.": of the first broken
+// bound, and how many more there are. All empty if none is broken.
+struct BrokenWords {
+  const BoundResult* bound = nullptr;
+  std::string before = "", subject = "", after = "";  // subject: the point
+  std::string text() const { return before + subject + after; }
+};
+BrokenWords broken_words(const Results& results);
+// The same with a link to the point.
 Markup broken_sentence(const Results& results);
-
-// The same as text: "Acne 0.83 % (at most 0.5 %) at resolution 2048 texels". Empty if none is broken.
-std::string broken_words(const Results& results);
 
 // A link to the card of the point that shows the failure: its worst pixel by the bound's metric, with the bias as set.
 Markup failure_link(const BoundResult& bound, const Markup& content);
@@ -23,7 +27,7 @@ Markup failure_link(const BoundResult& bound, const Markup& content);
 // text, only if a pixel of the metric is known.
 nlohmann::json failures_of(const PointRecord& point, const Results& results);
 
-// "bias.constant 2 texels as set", where the point's curve says that other biases are possible; otherwise empty.
+// "a bias of 2 texels as set", where the point's curve says that other biases are possible; otherwise empty.
 std::string set_bias_phrase(const PointRecord& point);
 
 }  // namespace noonmark::report

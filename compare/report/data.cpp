@@ -82,9 +82,9 @@ size_t curve_entries(const Results& results) {
 
 namespace {
 
-json swept_data(const Results& results, const ShownPoints& shown) {
+json swept_data(const ShownPoints& shown) {
   json out = json::array();
-  for (const std::string& name : results.info.swept) {
+  for (const std::string& name : shown.all.info.swept) {
     const std::vector<std::string> values = values_of(shown.results, name);
     std::vector<std::string> texts;  // of the values, for people
     for (const std::string& value : values) texts.push_back(setting_text(value));
@@ -92,7 +92,7 @@ json swept_data(const Results& results, const ShownPoints& shown) {
     for (const std::string& value : values) numeric = numeric && number_of(value);
     out.push_back({{"name", name},
                    {"label", setting_label(name)},
-                   {"unit", swept_unit(name, results)},
+                   {"unit", swept_unit(name, shown.all)},
                    {"numeric", numeric},
                    {"values", values},
                    {"texts", texts}});
@@ -168,15 +168,15 @@ json point_data(const PointRecord& point, const Results& results, const std::set
   return entry;
 }
 
-json points_data(const Results& results, const ShownPoints& shown, const std::set<std::string>& shared) {
+json points_data(const ShownPoints& shown, const std::set<std::string>& shared) {
   const size_t entries = curve_entries(shown.results);
   const auto reductions =
       static_cast<size_t>(std::count_if(shown.results.points.begin(), shown.results.points.end(),
                                         [](const PointRecord& point) { return !point.lookup_curve.empty(); }));
-  const std::map<int64_t, double> biases = recommended_biases(shown.groups);
+  const std::map<int64_t, double> biases = recommended_biases(shown);
   json out = json::array();
   for (const PointRecord& point : shown.results.points) {
-    json entry = point_data(point, results, shared);
+    json entry = point_data(point, shown.all, shared);
     if (point.curve) entry["curve"] = curve_of(point, entries);
     if (json curve = reductions_of(point, reductions); !curve.is_null()) entry["reductions"] = std::move(curve);
     if (hides_window(point)) {
@@ -201,24 +201,25 @@ json diagram_data(const Results& results) {
 
 }  // namespace
 
-json chart_data(const Results& results, const ShownPoints& shown) {
+json chart_data(const ShownPoints& shown) {
   const std::set<std::string> shared = shared_settings(shown.results.points);
   return {
-      {"swept", swept_data(results, shown)},
-      {"metrics", metric_data(results)},
-      {"causes", cause_data(results)},
-      {"frames", judges_frames(results.points) ? json(results.info.command) : json()},  // the command that judged them
-      {"plot", results.info.plot},
-      {"cost", results.info.cost},
-      {"bias", opens_as_set(results) ? "set" : "recommended"},
+      {"swept", swept_data(shown)},
+      {"metrics", metric_data(shown.all)},
+      {"causes", cause_data(shown.all)},
+      {"frames",
+       judges_frames(shown.all.points) ? json(shown.all.info.command) : json()},  // the command that judged them
+      {"plot", shown.all.info.plot},
+      {"cost", shown.all.info.cost},
+      {"bias", opens_as_set(shown) ? "set" : "recommended"},
       {"bias_word", bias_word(shown)},
       {"free", free_setting_words(shown.results.points)},
       {"command", shared},
-      {"points", points_data(results, shown, shared)},
-      {"laws", law_data(results)},
-      {"phases", diagram_data(results)},
+      {"points", points_data(shown, shared)},
+      {"laws", law_data(shown.all)},
+      {"phases", diagram_data(shown.all)},
       {"recommended", shown.recommended.choice.points.empty() ? json() : json(shown.recommended.choice.first().id)},
-      {"speed", speed_data(results, shown)},
+      {"speed", speed_data(shown)},
   };
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
+#include "base/text.h"
 #include "compare/report/blocks.h"
 #include "compare/report/broken.h"
 #include "compare/report/links.h"
@@ -16,26 +18,17 @@ namespace noonmark {
 namespace {
 
 using report::Markup;
-using Listed = IndexEntry::Verdict;
-
-size_t count(const std::vector<IndexEntry>& entries, Listed verdict) {
-  return static_cast<size_t>(
-      std::count_if(entries.begin(), entries.end(), [&](const IndexEntry& one) { return one.verdict == verdict; }));
-}
-
-int rank(Listed verdict) { return verdict == Listed::broken ? 0 : verdict == Listed::not_judged ? 1 : 2; }
+// The order of the rows, and the class of a row: those whose verdict does not pass, those without one, those that pass.
+constexpr std::string_view kinds[] = {"broken", "warning", "held"};
+size_t kind_of(const IndexEntry& entry) { return !entry.verdict ? 1 : passes(*entry.verdict) ? 2 : 0; }
 
 Markup row(const IndexEntry& entry) {
   using namespace report;
-  const char* const mark = entry.verdict == Listed::held     ? "✓ held"
-                           : entry.verdict == Listed::broken ? "✗ broken"
-                                                             : "! not judged";
-  const char* const kind = entry.verdict == Listed::held     ? "held"
-                           : entry.verdict == Listed::broken ? "broken"
-                                                             : "warning";
+  constexpr std::string_view marks[] = {"✗", "!", "✓"};
+  const size_t kind = kind_of(entry);
   const std::string name = entry.title.empty() ? entry.experiment : entry.title;
   return tr(
-      css(kind), td(mark),
+      css(kinds[kind]), td(fmt::format("{} {}", marks[kind], entry.verdict ? word_of(*entry.verdict) : "not judged")),
       row_head(entry.report.empty() ? name : file_link(entry.report, name), line_break(), small(entry.experiment)),
       td(entry.words), td(entry.numbers));
 }
@@ -58,24 +51,26 @@ std::string worst_numbers(const Results& results) {
   return out;
 }
 
-std::string broken_in_words(const Results& results) { return report::broken_words(results); }
+std::string broken_in_words(const Results& results) { return report::broken_words(results).text(); }
 
 std::string index_words(const std::vector<IndexEntry>& entries) {
-  std::string out = fmt::format("{} experiment{}: {} held", entries.size(), entries.size() == 1 ? "" : "s",
-                                count(entries, Listed::held));
-  if (const size_t broken = count(entries, Listed::broken)) out += fmt::format(", {} broken", broken);
-  if (const size_t others = count(entries, Listed::not_judged)) out += fmt::format(", {} not judged", others);
-  return out;
+  std::map<std::optional<Verdict>, size_t> counts;
+  for (const IndexEntry& entry : entries) ++counts[entry.verdict];
+  std::string out;
+  for (const auto& [verdict, count] : counts)
+    if (verdict) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, word_of(*verdict));
+  if (counts.contains({})) out += fmt::format("{}{} not judged", out.empty() ? "" : ", ", counts[{}]);
+  return fmt::format("{}: {}", counted(entries.size(), "experiment"), out);
 }
 
 std::string index_page(const std::vector<IndexEntry>& entries, const std::string& version) {
   std::vector<IndexEntry> ordered = entries;
   std::stable_sort(ordered.begin(), ordered.end(),
-                   [](const IndexEntry& a, const IndexEntry& b) { return rank(a.verdict) < rank(b.verdict); });
+                   [](const IndexEntry& a, const IndexEntry& b) { return kind_of(a) < kind_of(b); });
   using namespace report;
   Markup rows;
   for (const IndexEntry& entry : ordered) rows += row(entry);
-  const bool all = count(entries, Listed::held) == entries.size();
+  const bool all = std::all_of(entries.begin(), entries.end(), [](const auto& one) { return kind_of(one) == 2; });
   const Markup head = heads({"Verdict", "Experiment", "In words", "Worst numbers"});
   return plain_page(
       {.title = "Checked experiments",

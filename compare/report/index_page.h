@@ -2,19 +2,21 @@
 //
 //   write_file_atomically(out + "/index.html", index_page(entries, version));
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "compare/judge/verdict.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
 
 struct IndexEntry {
-  enum class Verdict { held, broken, not_judged } verdict = Verdict::not_judged;
-  std::string experiment;  // path as given
+  std::optional<Verdict> verdict;  // empty: not judged
+  std::string experiment;          // path as given
   std::string title;
   std::string report;   // the report's path below the index page; empty if there is none
-  std::string words;    // what is broken, with its value, then the verdict; or why nothing was judged
+  std::string words;    // the verdict's sentence and what is broken, with its value; or why nothing was judged
   std::string numbers;  // the worst numbers in words; may be empty
 };
 
@@ -22,7 +24,7 @@ struct IndexEntry {
 // not finite are said.
 std::string worst_numbers(const Results& results);
 
-// "Acne 0.83 % (at most 0.5 %) at resolution 2048 texels": the first broken bound. Empty if none is broken.
+// "Acne is 0.83 % where at most 0.5 % is allowed, at resolution 2048 texels.": the first broken bound. Empty if none is broken.
 std::string broken_in_words(const Results& results);
 
 // One HTML file without scripts and without other files. Broken experiments come first, then those that were not judged.

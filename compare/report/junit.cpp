@@ -8,14 +8,7 @@
 #include <string_view>
 
 #include "base/text.h"
-#include "compare/judge/baseline.h"
-#include "compare/judge/bounds.h"
-#include "compare/judge/deliveries.h"
-#include "compare/judge/law_table.h"
-#include "compare/judge/laws.h"
-#include "compare/judge/verdict.h"
 #include "compare/report/escape.h"
-#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {
@@ -37,122 +30,72 @@ double seconds_of(std::span<const PointRecord> points) {
   return ms / 1000;
 }
 
-std::string properties_of(const Results& results) {
-  const std::string verdict(word_of(verdict_of(results)));
-  const std::pair<std::string_view, const std::string&> properties[] = {{"experiment", results.info.experiment},
-                                                                        {"command", results.info.command},
-                                                                        {"commit", results.info.commit},
-                                                                        {"version", results.info.version},
-                                                                        {"gl_renderer", results.info.gl_renderer},
-                                                                        {"embree_isa", results.info.embree_isa},
-                                                                        {"verdict", verdict}};
+std::string properties_of(const Findings& found) {
+  const RunInfo& info = found.all.info;
+  const std::string verdict(word_of(found.verdict));
+  const std::pair<std::string_view, const std::string&> properties[] = {{"experiment", info.experiment},
+                                                                        {"command", info.command},
+                                                                        {"commit", info.commit},
+                                                                        {"version", info.version},
+                                                                        {"gl_renderer", info.gl_renderer},
+                                                                        {"embree_isa", info.embree_isa},
+                                                                        {"verdict", verdict},
+                                                                        {"verdict_text", found.sentence}};
   std::string xml = "    <properties>\n";
   for (const auto& [name, value] : properties)
     xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, xml_text(printable(value)));
   return xml + "    </properties>\n";
 }
 
-// The testcases of a suite. CI servers identify one by its name, so names differ.
-class Testcases {
- public:
-  explicit Testcases(std::string suite) : suite_(std::move(suite)) {}
-  const std::string& xml() const { return xml_; }
-
-  // Neither message nor text is asked for where it held.
-  void add(const std::string& title, bool held, bool warns, std::string_view type, const auto& message,
-           const auto& text) {
-    std::string name = printable(title);
-    for (int copy = 2; !taken_.insert(name).second; ++copy) name = fmt::format("{} #{}", printable(title), copy);
-    xml_ += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_text(suite_), xml_text(name));
-    if (held)
-      xml_ += "/>\n";
-    else if (warns)
-      xml_ += fmt::format(">\n      <skipped message=\"warning: {}\">{}</skipped>\n    </testcase>\n",
-                          xml_text(printable(message())), xml_text(text()));
-    else
-      xml_ += fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
-                          xml_text(printable(message())), type, xml_text(text()));
+// What stands within the testcase of a promise; a frame also says what was not checked where it is right.
+std::string outcome_of(const Promise& one) {
+  const std::string found = xml_text(printable(one.found)), text = xml_text(one.text);
+  switch (one.state) {
+    case Promise::State::held:
+      return one.of == Promise::Of::delivery ? fmt::format("<system-out>{}</system-out>", found) : "";
+    case Promise::State::warning:
+      return fmt::format("<skipped message=\"warning: {}\">{}</skipped>", found, text);
+    case Promise::State::refused:
+      return fmt::format("<error message=\"{}\" type=\"refused\">{}</error>", found, text);
+    case Promise::State::broken:
+      break;
   }
-
-  // Each frame is a test case of its own: a server shows which was refused. What was not checked is in its output.
-  void add_frame(const PointRecord& frame) {
-    const std::string name = printable("the delivery of " + frame_name(frame));
-    taken_.insert(name);
-    xml_ += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n", xml_text(suite_),
-                        xml_text(name), seconds_of({&frame, 1}));
-    if (!frame.delivery.refused.empty())
-      xml_ += fmt::format("      <error message=\"{}\" type=\"refused\">{}</error>\n",
-                          xml_text(printable(frame.delivery.refused)), xml_text(printable(why_refused(frame))));
-    else
-      xml_ += fmt::format("      <system-out>{}</system-out>\n", xml_text(printable(delivery_text(frame))));
-    xml_ += "    </testcase>\n";
-  }
-
-  void add_incomplete(int64_t finished, int64_t planned) {
-    xml_ += fmt::format(
-        "    <testcase classname=\"{}\" name=\"the sweep is complete\">\n      <error "
-        "message=\"{} of {} points are finished; run it again to continue\" type=\"incomplete\"/>\n    </testcase>\n",
-        xml_text(suite_), finished, planned);
-  }
-
- private:
-  std::string suite_, xml_;
-  std::set<std::string> taken_;
-};
-
-void add_promises(Testcases& cases, const Results& results) {
-  for (const BoundResult& bound : results.bounds)
-    cases.add(
-        bound_text(bound), bound.held, bound.warns, "bound",
-        [&] {
-          return bound.points == 0 ? "no finished point matches the bound"
-                                   : fmt::format("found {}", found_text(bound, results.points));
-        },
-        [&] { return describe(bound, find_point(results.points, bound.point), results.info.swept); });
-  for (const LawResult& law : results.laws)
-    cases.add(
-        law.name, law.held, false, "law", [&] { return law_text(law); },
-        [&] {
-          return law_table({&law, 1});
-        });
-  if (const auto& baseline = results.baseline)
-    cases.add(
-        "no value is worse than in the baseline", baseline->held(), false, "baseline",
-        [&] { return baseline_verdict(*baseline); },
-        [&] {
-          std::string lines;
-          for (const std::string& line : baseline->worse) lines += printable(line) + "\n";
-          return lines;
-        });
+  constexpr std::string_view types[] = {"delivery", "bound", "law", "baseline"};
+  return fmt::format("<failure message=\"{}\" type=\"{}\">{}</failure>", found, types[static_cast<size_t>(one.of)],
+                     text);
 }
 
 }  // namespace
 
-std::string to_junit(const Results& results) {
-  const auto finished = static_cast<int64_t>(results.points.size());
-  const bool incomplete = results.stopped || finished < results.planned_points;
-  const bool frames = judges_frames(results.points);
-  const size_t refused = refused_frames(results.points).size();
-  const auto failures =
-      std::count_if(results.bounds.begin(), results.bounds.end(), breaks) +
-      std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; }) +
-      (results.baseline && !results.baseline->held() ? 1 : 0);
-  const std::string suite = results.info.title.empty() ? "noonmark" : printable(results.info.title);
-  Testcases cases(suite);
-  if (frames)
-    for (const PointRecord& frame : results.points) cases.add_frame(frame);
-  add_promises(cases, results);
-  if (incomplete) cases.add_incomplete(finished, results.planned_points);
-
+std::string to_junit(const Findings& found) {
+  const Results& results = found.all;
+  const bool complete = found.verdict != Verdict::incomplete, trusted = complete && found.verdict != Verdict::unsound;
+  const std::string suite = xml_text(results.info.title.empty() ? "noonmark" : printable(results.info.title));
+  std::string cases;
+  std::set<std::string> taken;  // CI servers identify a testcase by its name, so names differ
+  const auto add = [&](const std::string& title, const std::string& time, const std::string& outcome) {
+    std::string name = printable(title);
+    for (int copy = 2; !taken.insert(name).second; ++copy) name = fmt::format("{} #{}", printable(title), copy);
+    cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", suite, xml_text(name), time);
+    cases += outcome.empty() ? "/>\n" : fmt::format(">\n      {}\n    </testcase>\n", outcome);
+  };
+  for (const Promise& one : found.promises)
+    add(one.title, one.of == Promise::Of::delivery ? fmt::format(" time=\"{:.3f}\"", seconds_of({one.point, 1})) : "",
+        outcome_of(one));
+  if (!trusted)
+    add(complete ? "the measurement is sound" : "the sweep is complete", "",
+        fmt::format("<error message=\"{}\" type=\"{}\"/>", xml_text(found.sentence), word_of(found.verdict)));
+  const auto count = [&](Promise::State state) {
+    return std::count_if(found.promises.begin(), found.promises.end(),
+                         [&](const Promise& one) { return one.state == state; });
+  };
   std::string xml(head);
   xml += fmt::format(
       "  <testsuite name=\"{}\" package=\"noonmark\" id=\"0\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
       "time=\"{:.3f}\" timestamp=\"{}\" hostname=\"localhost\">\n",
-      xml_text(suite),
-      results.bounds.size() + results.laws.size() + (frames ? results.points.size() : 0) + (results.baseline ? 1 : 0) +
-          (incomplete ? 1 : 0),
-      failures, refused + (incomplete ? 1 : 0), seconds_of(results.points), xml_text(timestamp(results.info.started)));
-  return xml.append(properties_of(results)).append(cases.xml()).append(foot);
+      suite, taken.size(), count(Promise::State::broken), count(Promise::State::refused) + (trusted ? 0 : 1),
+      seconds_of(results.points), xml_text(timestamp(results.info.started)));
+  return xml.append(properties_of(found)).append(cases).append(foot);
 }
 
 std::string to_junit(const Unjudged& unjudged) {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "compare/results/records.h"
+#include "compare/judge/findings.h"
 
 namespace noonmark {
 
@@ -16,7 +16,7 @@ inline constexpr const char* point_time = "point_ms";
 // JUnit schema of Jenkins, and well-formed for any bytes in the names. A comparison with a baseline is one testcase
 // more, with a failure if a value is worse. The suite's time is what all points took to measure; that of a frame's testcase
 // what the frame took. The others have no time of their own.
-std::string to_junit(const Results& results);
+std::string to_junit(const Findings& found);
 
 // One testcase with an error that says why nothing was judged.
 std::string to_junit(const Unjudged& unjudged);

@@ -119,8 +119,8 @@ const char* slider_of_bias(const PointRecord& point, const json& head) {
 }
 
 // Where the picture is of another point than the answer: which one that is, and why it is not shown. Otherwise empty.
-Markup other_than_the_answer(const PointRecord& point, const Results& results, const ShownPoints& shown) {
-  const PointRecord* const answer = answer_point(results, shown.groups, shown.recommended);
+Markup other_than_the_answer(const PointRecord& point, const ShownPoints& shown) {
+  const PointRecord* const answer = answer_point(shown);
   if (!answer || answer->id == point.id) return "";
   const Markup link = point_link(answer->id, prose("point {}", answer->id));
   if (live_image(*answer))
@@ -130,21 +130,21 @@ Markup other_than_the_answer(const PointRecord& point, const Results& results, c
 }
 
 // Throws std::exception if the bytes are not those of a live picture.
-Markup figure_of(const PointRecord& point, const std::string& bytes, const Results& results, const ShownPoints& shown) {
+Markup figure_of(const PointRecord& point, const std::string& bytes, const ShownPoints& shown) {
   json head = json::parse(bytes.substr(0, bytes.find('\n')));
   head["data"] = base64(packed(std::string_view(bytes).substr(bytes.find('\n') + 1), head.value("answers", size_t{0})));
   head["point"] = point.id;
   const bool stack = head.value("kind", "thresholds") == "stack";
   head["marks"] = stack ? stack_marks(point, shown.recommended, head) : marks_of(point, shown.recommended);
-  const std::vector<PictureRecord> pictures = pictures_for_page(point, recommended_biases(shown.groups));
+  const std::vector<PictureRecord> pictures = pictures_for_page(point, recommended_biases(shown));
   const bool at_other = std::any_of(pictures.begin(), pictures.end(), [](const PictureRecord& picture) {
     return picture.name == at_recommended_bias("map");
   });
-  const Markup other = other_than_the_answer(point, results, shown);
+  const Markup other = other_than_the_answer(point, shown);
   const Markup of_point = point_link(point.id, prose("Point {}", point.id));
   if (stack) {
     // The picture is at several values of it, so the one that was set is not its name.
-    std::vector<std::string> names = results.info.swept;
+    std::vector<std::string> names = shown.all.info.swept;
     std::erase(names, head.value("parameter", std::string()));
     const std::string phrase = settings_phrase(point, names);
     return live_stage(head, fmt::format("{}, one step for each picture", head.value("parameter", std::string())),
@@ -152,7 +152,7 @@ Markup figure_of(const PointRecord& point, const std::string& bytes, const Resul
            data_block("live-data", head) + "\n";
   }
   // The picture is at every bias, so the one that was set is not its name.
-  const std::string phrase = settings_phrase(point, without_curve_parameter(point, results.info.swept));
+  const std::string phrase = settings_phrase(point, without_curve_parameter(point, shown.all.info.swept));
   const Markup caption = prose(
       "{}{}, at every bias: each pixel has the light and the cause that OpenGL's picture has with that bias, exactly; "
       "only the grey of the shading is rounded. At the bias as set{} it is the point's own picture, with its numbers; "
@@ -169,12 +169,11 @@ bool has_live_picture(const Results& results) {
                      [](const PointRecord& point) { return live_image(point) != nullptr; });
 }
 
-Markup live_figure(const Results& results, const ShownPoints& shown,
-                   const std::function<std::string(const std::string&)>& read_file) {
-  const PointRecord* const point = opening(results, shown.groups, shown.recommended).point;
+Markup live_figure(const ShownPoints& shown, const std::function<std::string(const std::string&)>& read_file) {
+  const PointRecord* const point = opening(shown).point;
   if (!point) return "";
   try {
-    return figure_of(*point, read_file(live_image(*point)->path), results, shown);
+    return figure_of(*point, read_file(live_image(*point)->path), shown);
   } catch (const std::exception& error) {
     return without_picture(error.what());
   }

@@ -15,7 +15,6 @@ bool has_live_picture(const Results& results);
 
 // Of the point with which the page opens (compare/report/opening.h). read_file: as in render_report. If the file cannot be
 // read, a line says why, and how to get one.
-Markup live_figure(const Results& results, const ShownPoints& shown,
-                   const std::function<std::string(const std::string& path)>& read_file);
+Markup live_figure(const ShownPoints& shown, const std::function<std::string(const std::string& path)>& read_file);
 
 }  // namespace noonmark::report

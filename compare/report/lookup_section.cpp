@@ -111,7 +111,7 @@ nlohmann::json reductions_of(const PointRecord& point, size_t points) {
 
 nlohmann::json over_of(const PointRecord& point) { return curve_of(point, point.over_curve, 1); }
 
-Markup reduction_section(const Results& results, const ShownPoints& shown) {
+Markup reduction_section(const ShownPoints& shown) {
   const std::vector<const PointRecord*> points = points_with(&PointRecord::lookup_curve, shown);
   if (points.empty()) return "";
   Markup out = paragraph(prose(
@@ -125,7 +125,7 @@ Markup reduction_section(const Results& results, const ShownPoints& shown) {
       "reduction", "Error and causes of a filtered shadow map against lookup.reduction; the usable window is shaded.");
   const bool placed = std::any_of(points.begin(), points.end(), [](const auto* point) { return is_placed(*point); });
   Markup rows;
-  for (const PointRecord* point : points) rows += window_row(*point, results.info.swept, placed);
+  for (const PointRecord* point : points) rows += window_row(*point, shown.all.info.swept, placed);
   Markup head = th(css("text"), "Point") + th("As set") + th("Usable from") + th("to");
   if (placed) head += th("At every placement from") + th("to");
   head += th("Least error at") + th(with_small("Error there", "%"));
@@ -133,7 +133,7 @@ Markup reduction_section(const Results& results, const ShownPoints& shown) {
                  out + folded_table(points.size(), "Every window of the reduction", head, rows));
 }
 
-Markup over_section(const Results& results, const ShownPoints& shown) {
+Markup over_section(const ShownPoints& shown) {
   const std::vector<const PointRecord*> points = points_with(&PointRecord::over_curve, shown);
   if (points.empty()) return "";
   Markup out = paragraph(prose(
@@ -144,7 +144,7 @@ Markup over_section(const Results& results, const ShownPoints& shown) {
   out += shown.note;
   out += chart_place("over", "Error and causes of a filtered shadow map against a setting of its lookup.");
   Markup rows;
-  for (const PointRecord* point : points) rows += least_row(*point, results.info.swept);
+  for (const PointRecord* point : points) rows += least_row(*point, shown.all.info.swept);
   const Markup head = th(css("text"), "Point") + th(css("text"), "Setting") + th("As set") +
                       th(with_small("Error", "%")) + th("Least error at") + th(with_small("Error there", "%")) +
                       th(with_small("On the exact map", "%"));

@@ -8,7 +8,6 @@
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
-#include "compare/judge/verdict.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/part_answers.h"
 #include "compare/report/point_data.h"
@@ -20,17 +19,24 @@ namespace {
 
 constexpr std::string_view bias_separator = " at ";  // no picture's own name has it
 
-const PointRecord* point_to_open(const Results& results, const std::vector<ComparedGroup>& groups,
-                                 const Recommendation& recommended) {
+const PointRecord* point_to_open(const Findings& found) {
+  const Results& results = found.all;
   for (const BoundResult& bound : results.bounds)
     // A bound of the whole frame names its first light, which may have no part in it.
     if (const PointRecord* point =
             breaks(bound) && !bound.metric.starts_with("lights_") ? find_point(results.points, bound.point) : nullptr;
         point && live_image(*point))
       return point;
+  if (found.headline) {
+    const PointRecord* worst = nullptr;
+    for (const PointRecord& point : results.points)
+      if (point.part == found.headline->part && live_image(point) &&
+          (!worst || metric_of(point, "error") > metric_of(*worst, "error")))
+        worst = &point;
+    if (worst) return worst;
+  }
   if (const PointRecord* light = largest_light(results); light && live_image(*light)) return light;
-  if (const PointRecord* answer = answer_point(results, groups, recommended); answer && live_image(*answer))
-    return answer;
+  if (const PointRecord* answer = answer_point(found); answer && live_image(*answer)) return answer;
   const auto first = std::find_if(results.points.begin(), results.points.end(),
                                   [](const PointRecord& point) { return live_image(point) != nullptr; });
   return first == results.points.end() ? nullptr : &*first;
@@ -38,7 +44,9 @@ const PointRecord* point_to_open(const Results& results, const std::vector<Compa
 
 }  // namespace
 
-bool opens_as_set(const Results& results) { return !passes(verdict_of(results)) || largest_light(results); }
+bool opens_as_set(const Findings& found) {
+  return !passes(found.verdict) || found.headline || largest_light(found.all);
+}
 
 const ImageRecord* live_image(const PointRecord& point) {
   for (const ImageRecord& image : point.images)
@@ -46,20 +54,20 @@ const ImageRecord* live_image(const PointRecord& point) {
   return nullptr;
 }
 
-const PointRecord* answer_point(const Results& results, const std::vector<ComparedGroup>& groups,
-                                const Recommendation& recommended) {
-  if (!has_parts(results))
-    return recommended.choice.points.empty() ? nullptr : find_point(results.points, recommended.choice.first().id);
-  const ComparedChoice* const choice = answer_of_parts(results, groups);
+const PointRecord* answer_point(const Findings& found) {
+  const Results& results = found.all;
+  const std::vector<const PointRecord*>& answered = found.recommended.choice.points;
+  if (!has_parts(results)) return answered.empty() ? nullptr : answered.front();
+  const ComparedChoice* const choice = answer_of_parts(results, found.groups);
   if (!choice) return nullptr;
   const PointRecord* const worst = value_of(*choice, error_shown_first(results)).at;
   return worst ? worst : &choice->choice.first();
 }
 
-Opening opening(const Results& results, const std::vector<ComparedGroup>& groups, const Recommendation& recommended) {
-  Opening first{point_to_open(results, groups, recommended), {}};
-  if (!first.point || opens_as_set(results)) return first;
-  const std::map<int64_t, double> biases = recommended_biases(groups);
+Opening opening(const Findings& found) {
+  Opening first{point_to_open(found), {}};
+  if (!first.point || opens_as_set(found)) return first;
+  const std::map<int64_t, double> biases = recommended_biases(found);
   const auto bias = biases.find(first.point->id);
   if (bias != biases.end() && number_of(setting_of(*first.point, curve_parameter(*first.point))) != bias->second)
     first.bias = bias->second;

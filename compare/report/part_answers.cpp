@@ -125,11 +125,11 @@ const ComparedChoice* answer_of_parts(const Results& results, const std::vector<
   return best.window == Window::usable ? &best : nullptr;
 }
 
-Markup part_answers(const Results& results, const ShownPoints& shown) {
-  if (!has_parts(results) || !results.laws.empty()) return "";
-  if (judges_frames(results.points) || is_incomplete(results)) return "";
-  if (std::none_of(results.points.begin(), results.points.end(), has_curve)) return "";
-  PartRows rows{results, shown, ChoiceNames(results), GroupNames(results, shown.groups)};
+Markup part_answers(const ShownPoints& shown) {
+  if (!has_parts(shown.all) || !shown.all.laws.empty()) return "";
+  if (judges_frames(shown.all.points) || is_incomplete(shown.all)) return "";
+  if (std::none_of(shown.all.points.begin(), shown.all.points.end(), has_curve)) return "";
+  PartRows rows{shown.all, shown, ChoiceNames(shown.all), GroupNames(shown.all, shown.groups)};
   for (const PointRecord& point : shown.results.points) rows.on_page.insert(point.id);
   Markup body;
   size_t count = 0;
@@ -146,7 +146,7 @@ Markup part_answers(const Results& results, const ShownPoints& shown) {
   const auto unit = [](const std::string& metric) { return head_unit(find_metric(metric).unit); };
   const Markup head = th(css("text"), "Part") + th(css("text"), "Cheapest that is good enough") +
                       th(css("text"), "At") + heads({"Usable from", "to"}) +
-                      th(with_small(metric_label(results.info.cost), unit(results.info.cost))) +
+                      th(with_small(metric_label(shown.all.info.cost), unit(shown.all.info.cost))) +
                       th(with_small(error_label(shown.error_first), unit(shown.error_first)));
   return element("h3", "What to set in each part") + "\n" +
          folded("", count <= open_rows, prose("{} rows", count),

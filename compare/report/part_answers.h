@@ -17,6 +17,6 @@ const ComparedChoice* answer_of_parts(const Results& results, const std::vector<
 // A row names the cheapest choice that is good enough, with its free setting, usable window, cost and error. If no choice is good
 // enough, the row says why and what may help.
 // Empty if the report has no parts or no curve, or if it is one of laws, of frames or of an unfinished sweep.
-Markup part_answers(const Results& results, const ShownPoints& shown);
+Markup part_answers(const ShownPoints& shown);
 
 }  // namespace noonmark::report

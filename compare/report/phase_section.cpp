@@ -178,11 +178,11 @@ Markup phase_figure(const PhaseDiagram& d, size_t index, const Markup& points, b
                    number(d.receivers), d.width_px, d.height_px, placements, placements));
 }
 
-Markup phase_section(const Results& results, const ShownPoints& shown) {
-  if (results.phases.empty()) return "";
+Markup phase_section(const ShownPoints& shown) {
+  if (shown.all.phases.empty()) return "";
   Markup out;
   size_t index = 0;
-  for (const PhaseDiagram& diagram : results.phases) {
+  for (const PhaseDiagram& diagram : shown.all.phases) {
     if (!diagram.part.empty()) out += element("h3", diagram.part) + "\n";
     if (!diagram.refused.empty()) {
       out += paragraph(prose("There is no phase diagram: {}.", diagram.refused));

@@ -11,7 +11,7 @@
 namespace noonmark::report {
 
 // The report's section, with the points that are shown one by one; empty if the experiment asks for no diagram.
-Markup phase_section(const Results& results, const ShownPoints& shown);
+Markup phase_section(const ShownPoints& shown);
 
 // Whether the report has a diagram, and the place of the first one's chart, which stands at the top of the page.
 bool has_diagram(const Results& results);

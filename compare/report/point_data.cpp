@@ -21,12 +21,14 @@ constexpr std::array curve_metrics{"error",         "error_soft",     "wrong",  
 
 }  // namespace
 
-std::map<int64_t, double> recommended_biases(const std::vector<ComparedGroup>& groups) {
+std::map<int64_t, double> recommended_biases(const Findings& found) {
   std::map<int64_t, double> biases;
-  for (const ComparedGroup& group : groups)
+  for (const ComparedGroup& group : found.groups)
     for (const ComparedChoice& one : group.choices)
       for (const PointRecord* point : one.choice.points)
         if (one.bias && has_curve(*point)) biases[point->id] = *one.bias;
+  if (found.recommended.bias)
+    for (const PointRecord* point : found.recommended.choice.points) biases[point->id] = found.recommended.bias->value;
   return biases;
 }
 
@@ -37,7 +39,7 @@ nlohmann::json at_bias(const PointRecord& point, double bias) {
   nlohmann::json out{{"parameter", curve_parameter(point)},
                      {"word", free_setting_words(point)},
                      {"value", bias},
-                     {"text", bias_in_unit(bias, curve_unit(point))},
+                     {"text", amount_of_bias(std::array{&point}, bias)},
                      {"depth", depth},
                      // The bias may lie on an end of the window, and its depth was rounded twice.
                      {"usable", window && depth >= window->low * (1 - 1e-12) && depth <= window->high * (1 + 1e-12)}};

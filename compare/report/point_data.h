@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "compare/judge/tradeoff.h"
+#include "compare/judge/findings.h"
 #include "compare/results/records.h"
 
 namespace noonmark::report {
 
-// The recommended bias of each point, by its id: that of its choice (ComparedChoice::bias), in bias.unit. Points without
-// a curve have none.
-std::map<int64_t, double> recommended_biases(const std::vector<ComparedGroup>& groups);
+// The recommended bias of each point, by its id, in bias.unit: that of the answer, and of other points that of their choice
+// (ComparedChoice::bias). Points without a curve have none.
+std::map<int64_t, double> recommended_biases(const Findings& found);
 
 // {"parameter", "value", "text", "depth", "usable", "metrics"}: the bias, whether it is usable, and each metric that the
 // point's curve gives, at that bias. point: has a curve.

@@ -3,18 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_set>
 
+#include "base/shell_words.h"
 #include "base/text.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
-#include "compare/judge/deliveries.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
-#include "compare/judge/verdict.h"
 #include "compare/report/blocks.h"
 #include "compare/report/broken.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
+#include "compare/report/opening.h"
 #include "compare/report/part_answers.h"
 #include "compare/report/sections.h"
 #include "compare/report/speed.h"
@@ -29,7 +28,7 @@ namespace {
 std::string bias_of(const Recommendation& found, double value) {
   const PointRecord& first = found.choice.first();
   return found.choice.points.size() == 1 && first.curve ? bias_phrase(value / parameter_per_depth(first), *first.curve)
-                                                        : bias_in_unit(value, found.bias->unit);
+                                                        : amount_of_bias(found.choice.points, value);
 }
 
 // "bias" or "reduction": what the answer's free setting is called where it was named before.
@@ -38,15 +37,17 @@ const char* free_noun(const Recommendation& found) {
 }
 
 // Opens the card of a point at the recommended bias, also where a bound is broken at the bias as set.
-Markup recommended_link(const PointRecord& point, const Markup& content) {
-  return element("a", Attribute("href", fmt::format("#p{}", point.id)), Attribute("data-show", "recommended"), content);
+Markup recommended_link(const PointRecord* point, const Markup& content) {
+  if (!point || content.empty()) return content;
+  return element("a", Attribute("href", fmt::format("#p{}", point->id)), Attribute("data-show", "recommended"),
+                 content);
 }
 
 Markup point_links(const Choice& choice) {
   constexpr size_t most = 4;
   std::vector<Markup> links;
   for (size_t i = 0; i < std::min(most, choice.points.size()); ++i)
-    links.push_back(recommended_link(*choice.points[i], choice.points[i]->id));
+    links.push_back(recommended_link(choice.points[i], choice.points[i]->id));
   return prose("{} {}{}", choice.points.size() == 1 ? "point" : "points", joined(links, ", "),
                choice.points.size() > most ? " …" : "");
 }
@@ -61,28 +62,24 @@ std::string chosen_phrase(const Recommendation& found, const Results& results) {
   return settings_phrase(found.choice.first(), chosen_settings(found, results));
 }
 
-size_t bound_count(const Results& results) {
-  return static_cast<size_t>(
-      std::count_if(results.bounds.begin(), results.bounds.end(), [](const auto& bound) { return !bound.warns; }));
-}
-
 // What is said of a choice that keeps all bounds. Where a value is worse than in the baseline, this is not good enough.
 const char* praise(const Results& results) {
   return results.baseline && !results.baseline->held() ? "keeps the bounds" : "is good enough";
 }
 
 std::string conditions_text(const Results& results, const Choice& choice) {
-  if (results.info.over.empty()) return "";
+  const std::vector<std::string> conditions = conditions_of(results.info);
+  if (conditions.empty()) return "";
   std::string names;
-  for (const std::string& name : results.info.over) names += (names.empty() ? "" : ", ") + setting_label(name);
+  for (const std::string& name : conditions) names += (names.empty() ? "" : ", ") + setting_label(name);
   return choice.points.size() == 1 ? fmt::format(" under the one condition ({})", names)
                                    : fmt::format(" under all {} conditions ({})", choice.points.size(), names);
 }
 
 // Where points have many placements of the map's grid, the error is that of the worst one; the points' own columns have
 // the placement of the settings.
-Markup at_worst_placement(const Recommendation& found) {
-  return found.error.at && has_placements(*found.error.at) ? prose(", at the worst placement of the map's grid") : "";
+std::string_view at_worst_placement(const Recommendation& found) {
+  return found.error.at && has_placements(*found.error.at) ? ", at the worst placement of the map's grid" : "";
 }
 
 // "a cost of 4.2 MB (Map bytes) and an error of 0.1 % (Error against the light's size)"
@@ -133,95 +130,113 @@ Markup cause_sentence(std::span<const PointRecord* const> points, std::optional<
 
 namespace {
 
-// Of points of several parts: the cheapest choice of the largest group that can be compared.
-Markup cheapest_of_parts(const Results& results, const ShownPoints& shown) {
-  const ComparedChoice* const best = answer_of_parts(results, shown.groups);
-  if (!best) return "";
-  const ComparedGroup& group = shown.groups[group_shown_first(shown.groups)];
-  std::unordered_set<int64_t> on_page;
-  for (const PointRecord& point : shown.results.points) on_page.insert(point.id);
-  const std::string name = ChoiceNames(results).of(best->choice, AtBias::best),
-                    of = GroupNames(results, shown.groups).of(group);
-  const PointRecord* const point = point_on_page(*best, shown.error_first, on_page);
+// Of points of several parts: the cheapest choice of the largest group that can be compared. No part is the answer of another.
+AnswerWords words_of_parts(const Findings& found) {
+  AnswerWords words{fmt::format("{} of several parts, which are compared only where they can be.",
+                                counted(found.all.points.size(), "point")),
+                    "", "", answer_point(found)};
+  const ComparedChoice* const best = answer_of_parts(found.all, found.groups);
+  if (!best) return words;
+  const ComparedGroup& group = found.groups[group_shown_first(found.groups)];
+  const std::string of = GroupNames(found.all, found.groups).of(group);
+  words.before += fmt::format(" Of the {} choices{} the cheapest that {} is ", group.choices.size(),
+                              of.empty() ? "" : " for " + of, praise(found.all));
+  words.subject = ChoiceNames(found.all).of(best->choice, AtBias::best);
   const std::optional<BiasChoice>& bias = best->good->bias;
-  return prose(" Of the {} choices{} the cheapest that {} is {}{}.", group.choices.size(),
-               of.empty() ? "" : " for " + of, praise(results), point ? recommended_link(*point, name) : name,
-               bias ? fmt::format(" with {} {}", bias->parameter, bias_in_unit(bias->value, bias->unit)) : "");
+  words.after = bias ? fmt::format(" with a {}.", named_bias(best->choice.points, bias->value)) : ".";
+  return words;
 }
 
-// Points of different parts are not meant to be compared, so none of them is an answer.
-Markup held_of_parts(const Results& results, const ShownPoints& shown) {
-  const auto kept = [](const auto& list) {
-    return std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
-  };
-  std::vector<Markup> held;
-  if (!results.laws.empty()) held.push_back(prose("{} of {} laws hold", kept(results.laws), results.laws.size()));
-  if (!results.bounds.empty())
-    held.push_back(prose("{} of {} bounds hold", kept(results.bounds), results.bounds.size()));
-  return prose("{}{}{} points of several parts, which are compared only where they can be.{}", joined(held, ", "),
-               held.empty() ? "" : ". ", results.points.size(), cheapest_of_parts(results, shown));
+bool any_point(const Findings& found, bool (*holds)(const PointRecord&)) {
+  return std::any_of(found.all.points.begin(), found.all.points.end(), holds);
 }
 
-bool any_window_hidden(const Results& results) {
-  return std::any_of(results.points.begin(), results.points.end(), hides_window);
-}
+// Why nothing can be recommended, and what may help: sentences. kind: that of the box.
+struct NoAnswer {
+  std::string_view kind;
+  std::string why, help;
+};
 
-// What to set, or what is known instead.
-Markup what_to_set(const Results& results, const ShownPoints& shown) {
-  if (has_parts(results)) return held_of_parts(results, shown);
-  const Recommendation& found = shown.recommended;
-  switch (found.outcome) {
+std::optional<NoAnswer> why_no_answer(const Findings& found) {
+  const std::string poor = poor_view_note(found.all.points), these = these_points(found.all.points),
+                    none_is = found.all.points.size() == 1 ? "This point is not" : fmt::format("None of {} is", these);
+  if (!any_point(found, [](const PointRecord& point) { return !nothing_judged(point); }))
+    return NoAnswer{"broken", fmt::format("Nothing was measured: {}.", poor),
+                    "This gives no information about the method."};
+  switch (found.recommended.outcome) {
     case Recommendation::Outcome::no_criterion:
-      return std::any_of(results.points.begin(), results.points.end(), has_fixed_reduction)
-                 ? "No bound says what is good enough, and with lookup.reduction_span there is no usable window that "
-                   "could, so no setting is recommended."
-                 : "No bound and no curve over a bias or a reduction says what is good enough, so no setting is "
-                   "recommended.";
+      if (any_point(found, has_fixed_reduction))
+        return NoAnswer{"none",
+                        "No bound says what is good enough, and with lookup.reduction_span there is no usable window "
+                        "that could, so no setting is recommended.",
+                        "Set bounds, on leak, over_darkening, peter_panning and error."};
+      return NoAnswer{"none",
+                      "No bound and no curve over a bias or a reduction says what is good enough, so no setting is "
+                      "recommended.",
+                      "Set a bound, or have a curve over the bias or the light-bleed reduction measured."};
     case Recommendation::Outcome::incomplete:
-      return "Not all conditions are measured yet, so no setting is recommended.";
+      return NoAnswer{"none", "Not all conditions are measured yet, so no setting is recommended.",
+                      "The same command continues the sweep."};
     case Recommendation::Outcome::none_holds:
-      return any_window_hidden(results)
-                 ? prose("None of the swept settings is known to be good enough: {}.", poor_view_note(results.points))
-                 : "None of the swept settings is good enough.";
+      if (any_point(found, hides_window))
+        return NoAnswer{"broken", fmt::format("{} known to be good enough: {}.", none_is, poor), ""};
+      return NoAnswer{
+          "broken",
+          fmt::format("{} good enough{}.", none_is,
+                      conditions_of(found.all.info).empty() ? "" : " under all conditions"),
+          fmt::format("None has a usable {} window and meets every bound, also those that the experiment asks of other "
+                      "settings alone. Sweep a higher resolution, a smaller extent or {}, or loosen a bound.",
+                      free_setting_words(found.all.points),
+                      any_point(found, [](const auto& one) { return free_setting(one) == FreeSetting::reduction; })
+                          ? "another lookup, blur or bias"
+                          : "another part of the bias")};
     case Recommendation::Outcome::found:
       break;
   }
-  const char* const conditions = results.info.over.empty() ? "" : " under all conditions";
-  const std::string error = quantity(found.error.worst, find_metric(results.info.accuracy).unit);
-  const std::string bias =
-      found.bias ? fmt::format("{} {}", found.bias->parameter, bias_in_unit(found.bias->value, found.bias->unit)) : "";
-  const PointRecord& point = found.choice.first();
-  if (found.bias && found.bias->as_set)
-    return prose("What is set {}{}: {} with {}. Its error is {}{}.", praise(results), conditions,
-                 bound_count(results) == 1 ? "the bound holds" : "all bounds hold", recommended_link(point, bias),
-                 error, at_worst_placement(found));
-  const std::string settings = chosen_phrase(found, results);
-  return prose("Set {}{}: the cheapest setting that {}{}. Its error is {}{}.",
-               recommended_link(point, !settings.empty() ? settings
-                                       : found.bias      ? bias
-                                                         : "this point"),
-               settings.empty() || bias.empty() ? "" : " and " + bias, praise(results), conditions, error,
-               at_worst_placement(found));
+  return std::nullopt;
 }
 
 }  // namespace
 
-Markup answer_sentence(const Results& results, const ShownPoints& shown) {
-  if (results.points.empty()) return "No point was measured.";
-  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
-    return prose("Nothing was measured: {}.", poor_view_note(results.points));
-  const Markup broken = broken_sentence(results);
-  if (judges_frames(results.points)) {
-    const auto kept =
-        std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& one) { return one.held; });
-    const std::string refused = refused_words(results.points);
-    const Markup verdict = !broken.empty() ? broken
-                           : results.bounds.empty()
-                               ? Markup("No bound says what is good enough.")
-                               : prose("{} of {} hold.", kept, counted(results.bounds.size(), "bound"));
-    return refused.empty() ? verdict : prose("{}. ", refused) + verdict;
-  }
-  return (broken.empty() ? broken : broken + " ") + what_to_set(results, shown);
+// Where the verdict speaks of the bias that was set, that of the answer is the only other one.
+AnswerWords answer_words(const Findings& found) {
+  const Results& results = found.all;
+  if (results.points.empty()) return {"No point was measured."};
+  if (judges_frames(results.points))  // nothing is set here, so nothing is recommended
+    return {results.bounds.empty() ? "No bound says what is good enough." : ""};
+  if (has_parts(results)) return words_of_parts(found);
+  if (const std::optional<NoAnswer> none = why_no_answer(found)) return {none->why};
+  const Recommendation& answer = found.recommended;
+  const std::string error =
+      fmt::format("ts error is {}{}.", quantity(answer.error.worst, find_metric(results.info.accuracy).unit),
+                  at_worst_placement(answer));
+  const PointRecord* const point = &answer.choice.first();
+  if (answer.bias && answer.bias->as_set) return {"", "I" + error, "", point};
+  const std::string settings = chosen_phrase(answer, results),
+                    bias = answer.bias ? named_bias(answer.choice.points, answer.bias->value) : "";
+  const std::string good =
+      praise(results) + std::string(conditions_of(results.info).empty() ? "" : " under all conditions");
+  if (settings.empty())
+    return {"", bias.empty() ? "What is set" : "A " + bias, fmt::format(" {}; i{}", good, error), point};
+  const bool kept = found.verdict == Verdict::held && !your_bias(results.points).empty();
+  return {kept ? fmt::format("Cheaper{}: ", conditions_of(results.info).empty() ? "" : ", under all conditions")
+               : fmt::format("Of {} the cheapest that {}: ", these_points(results.points), good),
+          settings,
+          fmt::format("{}; i{}",
+                      !answer.bias ? ""
+                      : kept       ? " with " + amount_of_bias(answer.choice.points, answer.bias->value)
+                                   : " with a " + bias,
+                      error),
+          point};
+}
+
+Markup answer_sentence(const Findings& found) {
+  std::vector<Markup> said;
+  if (found.headline) said.push_back(found.headline->found);
+  if (Markup broken = broken_sentence(found.all); !broken.empty()) said.push_back(std::move(broken));
+  if (const AnswerWords words = answer_words(found); !found.headline && !words.text().empty())
+    said.push_back(words.before + recommended_link(words.point, words.subject) + words.after);
+  return joined(said, " ");
 }
 
 namespace {
@@ -229,52 +244,6 @@ namespace {
 // kind: "held", "none" or "broken", for its colour.
 Markup box(std::string_view kind, const Markup& title, const Markup& content) {
   return div(css(fmt::format("recommend {}", kind)), element("h3", title), content) + "\n";
-}
-
-// What else to sweep where no value of the free setting is usable.
-const char* other_way(const Results& results) {
-  const bool reductions = std::any_of(results.points.begin(), results.points.end(), [](const PointRecord& point) {
-    return free_setting(point) == FreeSetting::reduction;
-  });
-  return reductions ? "another lookup, blur or bias" : "another part of the bias";
-}
-
-// The box if nothing can be recommended; empty otherwise.
-Markup box_without_answer(const Results& results, const Recommendation& found) {
-  const auto say = [](std::string_view kind, const Markup& words) {
-    return box(kind, "What to set", element("p", words));
-  };
-  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
-    return say("broken", prose("{}: {}. This gives no information about the method.", bold("Nothing was measured"),
-                               poor_view_note(results.points)));
-  switch (found.outcome) {
-    case Recommendation::Outcome::no_criterion:
-      return say("none",
-                 std::any_of(results.points.begin(), results.points.end(), has_fixed_reduction)
-                     ? "There is no criterion for good enough. lookup.reduction_span gives the reduction a fixed form, "
-                       "so there is no usable window: set bounds, on leak, over_darkening, peter_panning and error."
-                     : "There is no criterion for good enough: set a bound, or have a curve over the bias or the "
-                       "light-bleed reduction measured.");
-    case Recommendation::Outcome::incomplete:
-      return say("none",
-                 "Not all conditions are measured yet, so no setting is known to hold under all of them. The same "
-                 "command continues the sweep.");
-    case Recommendation::Outcome::none_holds:
-      if (any_window_hidden(results))
-        return say("broken", prose("{}: {}.", bold("None of the swept settings is known to be good enough"),
-                                   poor_view_note(results.points)));
-      return say(
-          "broken",
-          prose("{} None has a usable {} window and meets every bound, also those that the experiment asks of other "
-                "settings alone. Sweep a higher "
-                "resolution, a smaller extent or {}, or loosen a bound.",
-                bold(prose("None of the swept settings is good enough{}.",
-                           results.info.over.empty() ? "" : " under all conditions")),
-                free_setting_words(results.points), other_way(results)));
-    case Recommendation::Outcome::found:
-      break;
-  }
-  return "";
 }
 
 // How far the bias is from the ends of its window.
@@ -316,17 +285,6 @@ Markup causes_text(const Recommendation& found) {
   return paragraph(prose("Largest causes there{}: {}.", at, causes));
 }
 
-// The most accurate setting, if it is another one.
-Markup accurate_text(const Recommendation& found, const Recommendation& accurate, const Results& results) {
-  const std::string phrase = accurate.choice.points.empty() ? "" : chosen_phrase(accurate, results);
-  if (&accurate.choice.first() == &found.choice.first()) return "";
-  const std::string bias =
-      accurate.bias ? fmt::format("{} {}", accurate.bias->parameter, bias_of(accurate, accurate.bias->value)) : "";
-  return paragraph(prose("The most accurate setting that {}: {}{}{}, for {} ({}).", praise(results), phrase,
-                         phrase.empty() || bias.empty() ? "" : ", ", bias, cost_and_error(accurate, results),
-                         point_links(accurate.choice)));
-}
-
 // By what it is the answer.
 Markup criterion_text(const Recommendation& found, const Results& results) {
   if (found.bias && found.bias->as_set)
@@ -351,23 +309,31 @@ Markup criterion_text(const Recommendation& found, const Results& results) {
 
 }  // namespace
 
-Markup recommendation_box(const Results& results, const ShownPoints& shown) {
+Markup recommendation_box(const ShownPoints& shown) {
+  if (const std::optional<NoAnswer> none = why_no_answer(shown))
+    return box(none->kind, "What to set", paragraph(prose("{} {}", bold(none->why), none->help)));
   const Recommendation& found = shown.recommended;
-  if (Markup none = box_without_answer(results, found); !none.empty()) return none;
   const bool kept = found.bias && found.bias->as_set;
   const Markup answer =
-      prose("{} {}{}{} has {}.{}", kept ? "What is set" : "The cheapest setting that", praise(results),
-            conditions_text(results, found.choice), kept ? ". It" : "", cost_and_error(found, results),
-            found.bias ? bias_margin_text(*found.bias, free_noun(found)) : "");
-  const Markup reasons = prose(
-      "It is {}: {}.{}{}", point_links(found.choice), criterion_text(found, results), noise_text(found.noise, results),
-      compares_choices(shown.groups)
-          ? prose(" {} compares by other costs and errors.", section_link("cost", "Speed against accuracy"))
-          : Markup());
+      prose("{} {}{}{} has {}.{}",
+            kept ? "What is set" : fmt::format("Of {} the cheapest that", these_points(shown.all.points)),
+            praise(shown.all), conditions_text(shown.all, found.choice), kept ? ". It" : "",
+            cost_and_error(found, shown.all), found.bias ? bias_margin_text(*found.bias, free_noun(found)) : "");
+  const Markup search = shown.all.info.experiment.empty() || choice_settings(shown.all.info).empty()
+                            ? Markup()
+                            : prose(" {} searches beyond {}, so its answer can be another one.",
+                                    code("noonmark recommend " + shell_quoted(shown.all.info.experiment)),
+                                    these_points(shown.all.points));
+  const Markup reasons = prose("It is {}: {}.{}{}{}", point_links(found.choice), criterion_text(found, shown.all),
+                               noise_text(found.noise, shown.all),
+                               compares_choices(shown.groups) ? prose(" {} compares by other costs and errors.",
+                                                                      section_link("cost", "Speed against accuracy"))
+                                                              : Markup(),
+                               search);
   // Green only if the verdict is: a reader would take the colour for it.
-  return box(passes(verdict_of(results)) ? "held" : "none", kept ? "What is set" : "What to set",
-             paragraph(answer) + element("dl", settings_and_bias(found, results)) + "\n" + causes_text(found) +
-                 accurate_text(found, shown.accurate, results) + element("p", css("small"), reasons));
+  return box(passes(shown.verdict) ? "held" : "none", kept ? "What is set" : "What to set",
+             paragraph(answer) + element("dl", settings_and_bias(found, shown.all)) + "\n" + causes_text(found) +
+                 element("p", css("small"), reasons));
 }
 
 }  // namespace noonmark::report

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <string>
 
 #include "compare/report/element.h"
 #include "compare/report/shown.h"
@@ -9,10 +10,18 @@
 
 namespace noonmark::report {
 
-// The answer for the first screen: first what is broken, then what to set.
-Markup answer_sentence(const Results& results, const ShownPoints& shown);
+// What to set, or what is known instead, as sentences. `subject` opens its point where that can be.
+struct AnswerWords {
+  std::string before, subject = "", after = "";
+  const PointRecord* point = nullptr;
+  std::string text() const { return before + subject + after; }
+};
+AnswerWords answer_words(const Findings& found);
 
-Markup recommendation_box(const Results& results, const ShownPoints& shown);
+// For the first screen: the law's own sentence if one has it, what is broken, and otherwise what to set.
+Markup answer_sentence(const Findings& found);
+
+Markup recommendation_box(const ShownPoints& shown);
 
 // The three largest causes of error over the points, with their colours: "Acne (60 %), Aliasing (30 %)".
 // bias: the bias, in bias.unit, at which the causes are read off the curves; without it, the causes as rendered.

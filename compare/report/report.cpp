@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 
 #include "compare/report/answer.h"
 #include "compare/report/blocks.h"
@@ -55,22 +56,20 @@ using ReadFile = std::function<std::string(const std::string& path)>;
 struct Section {
   const char* id;
   const char* label;  // in the page's head; null: answer_label()
-  Markup (*make)(const Results&, const ShownPoints&, const ReadFile&);
+  Markup (*make)(const ShownPoints&, const ReadFile&);
   bool compares;  // compares all points with each other, which has no meaning across parts
 };
-template <Markup (*make)(const Results&)>
-Markup plain(const Results& results, const ShownPoints&, const ReadFile&) {
-  return make(results);
-}
-template <Markup (*make)(const Results&, const ShownPoints&)>
-Markup by_point(const Results& results, const ShownPoints& shown, const ReadFile&) {
-  return make(results, shown);
-}
-Markup pictures(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
-  return report::pictures_section(results, shown, read_file);
-}
-Markup lights(const Results& results, const ShownPoints&, const ReadFile& read_file) {
-  return report::lights_section(results, read_file);
+// A section is made of what it asks for.
+template <auto section>
+Markup made(const ShownPoints& shown, const ReadFile& read_file) {
+  if constexpr (std::is_invocable_v<decltype(section), const ShownPoints&, const ReadFile&>)
+    return section(shown, read_file);
+  else if constexpr (std::is_invocable_v<decltype(section), const ShownPoints&>)
+    return section(shown);
+  else if constexpr (std::is_invocable_v<decltype(section), const Results&, const ReadFile&>)
+    return section(shown.all, read_file);
+  else
+    return section(shown.all);
 }
 // A report without a live picture and without a diagram opens with the strips of its motion, or with the chart of cost
 // against error.
@@ -78,33 +77,31 @@ bool opens_with_motion(const Results& results) {
   return !report::has_live_picture(results) && !report::has_diagram(results) && report::has_flicker(results);
 }
 // Parts are measured to be compared, so there the chart stands above the live picture.
-bool opens_with_speed(const Results& results, const ShownPoints& shown) {
-  const bool parts = !results.points.empty() && !results.points.front().part.empty();
-  return (parts || !report::has_live_picture(results)) && !report::has_diagram(results) &&
-         !report::has_flicker(results) && report::has_speed_chart(shown);
+bool opens_with_speed(const ShownPoints& shown) {
+  const bool parts = !shown.all.points.empty() && !shown.all.points.front().part.empty();
+  return ((parts && !shown.headline) || !report::has_live_picture(shown.all)) && !report::has_diagram(shown.all) &&
+         !report::has_flicker(shown.all) && report::has_speed_chart(shown);
 }
-Markup motion(const Results& results, const ShownPoints&, const ReadFile&) {
+Markup motion(const Results& results) {
   return report::has_flicker(results) ? report::flicker_section(results, opens_with_motion(results)) : "";
 }
-Markup speed(const Results& results, const ShownPoints& shown, const ReadFile&) {
-  return report::speed_section(results, shown, opens_with_speed(results, shown));
-}
+Markup speed(const ShownPoints& shown) { return report::speed_section(shown, opens_with_speed(shown)); }
 constexpr Section all_sections[] = {
-    {"phase", "Diagram", by_point<report::phase_section>, false},
-    {"answer", nullptr, by_point<report::answer_section>, false},
-    {"lights", "Lights", lights, false},
-    {"cascades", "Cascades", plain<report::cascades_section>, false},
-    {"motion", "Motion", motion, false},
-    {"bias", "Bias", by_point<report::bias_section>, false},
-    {"reduction", "Reduction", by_point<report::reduction_section>, false},
-    {"over", "Other settings", by_point<report::over_section>, false},
-    {"sweep", "Sweep", by_point<report::sweep_section>, true},
-    {"budget", "Causes", by_point<report::budget_section>, true},
-    {"cost", "Speed", speed, false},
-    {"pictures", "Pictures", pictures, false},
-    {"points", "Points", by_point<report::points_section>, false},
-    {"meaning", "Meaning", plain<report::meaning_section>, false},
-    {"making", "Making", plain<report::making_section>, false},
+    {"phase", "Diagram", made<report::phase_section>, false},
+    {"answer", nullptr, made<report::answer_section>, false},
+    {"lights", "Lights", made<report::lights_section>, false},
+    {"cascades", "Cascades", made<report::cascades_section>, false},
+    {"motion", "Motion", made<motion>, false},
+    {"bias", "Bias", made<report::bias_section>, false},
+    {"reduction", "Reduction", made<report::reduction_section>, false},
+    {"over", "Other settings", made<report::over_section>, false},
+    {"sweep", "Sweep", made<report::sweep_section>, true},
+    {"budget", "Causes", made<report::budget_section>, true},
+    {"cost", "Speed", made<speed>, false},
+    {"pictures", "Pictures", made<report::pictures_section>, false},
+    {"points", "Points", made<report::points_section>, false},
+    {"meaning", "Meaning", made<report::meaning_section>, false},
+    {"making", "Making", made<report::making_section>, false},
 };
 
 struct ShownSection {
@@ -113,13 +110,13 @@ struct ShownSection {
 };
 
 // A section without content is left out, in the page's head too.
-std::vector<ShownSection> sections_of(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
-  const bool parts = !results.points.empty() && !results.points.front().part.empty();
+std::vector<ShownSection> sections_of(const ShownPoints& shown, const ReadFile& read_file) {
+  const bool parts = !shown.all.points.empty() && !shown.all.points.front().part.empty();
   std::vector<ShownSection> sections;
   for (const Section& section : all_sections) {
     if (parts && section.compares) continue;
-    const std::string label = section.label ? section.label : report::answer_label(results, shown);
-    if (Markup content = section.make(results, shown, read_file); !content.empty())
+    const std::string label = section.label ? section.label : report::answer_label(shown);
+    if (Markup content = section.make(shown, read_file); !content.empty())
       sections.push_back({section.id, label, std::move(content)});
   }
   return sections;
@@ -128,23 +125,23 @@ std::vector<ShownSection> sections_of(const Results& results, const ShownPoints&
 // What the first screen shows: the verdict and the answer. Below them stand the live picture and the phase diagram; a
 // report without both has the strips of its motion there, or else the chart of cost against error, and one of parts has that
 // chart above the live picture.
-Markup first_screen(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
+Markup first_screen(const ShownPoints& shown, const ReadFile& read_file) {
   using namespace report;
-  const bool live = has_live_picture(results), diagram = has_diagram(results);
+  const bool live = has_live_picture(shown.all), diagram = has_diagram(shown.all);
   const auto figure = [](const Markup& content) { return div(content) + "\n"; };
-  Markup figures, answer = answer_sentence(results, shown);
-  if (live) figures += div(Attribute("id", "live"), live_figure(results, shown, read_file)) + "\n";
+  Markup figures, answer = answer_sentence(shown);
+  if (live) figures += div(Attribute("id", "live"), live_figure(shown, read_file)) + "\n";
   if (diagram) figures += figure(first_diagram());
-  const bool speed = opens_with_speed(results, shown);
+  const bool speed = opens_with_speed(shown);
   if (speed) figures = figure(speed_chart()) + figures;
-  if (opens_with_motion(results)) figures = figure(flicker_strips(results));
-  if (const Markup of_lights = lights_sentence(results); !of_lights.empty()) answer += " " + of_lights;
-  if (has_flicker(results)) answer += " " + flicker_sentence(results);
+  if (opens_with_motion(shown.all)) figures = figure(flicker_strips(shown.all));
+  if (const Markup of_lights = lights_sentence(shown.all); !of_lights.empty()) answer += " " + of_lights;
+  if (has_flicker(shown.all)) answer += " " + flicker_sentence(shown.all);
   const char* const beside = speed             ? "alone"
                              : live && diagram ? "side-by-side two"
                              : live || diagram ? "side-by-side"
                                                : "alone";
-  return div(css("first-screen"), "\n", verdict_line(results), paragraph(css("said"), answer),
+  return div(css("first-screen"), "\n", verdict_line(shown), answer.empty() ? Markup() : paragraph(css("said"), answer),
              div(css(beside), figures)) +
          "\n";
 }
@@ -155,8 +152,8 @@ std::string render_report(const Results& results,
                           const std::function<std::string(const std::string& path)>& read_file) {
   const std::string& given = !results.info.title.empty() ? results.info.title : results.info.scene_name;
   const ShownPoints shown = report::shown_points(results);
-  const std::vector<ShownSection> sections = sections_of(results, shown, read_file);
-  Markup body = first_screen(results, shown, read_file), links;
+  const std::vector<ShownSection> sections = sections_of(shown, read_file);
+  Markup body = first_screen(shown, read_file), links;
   for (const ShownSection& section : sections) {
     body += section.content;
     links += report::section_link(section.id, section.label);
@@ -168,7 +165,7 @@ std::string render_report(const Results& results,
        .subtitle = subtitle(results),
        .navigation = links,
        .sections = body,
-       .data = report::chart_data(results, shown),
+       .data = report::chart_data(shown),
        .causes = causes,
        .scripts = {"charts", "keyboard", "chart_bias", "chart_lookup", "chart_sweep", "speed_marks", "chart_speed",
                    "chart_laws", "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},

@@ -11,8 +11,8 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
+#include "compare/report/cause_shares.h"
 #include "compare/report/data.h"
-#include "compare/report/findings.h"
 #include "compare/report/part_answers.h"
 #include "compare/report/text.h"
 #include "compare/results/number_text.h"
@@ -42,8 +42,8 @@ Markup swept_cells(const Results& results, const PointRecord& point, const Class
 }
 
 Markup bias_cells(double depth, const BiasCurve& curve) {
-  return td(css("first"), number(depth)) + td(number(depth * curve.m_per_depth)) +
-         td(number(depth * curve.texels_per_depth));
+  return td(css("first"), number(depth * curve.m_per_depth)) + td(number(depth * curve.texels_per_depth)) +
+         td(number(depth));
 }
 
 // What the curves of the points have in common. alike: all vary the same parameter and were made in the same way.
@@ -71,7 +71,8 @@ Markup window_row(const Results& results, const PointRecord& point, const Classe
                   : td(Attribute("colspan", 6), css("fails first"),
                        hides_window(point) ? std::string(window_not_known) : "none: no bias is good enough");
   cells += bias_cells(curve.best_bias_depth, curve) + td(cell(curve.best_error, "fraction"));
-  cells += td(css("first"), number(curve.flat_min_depth), " … ", number(curve.flat_max_depth));
+  cells += td(css("first"), number(curve.flat_min_depth * curve.m_per_depth), " … ",
+              number(curve.flat_max_depth * curve.m_per_depth));
   if (!alike) cells += td(css("text"), curve.parameter) + td(css("text"), curve.made);
   return tr(css(usable ? "" : "broken"), cells);
 }
@@ -86,23 +87,23 @@ Markup windows_head(const Results& results, const Classes& classes, bool alike) 
   if (!alike) names += heads({"Parameter", "Made"});
   Markup units = td();
   for (size_t i = 0; i < results.info.swept.size() + (has_parts(results) ? 1 : 0); ++i) units += td();
-  for (int i = 0; i < 3; ++i) units += th(css("first"), "depth") + heads({"m", "texels"});
-  units += th("error %") + th(css("first"), "depth");
+  for (int i = 0; i < 3; ++i) units += th(css("first"), "m") + heads({"texels", "depth"});
+  units += th("error %") + th(css("first"), "m");
   if (!alike) units += td() + td();
   return element("thead", tr(names), element("tr", css("units"), units));
 }
 
-Markup windows_table(const Results& results, const ShownPoints& shown, bool alike) {
-  const Classes classes = text_classes(results);
+Markup windows_table(const ShownPoints& shown, bool alike) {
+  const Classes classes = text_classes(shown.all);
   Markup rows;
   size_t count = 0;
   for (const PointRecord& point : shown.results.points) {
     if (!point.curve) continue;
     ++count;
-    rows += window_row(results, point, classes, alike);
+    rows += window_row(shown.all, point, classes, alike);
   }
   const Markup windows =
-      element("table", css("numbers windows"), windows_head(results, classes, alike), element("tbody", "\n", rows));
+      element("table", css("numbers windows"), windows_head(shown.all, classes, alike), element("tbody", "\n", rows));
   return folded("", count <= open_rows,
                 shown.note.empty() ? "Every window" : "The windows of the points that are shown",
                 div(css("scroll"), windows) + "\n");
@@ -135,11 +136,11 @@ Markup by_bias(const Markup& as_set, const Markup& recommended) {
   return span(css("as-set"), as_set) + span(css("as-recommended"), recommended);
 }
 
-Markup bias_section(const Results& results, const ShownPoints& shown) {
-  const auto [first, alike] = curves_of_all(results);
+Markup bias_section(const ShownPoints& shown) {
+  const auto [first, alike] = curves_of_all(shown.all);
   if (!first) return "";  // the findings say why
   Markup out;
-  for (const PointRecord& point : results.points) {
+  for (const PointRecord& point : shown.all.points) {
     if (has_curve(point) || why_no_curve(point).empty()) continue;
     out += paragraph(css("small"), prose("Some points have no curve: {}.", why_no_curve(point)));
     break;
@@ -154,9 +155,9 @@ Markup bias_section(const Results& results, const ShownPoints& shown) {
   if (const size_t drawn = drawn_biases(*first, curve_entries(shown.results)).size(); drawn < first->bias_depth.size())
     out += paragraph(css("small"), prose("The chart draws {} of the {} biases of a curve, evenly chosen. {} has all of "
                                          "them. Windows and best biases are of the exact curve.",
-                                         drawn, first->bias_depth.size(), code("results.sqlite")));
+                                         drawn, first->bias_depth.size(), code("shown.all.sqlite")));
   out += chart_place("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
-  return section("bias", "Error against bias", out + windows_table(results, shown, alike));
+  return section("bias", "Error against bias", out + windows_table(shown, alike));
 }
 
 namespace {
@@ -204,18 +205,18 @@ Markup sweep_of(const std::string& name, const std::vector<std::string>& values,
 
 }  // namespace
 
-Markup sweep_section(const Results& results, const ShownPoints& shown) {
+Markup sweep_section(const ShownPoints& shown) {
   Markup out =
       paragraph(css("small"), "The tables are of the error against the hard truth (R1). The charts offer the others.") +
       shown.note;
   std::vector<Markup> labels;
-  for (const std::string& name : results.info.swept) {
-    const std::vector<std::string> values = values_of(results, name);
+  for (const std::string& name : shown.all.info.swept) {
+    const std::vector<std::string> values = values_of(shown.all, name);
     if (values.size() < 2 ||
         !std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
       continue;
     labels.push_back(setting_label(name));
-    out += sweep_of(name, values, labels.size(), results);
+    out += sweep_of(name, values, labels.size(), shown.all);
   }
   return labels.empty() ? "" : section("sweep", "Error against " + joined(labels, ", "), out);
 }
@@ -277,9 +278,9 @@ Markup budget_choice(std::string_view id, const char* label, bool checked) {
 
 }  // namespace
 
-Markup budget_section(const Results& results, const ShownPoints& shown) {
-  if (results.points.empty()) return "";
-  const std::vector<CauseColor> causes = causes_of(results.points);
+Markup budget_section(const ShownPoints& shown) {
+  if (shown.all.points.empty()) return "";
+  const std::vector<CauseColor> causes = causes_of(shown.all.points);
   std::vector<CausesOfPoint> of_points;
   double largest = 0;
   for (const PointRecord& point : shown.results.points) {
@@ -288,14 +289,14 @@ Markup budget_section(const Results& results, const ShownPoints& shown) {
   }
   // What every point shares does not tell the rows apart.
   std::vector<std::string> differing;
-  for (const std::string& name : results.info.swept)
-    if (values_of(results, name).size() > 1) differing.push_back(name);
+  for (const std::string& name : shown.all.info.swept)
+    if (values_of(shown.all, name).size() > 1) differing.push_back(name);
   Markup legend, rows;
   for (const CauseColor& cause : causes)
     if (is_part(cause.name)) legend += legend_entry(cause.name, cause.label);
   for (size_t i = 0; i < of_points.size(); ++i)
     rows += budget_row(shown.results.points[i], of_points[i], differing, largest);
-  const bool frames = judges_frames(results.points);
+  const bool frames = judges_frames(shown.all.points);
   const Markup of_frames =
       "The part of the error at each place, as a share of counted receivers. The number at the end is the whole error, "
       "mean "
@@ -309,12 +310,12 @@ Markup budget_section(const Results& results, const ShownPoints& shown) {
                    "whole error, mean |{} − R1|. With a filter, causes can cancel in it, and displacement can cancel "
                    "with the "
                    "others, so the bar can be longer.",
-                   by_bias(fmt::format("with the {} as rendered", free_setting_words(results.points)),
+                   by_bias(fmt::format("with the {} as rendered", free_setting_words(shown.all.points)),
                            fmt::format("with the recommended {} (causes that no curve gives are as rendered)",
-                                       free_setting_words(results.points))),
-                   judged_rung(results.points.front()));
+                                       free_setting_words(shown.all.points))),
+                   judged_rung(shown.all.points.front()));
   const Markup bars =
-      div(css(results.points.size() > open_rows ? "budget many" : "budget"), budget_choice("size", "By size", true),
+      div(css(shown.all.points.size() > open_rows ? "budget many" : "budget"), budget_choice("size", "By size", true),
           budget_choice("share", "By share", false), "\n", div(css("rows"), "\n", rows));
   return section("budget", frames ? "The error by place" : "The error budget",
                  paragraph(words) + shown.note + div(css("legend"), legend) + "\n" + bars);

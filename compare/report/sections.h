@@ -13,10 +13,10 @@ namespace noonmark::report {
 
 // Each is empty if the results have nothing for it.
 // Error against bias: the chart's place and the windows' table.
-Markup bias_section(const Results& results, const ShownPoints& shown);
+Markup bias_section(const ShownPoints& shown);
 // Error against resolution, extent and other swept numbers.
-Markup sweep_section(const Results& results, const ShownPoints& shown);
-Markup budget_section(const Results& results, const ShownPoints& shown);  // bars by cause
+Markup sweep_section(const ShownPoints& shown);
+Markup budget_section(const ShownPoints& shown);  // bars by cause
 
 // The figure that charts.js fills. It is hidden without JavaScript; the table below it has the same numbers.
 // caption: text.

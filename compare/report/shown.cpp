@@ -19,39 +19,37 @@ namespace noonmark::report {
 namespace {
 
 // Indices of the points that the page speaks of, the most important first.
-std::vector<size_t> spoken_of(const Results& results, const ShownPoints& shown) {
+std::vector<size_t> spoken_of(const ShownPoints& shown) {
   const std::vector<ComparedGroup>& groups = shown.groups;
   std::vector<size_t> out;
   std::map<int64_t, size_t> place;
-  for (size_t i = 0; i < results.points.size(); ++i) place.emplace(results.points[i].id, i);
+  for (size_t i = 0; i < shown.all.points.size(); ++i) place.emplace(shown.all.points[i].id, i);
   const auto add = [&](int64_t id) {
     if (const auto found = place.find(id); found != place.end()) out.push_back(found->second);
   };
-  if (results.points.front().part.empty()) {
-    for (const Recommendation* found : {&shown.recommended, &shown.accurate})
-      for (const PointRecord* point : found->choice.points) add(point->id);
+  if (shown.all.points.front().part.empty()) {
+    for (const PointRecord* point : shown.recommended.choice.points) add(point->id);
   }
-  for (const BoundResult& bound : results.bounds) add(bound.point);
-  for (const LawResult& law : results.laws)
+  for (const BoundResult& bound : shown.all.bounds) add(bound.point);
+  for (const LawResult& law : shown.all.laws)
     if (law.worst >= 0) add(law.samples[static_cast<size_t>(law.worst)].point);
   const auto error_of = [](const PointRecord& point) {
     const double error = metric_of(point, "error");
     return std::isnan(error) ? -1 : error;
   };
-  const auto worst = std::max_element(results.points.begin(), results.points.end(),
+  const auto worst = std::max_element(shown.all.points.begin(), shown.all.points.end(),
                                       [&](const auto& a, const auto& b) { return error_of(a) < error_of(b); });
   add(worst->id);
   const std::string& error = shown.error_first;
   for (const ComparedGroup& group : groups) {
-    std::vector<size_t> named = front_of(group, results.info.cost, error);
-    for (const std::optional<size_t>& one : {group.recommended, group.accurate})
-      if (one) named.push_back(*one);
+    std::vector<size_t> named = front_of(group, shown.all.info.cost, error);
+    if (group.recommended) named.push_back(*group.recommended);
     for (size_t i : named)
       if (const PointRecord* at = value_of(group.choices[i], error).at) add(at->id);
   }
-  for (int64_t id : answer_points(groups, shown.techniques, results)) add(id);
-  for (size_t i = 0; i < results.points.size(); ++i)
-    if (!results.points[i].pictures.empty()) out.push_back(i);
+  for (int64_t id : answer_points(groups, shown.techniques, shown.all)) add(id);
+  for (size_t i = 0; i < shown.all.points.size(); ++i)
+    if (!shown.all.points[i].pictures.empty()) out.push_back(i);
   return out;
 }
 
@@ -101,12 +99,7 @@ std::vector<size_t> smaller_grid(const Results& results, std::string& said) {
 
 ShownPoints shown_points(const Results& results) {
   const size_t count = results.points.size();
-  ShownPoints shown;
-  shown.groups = compared_groups(results);
-  const std::vector<Recommendation> good = good_choices(shown.groups);
-  shown.recommended = recommend(results, good);
-  shown.accurate = recommend_accurate(results, good);
-  for (const ComparedGroup& group : shown.groups) shown.techniques.push_back(techniques_of(group, results));
+  ShownPoints shown(results);
   shown.costs = costs_of(results);
   shown.errors = errors_of(results);
   shown.error_first = error_shown_first(results);
@@ -122,7 +115,7 @@ ShownPoints shown_points(const Results& results) {
   }
   std::set<size_t> chosen(even.begin(), even.end());
   const size_t from_the_grid = chosen.size();
-  for (size_t i : spoken_of(results, shown)) {
+  for (size_t i : spoken_of(shown)) {
     if (chosen.size() == from_the_grid + max_marked_points) break;
     chosen.insert(i);
   }

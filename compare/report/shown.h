@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/judge/techniques.h"
-#include "compare/judge/tradeoff.h"
+#include "compare/judge/findings.h"
 #include "compare/report/element.h"
 #include "compare/results/records.h"
 
@@ -24,14 +23,11 @@ inline constexpr size_t max_even_points = 500;
 // Points that are shown although they are not among the evenly chosen ones (see shown_points): at most this many.
 inline constexpr size_t max_marked_points = 150;
 
-struct ShownPoints {
-  Results results;  // the same results with the shown points only, in the same order
-  Markup note;      // how many of how many, how they were chosen, and where all points are
-  // All choices, also those that are not shown. They refer to the points that were given to shown_points().
-  std::vector<ComparedGroup> groups;
-  // What several parts of the page say of all points, found once, because of thousands of points each takes its time.
-  std::vector<Techniques> techniques;      // of each group
-  Recommendation recommended, accurate;    // recommend(), recommend_accurate()
+// What was found in all points, and the points that are shown.
+struct ShownPoints : Findings {
+  explicit ShownPoints(const Results& of) : Findings(of) {}
+  Results results;                         // the same results with the shown points only, in the same order
+  Markup note;                             // how many of how many, how they were chosen, and where all points are
   std::vector<std::string> costs, errors;  // costs_of(), errors_of() (compare/report/speed.h)
   std::string error_first;                 // error_shown_first()
 };

@@ -12,7 +12,7 @@
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/techniques.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 #include "compare/report/speed_reading.h"
 #include "compare/report/text.h"
 #include "compare/results/number_text.h"
@@ -317,19 +317,19 @@ const PointRecord* point_on_page(const ComparedChoice& one, const std::string& e
   return nullptr;
 }
 
-json speed_data(const Results& results, const ShownPoints& shown) {
+json speed_data(const ShownPoints& shown) {
   json data{{"costs", shown.costs}, {"errors", shown.errors}, {"error", shown.error_first}};
   data["groups"] = json::array();
   if (shown.groups.empty()) return data;
   const size_t first = group_shown_first(shown.groups);
   data["group"] = 0;
-  const ChoiceNames names(results);
-  const GroupNames group_names(results, shown.groups);
+  const ChoiceNames names(shown.all);
+  const GroupNames group_names(shown.all, shown.groups);
   const Axes axes{shown.costs, shown.errors, shown.error_first};
   std::unordered_set<int64_t> shown_ids;
   for (const PointRecord& point : shown.results.points) shown_ids.insert(point.id);
   for (size_t i = 0; i < shown.groups.size(); ++i) {
-    json group = group_data(shown.groups[i], shown.techniques[i], results, axes, names, shown_ids);
+    json group = group_data(shown.groups[i], shown.techniques[i], shown.all, axes, names, shown_ids);
     if (group["entries"].empty()) continue;
     group["name"] = group_names.of(shown.groups[i]);
     if (i == first) data["group"] = data["groups"].size();

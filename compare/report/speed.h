@@ -35,7 +35,7 @@ std::string error_shown_first(const Results& results);
 double error_in_plane(const ComparedChoice& one, const std::string& error, AtBias at);
 
 // Indices of the choices on the Pareto front, from the cheapest to the most accurate: those that count and are on
-// pareto_front() (findings.h). The cost is the largest over the conditions too.
+// pareto_front() (cause_shares.h). The cost is the largest over the conditions too.
 std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error,
                              AtBias at = AtBias::best);
 
@@ -75,6 +75,6 @@ const PointRecord* point_on_page(const ComparedChoice& one, const std::string& e
 
 // For page/chart_speed.js: the metrics of both axes, and each group with its choices that are shown. A value that is not
 // finite is null.
-nlohmann::json speed_data(const Results& results, const ShownPoints& shown);
+nlohmann::json speed_data(const ShownPoints& shown);
 
 }  // namespace noonmark::report

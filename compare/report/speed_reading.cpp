@@ -11,7 +11,7 @@
 
 #include "base/text.h"
 #include "compare/judge/recommendation.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 #include "compare/report/text.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"

@@ -16,7 +16,7 @@
 #include "compare/judge/least_error.h"
 #include "compare/judge/techniques.h"
 #include "compare/judge/tradeoff.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 #include "compare/report/speed.h"
 #include "compare/results/records.h"
 

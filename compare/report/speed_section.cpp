@@ -254,13 +254,13 @@ bool has_speed_chart(const ShownPoints& shown) {
   return compares_choices(shown.groups) && !shown.costs.empty() && !shown.errors.empty();
 }
 
-Markup speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen) {
+Markup speed_section(const ShownPoints& shown, bool on_first_screen) {
   if (!has_speed_chart(shown)) return "";
-  Plane plane{results, shown.costs.front(), shown.error_first, ChoiceNames(results), {}};
+  Plane plane{shown.all, shown.costs.front(), shown.error_first, ChoiceNames(shown.all), {}};
   for (const PointRecord& point : shown.results.points) plane.shown_ids.insert(point.id);
   const size_t first = group_shown_first(shown.groups);
   const ComparedGroup& group = shown.groups[first];
-  const SpeedReadings readings(group, shown.techniques[first], results);
+  const SpeedReadings readings(group, shown.techniques[first], shown.all);
   const auto words = [&](AtBias at) {
     const SpeedReading reading = readings.of(plane.cost, plane.error, at);
     Markup takeovers;
@@ -270,7 +270,7 @@ Markup speed_section(const Results& results, const ShownPoints& shown, bool on_f
     std::erase_if(sentences, [](const Markup& sentence) { return sentence.empty(); });
     return joined(sentences, " ");
   };
-  const GroupNames names(results, shown.groups);
+  const GroupNames names(shown.all, shown.groups);
   const std::string name = names.of(group);
   Markup out;
   if (!name.empty())

@@ -9,7 +9,7 @@ namespace noonmark::report {
 
 // Words, chart and table are for RunInfo::cost and error_shown_first() (compare/report/speed.h); in the chart the reader
 // chooses others. on_first_screen: the chart stands there (speed_chart()) and not in the section.
-Markup speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen);
+Markup speed_section(const ShownPoints& shown, bool on_first_screen);
 
 // Whether some choices can be compared with each other. One alone has no chart.
 bool compares_choices(const std::vector<ComparedGroup>& groups);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/results/records.h"
+#include "compare/judge/findings.h"
 
 namespace noonmark {
 
@@ -13,9 +13,9 @@ struct SummaryPicture {
   std::string text;  // what it shows, as sentences
 };
 
-// First the verdict, then the bounds (broken ones with the command that reproduces them), then the points with the
-// least error and the bias that each needs. A comparison with a baseline stands before the bounds; pictures: stand after them.
-std::string to_summary(const Results& results, const std::vector<SummaryPicture>& pictures = {});
+// First the verdict and the answer, then the laws and bounds (broken ones with the command that reproduces them), and of frames the
+// errors of each. A comparison with a baseline stands before the bounds; pictures: stand after them.
+std::string to_summary(const Findings& found, const std::vector<SummaryPicture>& pictures = {});
 
 // The reason why nothing was judged.
 std::string to_summary(const Unjudged& unjudged);

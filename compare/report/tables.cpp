@@ -138,16 +138,16 @@ Markup picture_figure(const PictureRecord& record, const ReadFile& read_file) {
          "\n";
 }
 
-Markup pictures_section(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
-  const std::map<int64_t, double> biases = recommended_biases(shown.groups);
+Markup pictures_section(const ShownPoints& shown, const ReadFile& read_file) {
+  const std::map<int64_t, double> biases = recommended_biases(shown);
   Markup sets, legend, sections;
-  for (const PointRecord& point : results.points)
+  for (const PointRecord& point : shown.all.points)
     if (!point.pictures.empty()) {
-      sets += pictures_of(point, results.info.swept, biases, read_file);
-      sections += sections_of(point, results.info.swept, read_file);
+      sets += pictures_of(point, shown.all.info.swept, biases, read_file);
+      sections += sections_of(point, shown.all.info.swept, read_file);
     }
   if (sets.empty()) return "";
-  for (const CauseColor& color : causes_of(results.points))
+  for (const CauseColor& color : causes_of(shown.all.points))
     if (color.name != "aliasing" && color.name != "coverage") legend += legend_entry(color.name, color.label);
   for (const CauseColor& color : pixel_state_colors) legend += legend_entry(color.name, color.label);
   const auto key = [](const char* name) { return element("kbd", name); };
@@ -195,29 +195,29 @@ Markup points_row(const PointRecord& point, const Results& results, const Column
 
 }  // namespace
 
-Markup points_section(const Results& results, const ShownPoints& shown) {
-  if (results.points.empty()) return "";
-  Columns columns{!results.points.front().part.empty(), text_classes(results), {}};
-  const std::vector<Metric> metrics = metrics_of(results.points);
-  const auto varying = varying_metrics(results.points);
+Markup points_section(const ShownPoints& shown) {
+  if (shown.all.points.empty()) return "";
+  Columns columns{!shown.all.points.front().part.empty(), text_classes(shown.all), {}};
+  const std::vector<Metric> metrics = metrics_of(shown.all.points);
+  const auto varying = varying_metrics(shown.all.points);
   std::string same;
   for (const Metric& metric : metrics) {
     const std::string name(metric.name);
-    if (results.points.size() == 1 || varying.contains(name))
+    if (shown.all.points.size() == 1 || varying.contains(name))
       columns.metrics.push_back(&metric);
-    else if (results.points.front().metrics.contains(name))
+    else if (shown.all.points.front().metrics.contains(name))
       same += fmt::format("{}{} {}", same.empty() ? "" : ", ", metric_label(name),
-                          quantity(metric_of(results.points.front(), name), metric.unit));
+                          quantity(metric_of(shown.all.points.front(), name), metric.unit));
   }
   Markup rows;
-  for (const PointRecord& point : shown.results.points) rows += points_row(point, results, columns);
+  for (const PointRecord& point : shown.results.points) rows += points_row(point, shown.all, columns);
   // With JavaScript, page/points_table.js makes the rows when they are seen. Without, this table has them.
   Markup out =
       shown.note + paragraph(css("js-only small"), prose("Click a head to sort, a row for the point's card.")) +
       div(css("points-place js-only")) + "\n" +
-      element("noscript", div(css("scroll tall"), table("numbers", points_head(results, columns), rows))) + "\n" +
+      element("noscript", div(css("scroll tall"), table("numbers", points_head(shown.all, columns), rows))) + "\n" +
       paragraph(css("small"), prose("{} has what the experiment asks for; {} writes every column there.",
-                                    code("results.csv"), code("noonmark report FOLDER --all")));
+                                    code("shown.all.csv"), code("noonmark report FOLDER --all")));
   if (!same.empty()) out += paragraph(css("small"), prose("The same at every point: {}.", same));
   return section("points", shown.note.empty() ? "Every point" : "Points", out);
 }

@@ -10,11 +10,10 @@
 namespace noonmark::report {
 
 // read_file: as for render_report().
-Markup pictures_section(const Results& results, const ShownPoints& shown,
-                        const std::function<std::string(const std::string&)>& read_file);
+Markup pictures_section(const ShownPoints& shown, const std::function<std::string(const std::string&)>& read_file);
 // One picture with its caption, or why it is not shown.
 Markup picture_figure(const PictureRecord& record, const std::function<std::string(const std::string&)>& read_file);
-Markup points_section(const Results& results, const ShownPoints& shown);
+Markup points_section(const ShownPoints& shown);
 Markup meaning_section(const Results& results);
 Markup making_section(const Results& results);
 

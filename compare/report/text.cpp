@@ -182,8 +182,8 @@ std::vector<std::string> without_curve_parameter(const PointRecord& point, std::
 }
 
 std::string bias_phrase(double depth, const BiasCurve& curve) {
-  return fmt::format("{0}{1}depth = {2}{1}m = {3}{1}texels", number(depth), thin_space,
-                     number(depth * curve.m_per_depth), number(depth * curve.texels_per_depth));
+  return fmt::format("{0}{1}m = {2}{1}texels = {3}{1}depth", number(depth * curve.m_per_depth), thin_space,
+                     number(depth * curve.texels_per_depth), number(depth));
 }
 
 std::string bias_in_unit(double value, const std::string& unit) {

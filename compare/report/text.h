@@ -41,7 +41,7 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
 // The names without the setting that the point's curve varies, if it has a curve: where a bias of the curve is said, the
 // bias of the point would be a second one.
 std::vector<std::string> without_curve_parameter(const PointRecord& point, std::vector<std::string> names);
-// "0.0021 depth = 0.0137 m = 0.7 texels"
+// "0.0137 m = 0.7 texels = 0.0021 depth"
 std::string bias_phrase(double depth, const BiasCurve& curve);
 // "0.7 texels". unit: the text of bias.unit.
 std::string bias_in_unit(double value, const std::string& unit);

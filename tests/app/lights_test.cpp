@@ -225,7 +225,7 @@ TEST_F(LightsRun, ResumesWithTheLightsItHasNow) {
   for (size_t i = 0; i < 3; ++i) EXPECT_LE(metric(all, i, "light_share"), largest->metrics.at("light_share"));
   EXPECT_NE(report::lights_sentence(all).html().find("<b>" + largest->part + "</b> makes"), std::string::npos)
       << report::lights_sentence(all).html();
-  const report::Opening opened = report::opening(all, compared_groups(all), recommend(all));
+  const report::Opening opened = report::opening(all);
   ASSERT_NE(opened.point, nullptr);
   EXPECT_EQ(opened.point->id, largest->id);
   EXPECT_FALSE(opened.bias);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "app/advise/recommend.h"
 #include "app/advise/recommend_space.h"
 #include "compare/judge/recommendation.h"
@@ -120,6 +122,21 @@ TEST(FragileBias, MayVaryByLessThanAQuarter) {
   EXPECT_TRUE(is_fragile(bias));
   bias.value = 0, bias.window = {0, 1};
   EXPECT_FALSE(is_fragile(bias));
+}
+
+// The dearer neighbour comes before the cheaper one; where all are fragile nothing is passed over.
+TEST(FragileBias, IsNotTheAnswerThatIsPrinted) {
+  using enum AnswerKind;
+  const auto printed = [](AnswerKind usual, std::set<AnswerKind> fragile) {
+    return printed_answer(usual, [&](AnswerKind kind) { return fragile.contains(kind); });
+  };
+  EXPECT_EQ(printed(least, {}), least);
+  EXPECT_EQ(printed(least, {least}), balanced);
+  EXPECT_EQ(printed(least, {least, balanced}), best);
+  EXPECT_EQ(printed(best, {best}), balanced);
+  EXPECT_EQ(printed(balanced, {balanced}), best);
+  EXPECT_EQ(printed(balanced, {balanced, best}), least);
+  EXPECT_EQ(printed(least, {least, balanced, best}), least);
 }
 
 }  // namespace

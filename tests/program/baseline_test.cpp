@@ -82,7 +82,7 @@ TEST_F(ProgramBaseline, EveryFileHasTheOneVerdict) {
   EXPECT_EQ(run({"check", "x.toml", "--out", "out", "--baseline", "b.json", "--quiet"}), 1) << output_;
   const size_t last = output_.find("x.toml: ");
   ASSERT_NE(last, output_.npos) << output_;
-  EXPECT_EQ(output_.compare(last, 31, "x.toml: worse than the baseline"), 0) << output_;
+  EXPECT_EQ(output_.compare(last, 31, "x.toml: Worse than the baseline"), 0) << output_;
   EXPECT_EQ(run({"report", "out"}), 0) << output_;
   files_are("worse", false);  // the store has it
   // The next run without a baseline knows nothing of it.
@@ -155,7 +155,9 @@ TEST_F(ProgramBaseline, GitHubShowsWhatIsBroken) {
               output_.starts_with(fmt::format("::error file=x.toml,line={},", line)))
       << output_;
   EXPECT_TRUE(says(fmt::format("::warning file=x.toml,line={},title=acne >= 90%25::warning: ", line + 3))) << output_;
-  EXPECT_TRUE(says("::error file=x.toml,title=baseline::worse: error at map.resolution = 64")) << output_;
+  EXPECT_TRUE(
+      says("::error file=x.toml,title=no value is worse than in the baseline::worse: error at map.resolution = 64"))
+      << output_;
   EXPECT_EQ(run(words, [] { unsetenv("GITHUB_ACTIONS"); }), 1);
   EXPECT_FALSE(says("::error")) << output_;
   EXPECT_FALSE(says("\x1b")) << "a file has no colours: " << output_;

@@ -143,16 +143,16 @@ TEST_F(CheckFrames, ARefusedFrameHidesNothingOfTheOthers) {
   expect_run({"check", "checks/frames.toml", "--out", "out"}, 3,
              {"refused: frame 0 is refused, so its shadows are not judged: checks/0.exr: cannot be read",
               "refused: frame 1 is refused, so its shadows are not judged: inverted: ",
-              "2 of 3 frames refused, 0 of 1 bound held"});
+              "checks/frames.toml: Refused: 2 of 3 frames; broken: 1 of 1 bound; "});
   EXPECT_TRUE(says("(worst of 1 point)")) << "the two have no values: " << output_;
   EXPECT_TRUE(says("reproduce: noonmark judge checks/2.json --max frame_acne=0.0005")) << output_;
   const std::string summary = text("out/summary.md"), junit = text("out/junit.xml"), report = text("out/report.html");
-  EXPECT_NE(summary.find("**2 of 3 frames refused; broken: 1 of 1 bound.**"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("**Refused: 2 of 3 frames; broken: 1 of 1 bound.**"), std::string::npos) << summary;
   EXPECT_NE(summary.find("| frame 1 | refused |"), std::string::npos) << summary;
   EXPECT_NE(summary.find("given.frame = frame 2"), std::string::npos) << summary;
   EXPECT_NE(junit.find("tests=\"4\" failures=\"1\" errors=\"2\""), std::string::npos) << junit;
   EXPECT_NE(junit.find("name=\"the delivery of frame 1\""), std::string::npos) << junit;
-  for (const char* words : {"2 of 3 frames refused", "cannot be read", "inverted: "})
+  for (const char* words : {"Refused: 2 of 3 frames", "cannot be read", "inverted: "})
     EXPECT_NE(report.find(words), std::string::npos) << words;
   EXPECT_EQ(run({"report", "out"}), 0) << "the store has all that the report says: " << output_;
   EXPECT_EQ(text("out/report.html"), report);
@@ -161,7 +161,7 @@ TEST_F(CheckFrames, ARefusedFrameHidesNothingOfTheOthers) {
   frames_with_stripe_in(-1);
   fs::remove(folder_ / "checks/1.json");
   EXPECT_EQ(run({"check", "checks/frames.toml", "--out", "out"}), 3) << output_;
-  EXPECT_TRUE(says("1 of 3 frames refused, 1 of 1 bound held")) << "a bound that holds for the others: " << output_;
+  EXPECT_TRUE(says("Refused: 1 of 3 frames; held: the bound")) << "a bound that holds for the others: " << output_;
   expect_run({"run", "checks/frames.toml", "--out", "out"}, 3, {"refused: frame 1 is refused"});
 }
 

@@ -99,7 +99,7 @@ name = "half of what it takes"
 measured = "acne_free_bias_m"
 at_most = "texel_m / 4 * tan_deg(scene.theta_deg)"
 )toml");
-  expect_run({"check", "x.toml", "--out", "out"}, 1, {"x.toml: 1 of 2 laws hold"});
+  expect_run({"check", "x.toml", "--out", "out"}, 1, {"x.toml: Broken: 1 of 2 laws; "});
   EXPECT_TRUE(std::regex_search(output_, std::regex("right .* holds"))) << output_;
   EXPECT_TRUE(std::regex_search(output_, std::regex("half of what it takes .* BROKEN"))) << output_;
   EXPECT_TRUE(std::regex_search(output_, std::regex("reproduce: noonmark render x.toml --point [01]"))) << output_;

@@ -1,11 +1,11 @@
 // The offset that lies in the depths of a handed map, of maps that are made by hand.
-#include "measure/given_lookup.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "measure/given_lookup.h"
 
 namespace noonmark {
 namespace {

@@ -39,7 +39,7 @@ TEST_F(Merge, OfPointsThatSeveralSharesHave) {
   measure("2/2");
   copy("out/share-2-of-2", "elsewhere");
   expect_run({"merge", "joined", "out/share-1-of-2", "out/share-2-of-2", "elsewhere"}, 0,
-             {"4 of 4 points from 3 stores (2 in more than one, and alike)", "1 of 1 bound held"});
+             {"4 of 4 points from 3 stores (2 in more than one, and alike)", ": Held: the bound at these 4 points; "});
   EXPECT_TRUE(exists("joined/report.html") && exists("joined/junit.xml") && exists("joined/summary.md"));
   EXPECT_FALSE(exists("out/share-1-of-2/junit.xml")) << "a share is not judged";
   // Again, with the shares in another order; the joined store is replaced.

@@ -364,7 +364,8 @@ function verdict(p) {
         high = placed ? p.curve.window_max_worst_depth : p.curve.window_max_depth;
     text.push(
         typeof low !== 'number' ? 'Its usable window is ' + (p.no_window || 'empty') + '.' :
-                                  'Usable from ' + kit.digits(low) + ' to ' + kit.digits(high) + ' depth' +
+                                  'Usable from ' + kit.digits(low * p.curve.m_per_depth) + ' to ' +
+                kit.digits(high * p.curve.m_per_depth) + ' m' +
                 (placed ? ' at every placement of the grid.' : '.'));
   } else if (p.reductions) {
     var window = kit.windowOfReduction(p);

@@ -136,8 +136,8 @@ function start(bytes) {
   function text(d) {
     if (stack && !live.depth_per_unit) return kit.shown(d, live.unit);
     var inDepth = stack ? d * live.depth_per_unit : d;
-    return kit.digits(inDepth) + ' depth = ' + kit.digits(inDepth * live.m_per_depth) +
-        ' m = ' + kit.digits(inDepth * live.texels_per_depth) + ' texels';
+    return kit.digits(inDepth * live.m_per_depth) + ' m = ' + kit.digits(inDepth * live.texels_per_depth) +
+        ' texels = ' + kit.digits(inDepth) + ' depth';
   }
   // The point's own pictures, in full size, are of the bias as set, and some of the recommended one. They are shown at these
   // biases, and the live picture at every other.

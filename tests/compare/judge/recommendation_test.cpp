@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/findings.h"
 #include "compare/judge/tradeoff.h"
 #include "compare/ladder/numbers.h"
 
@@ -65,15 +66,12 @@ TEST(Recommend, SaysFromWhichEndsTheBiasKeepsItsDistance) {
   EXPECT_EQ(of_window(0, 0), "no bias is needed, so there is no lower end, and 0 is furthest from the upper one");
 }
 
-TEST(Recommend, AccurateTakesTheLeastErrorAtTheChosenBias) {
+TEST(Recommend, TakesTheErrorAtTheChosenBias) {
   Results results;
   results.points = {point_with(0, 1, 0.75, 1.0), point_with(1, 3, 0.25, 0.75), point_with(2, 2, 0.25, 0.75),
                     point_with(3, 1, {}, {})};
   EXPECT_EQ(id_of(recommend(results)), 0);
   EXPECT_NEAR(recommend(results).error.worst, 0.3, 1e-15);
-  EXPECT_EQ(id_of(recommend_accurate(results)), 2);  // as accurate as point 1, and cheaper
-  EXPECT_EQ(recommend_accurate(results).error.worst, 0.125);
-  EXPECT_EQ(recommend_accurate(results).cost.middle, 2);
 }
 
 // Points of the given times, each with an error of its own; the cost is the time.
@@ -287,7 +285,7 @@ Results over_two_views() {
 
 TEST(Over, AnAnswerHoldsUnderEveryCondition) {
   Results results = over_two_views();
-  ASSERT_EQ(choices_of(results).size(), 2u);
+  ASSERT_EQ(choices_of(results, results.info.over).size(), 2u);
   EXPECT_EQ(id_of(recommend(results)), 0);
   EXPECT_EQ(recommend(results).choice.points.size(), 2u);
   // The windows are intersected: [0.25, 0.75] and [0.6, 1].
@@ -306,6 +304,21 @@ TEST(Over, AnAnswerHoldsUnderEveryCondition) {
   EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);
 }
 
+// A camera that [sweep] varies is nothing to set: the answer holds in each, and the points of each are compared for themselves.
+TEST(Over, WhatDecidesWhatIsSeenIsNeverAChoice) {
+  Results results = over_two_views();
+  results.info.over.clear();
+  EXPECT_EQ(choice_settings(results.info), std::vector<std::string>{"map.resolution"});
+  EXPECT_EQ(compared_groups(results).size(), 2u);
+  EXPECT_EQ(recommend(results).choice.points.size(), 2u);
+  results.points[2].curve->window_min_depth = 0.8;  // of the cheaper choice, in the second view
+  results.points[2].curve->window_max_depth = 1;
+  EXPECT_EQ(id_of(recommend(results)), 1) << "it is good enough in one view alone";
+  EXPECT_EQ(Findings(results).recommended.choice.points.size(), 2u);
+  results.planned_points = 5;
+  EXPECT_EQ(recommend(results).outcome, Outcome::incomplete);
+}
+
 TEST(Over, WindowsMeetInTheUnitOfTheParameter) {
   for (const int further : {0, 1}) {  // the view whose map reaches twice as far
     Results results = over_two_views();
@@ -313,7 +326,7 @@ TEST(Over, WindowsMeetInTheUnitOfTheParameter) {
       point.settings["bias.unit"] = "m";
       point.curve->m_per_depth = point.id / 2 == further ? 20 : 10;
     }
-    const std::optional<Interval> window = joined_window(choices_of(results).front());
+    const std::optional<Interval> window = joined_window(choices_of(results, results.info.over).front());
     ASSERT_TRUE(window) << further;
     EXPECT_EQ(window->low, 5) << further;     // 2.5 and 5 m
     EXPECT_EQ(window->high, 7.5) << further;  // 7.5 and 15 m
@@ -346,7 +359,7 @@ TEST(Over, PercentileIsTheNearestRank) {
     point.metrics = {{"error", static_cast<double>(id)}};
     results.points.push_back(point);
   }
-  const Joined all = joined(choices_of(results).front(), "error");
+  const Joined all = joined(choices_of(results, results.info.over).front(), "error");
   EXPECT_EQ(all.p95, 18);
   EXPECT_EQ(all.worst, 19);
   EXPECT_NEAR(all.mean, 9.5, 1e-12);

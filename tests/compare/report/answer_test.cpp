@@ -23,13 +23,17 @@ TEST(Answer, OneBiasIsSaidOfAnAnswer) {
   };
   const std::string said = between("<p class=\"said\">", "</p>"),
                     box = between("<div class=\"recommend ", "</div>\n<p");
-  EXPECT_NE(said.find("and bias.constant "), std::string::npos) << said;
+  EXPECT_NE(said.find(" with a bias of "), std::string::npos) << said;
   EXPECT_EQ(said.find("bias constant"), std::string::npos) << said;
   EXPECT_NE(box.find("<dt>bias.constant</dt>"), std::string::npos) << box;
   EXPECT_EQ(box.find("<dt>bias.constant</dt>"), box.rfind("<dt>bias.constant</dt>")) << "the swept one is there too";
   EXPECT_EQ(body.find("Largest causes there, with the bias as rendered"), std::string::npos);
   EXPECT_NE(body.find("Largest causes there, with this bias"), std::string::npos);
-  EXPECT_NE(body.find("All 2 bounds hold, with the bias as set"), std::string::npos) << "bounds are judged as rendered";
+  EXPECT_NE(body.find("Held: all 2 bounds at these 32 points"), std::string::npos) << "no one bias was set";
+  for (PointRecord& point : results.points) point.settings["bias.constant"] = "0.005";
+  const std::string one = without_scripts(render_report(results, sample_picture));
+  EXPECT_NE(one.find("(0.005 of the depth) holds all 2 bounds"), std::string::npos);
+  EXPECT_NE(one.find("<p class=\"said\">Cheaper: <a "), std::string::npos);
 }
 
 TEST(Answer, WhatIsBrokenComesFirstWithItsBias) {
@@ -42,7 +46,7 @@ TEST(Answer, WhatIsBrokenComesFirstWithItsBias) {
       "<p class=\"said\">Acne is 0.83\u202f% where at most 0.5\u202f% is allowed, at <a "
       "href=\"#p18\" data-failure=\"acne\">");
   ASSERT_NE(said, std::string::npos) << body.substr(body.find("<p class=\"said\">"), 300);
-  EXPECT_LT(body.find(" as set.", said), body.find(" Set <a", said));
+  EXPECT_LT(body.find(" as set.", said), body.find(" Of these 32 points the cheapest ", said));
   EXPECT_NE(body.find("worst pixel by acne: x = 56, y = 78"), std::string::npos);
   EXPECT_EQ(body.find("recommend held"), std::string::npos) << "green beside the broken bound";
 }
@@ -52,7 +56,7 @@ TEST(Answer, AFilteredMapIsAnsweredWithItsReduction) {
   const std::string body = without_scripts(render_report(filtered_sample_results(), sample_picture));
   const auto says = [&](const std::string& words) { return body.find(words) != std::string::npos; };
   for (const char* fact :
-       {"lookup.reduction 0.19", "<dt>lookup.reduction</dt>", "<section id=\"reduction\"",
+       {"lookup.reduction of 0.19", "<dt>lookup.reduction</dt>", "<section id=\"reduction\"",
         "Of 3 choices 2 have a usable", "No reduction is usable at 1 of 3 points",
         "The reduction as set is too small at 1 of 3 points", "as set is too large at 1 of 3 points"})
     EXPECT_TRUE(says(fact)) << fact;
@@ -72,7 +76,7 @@ TEST(Answer, NothingIsSaidOfABiasWhereMuchIsAmbiguous) {
     const std::string page = render_report(results, sample_picture), body = without_scripts(page);
     const auto says = [&](const std::string& words) { return body.find(words) != std::string::npos; };
     EXPECT_TRUE(says("is not known, because too much is ambiguous"));
-    EXPECT_TRUE(says("None of the swept settings is known to be good enough"));
+    EXPECT_TRUE(says(" is known to be good enough"));
     for (const char* wrong :
          {"A usable", "The method fails", "No reduction is usable", "lies within the usable window",
           "is good enough:", "Good enough", "no bias is good enough", "makes it good enough", "Least error by"})

@@ -11,9 +11,7 @@
 namespace noonmark {
 namespace {
 
-using Verdict = IndexEntry::Verdict;
-
-IndexEntry entry(Verdict verdict, const std::string& name) {
+IndexEntry entry(std::optional<Verdict> verdict, const std::string& name) {
   IndexEntry one;
   one.verdict = verdict;
   one.experiment = "experiments/" + name + ".toml";
@@ -26,8 +24,8 @@ IndexEntry entry(Verdict verdict, const std::string& name) {
 
 TEST(IndexPage, PutsTheBrokenFirstAndLinksEachReport) {
   const std::vector<IndexEntry> entries = {entry(Verdict::held, "alpha"), entry(Verdict::broken, "beta"),
-                                           entry(Verdict::not_judged, "gamma")};
-  EXPECT_EQ(index_words(entries), "3 experiments: 1 held, 1 broken, 1 not judged");
+                                           entry({}, "gamma")};
+  EXPECT_EQ(index_words(entries), "3 experiments: 1 broken, 1 held, 1 not judged");
   const std::string page = index_page(entries, "0.1.0");
   EXPECT_LT(page.find("beta/report.html"), page.find("gamma/report.html"));
   EXPECT_LT(page.find("gamma/report.html"), page.find("alpha/report.html"));
@@ -62,8 +60,9 @@ TEST(IndexPage, NamesTheBrokenBoundAndItsValue) {
   results.bounds = {
       {.metric = "error", .max = 1, .join = "worst", .held = true, .found = 0.5, .point = 0, .points = 32},
       {.metric = "acne", .max = 0.005, .join = "worst", .found = 0.0083, .point = 3, .points = 32}};
-  EXPECT_EQ(broken_in_words(results), "Acne 0.83\u202f% (at most 0.5\u202f%) at " +
-                                          report::settings_phrase(results.points[3], results.info.swept));
+  EXPECT_EQ(broken_in_words(results), "Acne is 0.83\u202f% where at most 0.5\u202f% is allowed, at " +
+                                          report::settings_phrase(results.points[3], results.info.swept) +
+                                          ", with a bias of 0 as set.");
   results.bounds[1].held = true;
   EXPECT_EQ(broken_in_words(results), "");
 }

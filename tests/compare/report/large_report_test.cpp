@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compare/judge/recommendation.h"
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 #include "compare/report/report.h"
 #include "compare/report/shown.h"
 #include "compare/results/quantities.h"
@@ -114,7 +114,7 @@ TEST(LargeReport, KeepsWholeLinesOfAChart) {
   EXPECT_EQ(line.count("4"), 1u);
   EXPECT_EQ(line.count("53.75"), 1u);
   EXPECT_LE(shown.results.points.size(), report::max_even_points + report::max_marked_points);
-  for (const Recommendation& found : {recommend(results), recommend_accurate(results)})
+  for (const Recommendation& found : {recommend(results)})
     if (found.outcome == Recommendation::Outcome::found) {
       EXPECT_TRUE(std::any_of(shown.results.points.begin(), shown.results.points.end(),
                               [&](const PointRecord& point) { return point.id == found.choice.first().id; }));

@@ -44,7 +44,7 @@ Results parts_and_laws() {
 
 std::string index() {
   IndexEntry entry;
-  entry.verdict = IndexEntry::Verdict::broken;
+  entry.verdict = Verdict::broken;
   entry.experiment = "mine_in_a_folder_with_a_long_name/an_experiment_with_a_very_long_name_without_spaces.toml";
   entry.title = "An experiment";
   entry.report = "report.html";

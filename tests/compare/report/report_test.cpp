@@ -17,9 +17,9 @@
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/numbers.h"
 #include "compare/report/cause_colors.h"
+#include "compare/report/cause_shares.h"
 #include "compare/report/data.h"
 #include "compare/report/element.h"
-#include "compare/report/findings.h"
 #include "compare/report/section_picture.h"
 #include "compare/report/sections.h"
 #include "compare/report/summary.h"
@@ -82,7 +82,7 @@ TEST(Report, TellsEveryLaw) {
   results.laws = {sample_law(), held, unasked};
   const std::string page = render_report(results, sample_picture);
   for (const char* text :
-       {"2 of 3 laws broken", "1: acne-free bias", "6: the same texels", "✓ holds", "✗ broken",
+       {"Broken: 2 of 3 laws", "1: acne-free bias", "6: the same texels", "✓ holds", "✗ broken",
         "acne_free_bias_m &lt;= 0.5 * texel_m (within 5%)", "&lt;= 0.1", "Off by 0.2",
         "noonmark render x.toml --point 3", "No point is left", "✗ no point", "id=\"chart-laws\"", "\"measured\":0.19"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
@@ -177,17 +177,16 @@ TEST(Report, NumbersAreThereWithoutJavaScript) {
     }
     if (point.curve->window_min_depth) {
       EXPECT_NE(body.find(fmt::format("<td class=\"first\">{}</td><td>{}</td><td>{}</td>",
-                                      report::number(*point.curve->window_min_depth),
                                       report::number(*point.curve->window_min_depth * point.curve->m_per_depth),
-                                      report::number(*point.curve->window_min_depth * point.curve->texels_per_depth))),
+                                      report::number(*point.curve->window_min_depth * point.curve->texels_per_depth),
+                                      report::number(*point.curve->window_min_depth))),
                 std::string::npos);
     }
   }
   for (const Metric& metric : metric_rows())
     EXPECT_NE(body.find(report::Markup(metric.help).html()), std::string::npos);
-  for (const std::string text :
-       {"noonmark run experiments/cube-room.toml", "896dc68", "llvmpipe", "CPU time of the process", "AVX2",
-        "street: 2 animations at rest", "All 2 bounds hold"})
+  for (const std::string text : {"noonmark run experiments/cube-room.toml", "896dc68", "llvmpipe",
+                                 "CPU time of the process", "AVX2", "street: 2 animations at rest", "all 2 bounds"})
     EXPECT_NE(body.find(text), std::string::npos) << text;
 }
 
@@ -264,14 +263,14 @@ TEST(Report, AnUnsoundPointIsSaidAndNothingHoldsBesideIt) {
     for (PointRecord& point : results.points)
       for (const SoundLimit& any : sound_limits) point.metrics[any.metric] = 0;
     const std::string sound = render_report(results, sample_picture);
-    EXPECT_EQ(sound.find("Not sound"), std::string::npos);
+    EXPECT_EQ(sound.find("Unsound"), std::string::npos);
     for (const double value : {limit.most + 0.5, not_a_number}) {
       results.points[1].metrics[limit.metric] = value;
       const std::string page = render_report(results, sample_picture);
-      EXPECT_NE(page.find("Not sound"), std::string::npos) << limit.metric;
+      EXPECT_NE(page.find("Unsound"), std::string::npos) << limit.metric;
       EXPECT_NE(page.find(std::string("contradicts itself (") + limit.metric), std::string::npos) << limit.metric;
       EXPECT_EQ(page.find("pill held"), std::string::npos) << limit.metric;
-      EXPECT_NE(to_summary(results).find("**Not sound"), std::string::npos);
+      EXPECT_NE(to_summary(results).find("**Unsound"), std::string::npos);
     }
   }
 }
@@ -285,7 +284,7 @@ TEST(Report, NotFiniteIsSaid) {
   const size_t row = body.find("<tr id=\"p3\"");
   EXPECT_NE(body.substr(row, body.find("</tr>", row) - row).find("not finite"), std::string::npos);
   EXPECT_NE(body.find("1 point has a metric that is <b>not finite</b>"), std::string::npos);
-  EXPECT_NE(body.find("1 of 3 bounds broken"), std::string::npos);
+  EXPECT_NE(body.find("Broken: 1 of 3 bounds"), std::string::npos);
   EXPECT_NE(body.find("noonmark render x --set map.resolution=256"), std::string::npos);
 }
 

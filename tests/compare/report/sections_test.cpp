@@ -110,7 +110,7 @@ TEST(Report, SaysWhatToSetInEachPart) {
 TEST(Report, TheLivePictureIsTheAnswers) {
   Results results = filtered_sample_results();
   const auto picture = [](PointRecord& point) { point.images.push_back({"images/x-live.bin", ""}); };
-  const auto opened = [&] { return report::opening(results, compared_groups(results), recommend(results)).point->id; };
+  const auto opened = [&] { return report::opening(results).point->id; };
   picture(results.points[0]);
   ASSERT_EQ(recommend(results).choice.first().id, 1);
   EXPECT_EQ(opened(), 0) << "the answer has no picture";

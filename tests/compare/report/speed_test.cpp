@@ -173,10 +173,10 @@ TEST(Speed, NamesChoicesByWhatDiffersWithinTheirPart) {
   results.points[0].part = results.points[1].part = "resolutions";
   results.points[2].part = "alone";
   const report::ChoiceNames names(results);
-  const std::vector<Choice> choices = choices_of(results);
+  const std::vector<Choice> choices = choices_of(results, results.info.over);
   EXPECT_EQ(names.of(choices[0]), "resolutions, resolution 64\u202ftexels");
   EXPECT_EQ(names.of(choices[2]), "alone");
-  EXPECT_EQ(report::ChoiceNames(four({{1, 1}})).of(choices_of(four({{1, 1}}))[0]), "point 0");
+  EXPECT_EQ(report::ChoiceNames(four({{1, 1}})).of(choices_of(four({{1, 1}}), {})[0]), "point 0");
 }
 
 TEST(Speed, ComparesPartsWithinTheirGroups) {

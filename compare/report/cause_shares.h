@@ -1,4 +1,4 @@
-// Computes the report's conclusions from the results: pure functions over records, without HTML.
+// The Pareto front, and the shares of the causes: pure functions over records, without HTML.
 #pragma once
 #include <optional>
 #include <span>

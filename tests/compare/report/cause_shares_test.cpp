@@ -1,5 +1,5 @@
 // The conclusions of the report: cases with a known answer, and comparisons with brute force.
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "compare/report/findings.h"
+#include "compare/report/cause_shares.h"
 
 #include <algorithm>
 #include <cmath>
