@@ -12,10 +12,12 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/flicker_section.h"
+#include "compare/report/function_figure.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/live_section.h"
 #include "compare/report/lookup_section.h"
 #include "compare/report/page_parts.h"
+#include "compare/report/part_answers.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/recommendation_box.h"
 #include "compare/report/sections.h"
@@ -98,7 +100,7 @@ constexpr Section all_sections[] = {
     {"bias", "Bias", by_point<report::bias_section>, false},
     {"reduction", "Reduction", by_point<report::reduction_section>, false},
     {"over", "Other settings", by_point<report::over_section>, false},
-    {"sweep", "Sweep", by_point<report::sweep_section>, true},
+    {"sweep", "Sweep", plain<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
     {"cost", "Speed", speed, false},
     {"pictures", "Pictures", pictures, false},
@@ -145,7 +147,7 @@ Markup first_screen(const Results& results, const ShownPoints& shown, const Read
                              : live || diagram ? "side-by-side"
                                                : "alone";
   return div(css("first-screen"), "\n", verdict_line(results), paragraph(css("said"), answer),
-             div(css(beside), figures)) +
+             has_parts(results) ? "" : function_chart(shown), div(css(beside), figures)) +
          "\n";
 }
 
@@ -170,8 +172,8 @@ std::string render_report(const Results& results,
        .sections = body,
        .data = report::chart_data(results, shown),
        .causes = causes,
-       .scripts = {"charts", "keyboard", "chart_bias", "chart_lookup", "chart_sweep", "speed_marks", "chart_speed",
-                   "chart_laws", "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
+       .scripts = {"charts", "keyboard", "function", "chart_lookup", "speed_marks", "chart_speed", "chart_laws",
+                   "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
        .version = results.info.version});
 }
 

@@ -1,11 +1,11 @@
-// The sections with charts: a place for each chart, which compare/report/page/charts.js fills, and the same numbers as
-// a table.
+// The sections of error against a setting: tables, and bars by cause.
 #include "compare/report/sections.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
 #include "compare/judge/curve_reading.h"
@@ -13,6 +13,7 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
+#include "compare/report/function_figure.h"
 #include "compare/report/part_answers.h"
 #include "compare/report/text.h"
 #include "compare/results/number_text.h"
@@ -151,63 +152,76 @@ Markup bias_section(const Results& results, const ShownPoints& shown) {
       first->placements > 1 ? ", at every placement of the grid" : "",
       alike ? prose(" Varied: {}; made: {}.", code(first->parameter), first->made) : ""));
   out += shown.note;
-  if (const size_t drawn = drawn_biases(*first, curve_entries(shown.results)).size(); drawn < first->bias_depth.size())
-    out += paragraph(css("small"), prose("The chart draws {} of the {} biases of a curve, evenly chosen. {} has all of "
-                                         "them. Windows and best biases are of the exact curve.",
-                                         drawn, first->bias_depth.size(), code("results.sqlite")));
-  out += chart_place("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
+  if (has_parts(results)) out += function_chart(shown);
   return section("bias", "Error against bias", out + windows_table(results, shown, alike));
 }
 
 namespace {
 
-// Mean and worst over all other settings: the chart's trend in numbers.
+// Mean and worst over all other settings: how the error goes with one of them.
 struct Trend {
-  double sum = 0, worst = 0, best_sum = 0;
-  size_t finite = 0, of = 0, curves = 0;
+  std::vector<const PointRecord*> points;
 
-  void add(const PointRecord& point) {
-    ++of;
-    if (const double best = has_curve(point) ? best_error(point) : std::nan(""); std::isfinite(best))
-      best_sum += best, ++curves;
-    const double error = metric_of(point, "error");
-    if (!std::isfinite(error)) return;
-    ++finite, sum += error, worst = std::max(worst, error);
+  // Of the finite values. NaN if there is none.
+  double mean(const auto& value_of_point) const {
+    double sum = 0;
+    size_t count = 0;
+    for (const PointRecord* point : points)
+      if (const double value = value_of_point(*point); std::isfinite(value)) sum += value, ++count;
+    return count ? sum / static_cast<double>(count) : std::nan("");
   }
-  Markup row(const std::string& value) const {
-    const double none = std::nan("");
-    return tr(row_head(setting_text(value)), td(cell(finite ? sum / static_cast<double>(finite) : none, "fraction")),
-              td(cell(finite ? worst : none, "fraction")),
-              td(curves ? cell(best_sum / static_cast<double>(curves), "fraction") : "–"),
+  // "–" if no point has it.
+  Markup mean_cell(const std::string& unit, const auto& value_of_point) const {
+    const double value = mean(value_of_point);
+    return td(std::isfinite(value) ? Markup(cell(value, unit)) : "–");
+  }
+  Markup row(const std::string& value, std::span<const Metric> plotted) const {
+    const auto error = [](const PointRecord& point) { return metric_of(point, "error"); };
+    double worst = std::nan("");
+    size_t finite = 0;
+    for (const PointRecord* point : points)
+      if (std::isfinite(error(*point))) ++finite, worst = std::fmax(worst, error(*point));
+    Markup cells = td(cell(mean(error), "fraction")) + td(cell(worst, "fraction"));
+    cells += mean_cell("fraction", [](const PointRecord& p) { return has_curve(p) ? best_error(p) : std::nan(""); });
+    for (const Metric& metric : plotted)
+      cells += mean_cell(std::string(metric.unit),
+                         [&](const PointRecord& p) { return metric_of(p, std::string(metric.name)); });
+    const size_t of = points.size();
+    return tr(row_head(setting_text(value)), cells,
               td(finite == of ? Markup(of) : prose("{} ({} not finite)", of, of - finite)));
   }
 };
 
-// The chart of one swept setting, and its table. number: from 1.
-Markup sweep_of(const std::string& name, const std::vector<std::string>& values, size_t number,
-                const Results& results) {
+// The metrics that the experiment asks to plot, without the error, which every table has.
+std::vector<Metric> plotted(const Results& results) {
+  std::vector<Metric> metrics = listed_metrics(results);
+  std::erase_if(metrics, [&](const Metric& metric) {
+    const auto& plot = results.info.plot;
+    return metric.name == "error" || std::find(plot.begin(), plot.end(), metric.name) == plot.end();
+  });
+  return metrics;
+}
+
+// The table of one swept setting.
+Markup sweep_of(const std::string& name, const std::vector<std::string>& values, const Results& results) {
+  const std::vector<Metric> metrics = plotted(results);
   std::unordered_map<std::string, Trend> trends;
-  for (const PointRecord& point : results.points) trends[setting_of(point, name)].add(point);
+  for (const PointRecord& point : results.points) trends[setting_of(point, name)].points.push_back(&point);
   Markup rows;
-  for (const std::string& value : values) rows += trends[value].row(value);
-  const std::string label = setting_label(name);
-  const Markup head = th(with_small(label, swept_unit(name, results))) + th(with_small("Mean error", "%")) +
-                      th(with_small("Worst error", "%")) +
-                      th(with_small("Mean error at best " + free_setting_words(results.points), "%")) + th("Points");
+  for (const std::string& value : values) rows += trends[value].row(value, metrics);
+  Markup head = th(with_small(setting_label(name), swept_unit(name, results))) + th(with_small("Mean error", "%")) +
+                th(with_small("Worst error", "%")) +
+                th(with_small("Mean error at best " + free_setting_words(results.points), "%"));
+  for (const Metric& metric : metrics) head += th(with_small(metric_label(metric.name), head_unit(metric.unit)));
   return div(css("swept"), element("h3", name), "\n",
-             chart_place(
-                 fmt::format("sweep-{}", number),
-                 fmt::format("Error against {}; one line for each combination of the other swept settings.", label)),
-             div(css("scroll fit"), table("numbers small-table", head, rows))) +
+             div(css("scroll fit"), table("numbers small-table", head + th("Points"), rows))) +
          "\n";
 }
 
 }  // namespace
 
-Markup sweep_section(const Results& results, const ShownPoints& shown) {
-  Markup out =
-      paragraph(css("small"), "The tables are of the error against the hard truth (R1). The charts offer the others.") +
-      shown.note;
+Markup sweep_section(const Results& results) {
+  Markup out;
   std::vector<Markup> labels;
   for (const std::string& name : results.info.swept) {
     const std::vector<std::string> values = values_of(results, name);
@@ -215,9 +229,12 @@ Markup sweep_section(const Results& results, const ShownPoints& shown) {
         !std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
       continue;
     labels.push_back(setting_label(name));
-    out += sweep_of(name, values, labels.size(), results);
+    out += sweep_of(name, values, results);
   }
-  return labels.empty() ? "" : section("sweep", "Error against " + joined(labels, ", "), out);
+  if (labels.empty()) return "";
+  return section(
+      "sweep", "Error against " + joined(labels, ", "),
+      paragraph(css("small"), "Means over all other settings. The error is that against the hard truth (R1).") + out);
 }
 
 namespace {

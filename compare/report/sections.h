@@ -1,4 +1,4 @@
-// The report's sections with a chart. Each is a function from results to HTML: all points for what is counted, and the
+// The report's sections of error against a setting. Each is a function from results to HTML: all points for what is counted, and the
 // points that are shown one by one.
 #pragma once
 #include <map>
@@ -12,10 +12,10 @@
 namespace noonmark::report {
 
 // Each is empty if the results have nothing for it.
-// Error against bias: the chart's place and the windows' table.
+// Error against bias: the windows' table; of parts also the figure of error against bias, which otherwise opens the page.
 Markup bias_section(const Results& results, const ShownPoints& shown);
-// Error against resolution, extent and other swept numbers.
-Markup sweep_section(const Results& results, const ShownPoints& shown);
+// Error against resolution, extent and other swept numbers: a table of each.
+Markup sweep_section(const Results& results);
 Markup budget_section(const Results& results, const ShownPoints& shown);  // bars by cause
 
 // The figure that charts.js fills. It is hidden without JavaScript; the table below it has the same numbers.

@@ -70,8 +70,6 @@ function shown(v, unit) {
                             digits(v) + (unit && unit !== 'count' ? thin + unitBehind(v, unit) : '');
 }
 function value(point, measure) {
-  if (measure === 'best_error')
-    return point.curve ? point.curve.best_error : point.reductions ? point.reductions.least.error : NaN;
   var at = page.bias === 'recommended' && point.at && point.at.metrics;
   if (at && measure in at) return at[measure];
   return measure in point.metrics ? point.metrics[measure] : NaN;
@@ -96,39 +94,10 @@ function freeLabel(words) {
   return label.charAt(0).toUpperCase() + label.slice(1);
 }
 function measureLabel(m) {
-  return m === 'best_error' ? 'Error at the best ' + data.free : metricOf[m] ? metricOf[m].label : m;
+  return metricOf[m] ? metricOf[m].label : m;
 }
 function measureUnit(m) {
-  return m === 'best_error' ? 'fraction' : metricOf[m] ? metricOf[m].unit : '';
-}
-function unique(list) {
-  return list.filter(function(v, i) {
-    return list.indexOf(v) === i;
-  });
-}
-// The quantities that can be drawn against a sweep: the errors, the error at the best bias, the metrics that the
-// experiment asks to plot, then the others.
-function measures() {
-  var list = [data.speed.error].concat(
-      data.speed.errors,
-      data.points.some(function(p) {
-        return p.curve || p.reductions;
-      }) ?
-          ['best_error'] :
-          [],
-      data.plot,
-      data.metrics
-          .filter(function(m) {
-            return m.plotted;
-          })
-          .map(function(m) {
-            return m.name;
-          }));
-  return unique(list).filter(function(m) {
-    return data.points.some(function(p) {
-      return finite(value(p, m));
-    });
-  });
+  return metricOf[m] ? metricOf[m].unit : '';
 }
 // Ticks of a logarithmic axis: powers of ten, and 2 and 5 between them if there is room.
 function logTicks(low, high) {
@@ -312,96 +281,6 @@ function segments(options, chosen, changed) {
   return box;
 }
 
-// ---- how swept settings are distinguished by the lines of a chart: the first by colour, the second by dashes and the
-// shape of the points. A picker chooses the values of any further settings.
-var categorical =
-    ['peter_panning', 'acne', 'coverage_light', 'precision', 'aliasing_dark', 'aliasing_light', 'coverage_dark'];
-var dashes = [[1, 0], [7, 4], [2, 3], [9, 3, 2, 3], [12, 4], [1, 2]],
-    shapes = ['circle', 'square', 'triangle-up', 'diamond', 'cross', 'triangle-down'];
-var shapePaths = {
-  circle: 'M8.5 5a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0z',
-  square: 'M9 1h8v8h-8z',
-  'triangle-up': 'M13 0l5 9h-10z',
-  diamond: 'M13-.5l3.7 5.5l-3.7 5.5l-3.7-5.5z',
-  cross: 'M11.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z',
-  'triangle-down': 'M13 10l5-9h-10z'
-};
-function tellApart(names) {
-  // Numbers get the ordered colours, choices get the shapes.
-  var several = names
-                    .filter(function(s) {
-                      return s.values.length > 1;
-                    })
-                    .sort(function(a, b) {
-                      return b.numeric - a.numeric;
-                    });
-  var first = several[0], second = several[1], rest = several.slice(2), chosen = {};
-  function colour(s, v) {
-    var i = s.values.indexOf(v), n = s.values.length;
-    return s.numeric ? 'var(--q' + Math.round(i * 6 / (n - 1)) + ')' :
-                       'var(--c-' + categorical[i % categorical.length] + ')';
-  }
-  function index(s, p) {
-    return s ? s.values.indexOf(p.settings[s.name]) : 0;
-  }
-  function key(c, dash, shape) {
-    var e = make('span');
-    e.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="' + c +
-        '" stroke-width="2" stroke-dasharray="' + dash.join(' ') + '"/>' +
-        (shape !== 'circle' ? '<path d="' + shapePaths[shape] + '" fill="' + c + '" stroke="' + c +
-                 '" stroke-width="1.4" transform="translate(5.2 2) scale(.6)"/>' :
-                              '') +
-        '</svg>';
-    return e;
-  }
-  return {
-    of: function(p) {
-      var j = index(second, p);
-      return {
-        colour: first ? colour(first, p.settings[first.name]) : 'var(--ink)',
-        dash: dashes[j % dashes.length],
-        shape: shapes[j % shapes.length],
-        line: names
-                  .map(function(s) {
-                    return p.settings[s.name];
-                  })
-                  .join('|')
-      };
-    },
-    kept: function(p) {
-      return rest.every(function(s) {
-        return !chosen[s.name] || p.settings[s.name] === chosen[s.name];
-      });
-    },
-    filters: function(self) {
-      rest.forEach(function(s) {
-        self.controls.append(picker(
-            s.label, [['', 'all']].concat(s.values.map(function(v) {
-              return [v, valueText(s, v)];
-            })),
-            '', function(v) {
-              chosen[s.name] = v;
-              self.draw();
-            }));
-      });
-    },
-    legend: function(box) {
-      box.textContent = '';
-      [first, second].forEach(function(s, k) {
-        if (!s) return;
-        box.append(
-            make('span', {class: 'title'}, s.label + (s.unit && s.unit !== 'bias.unit' ? ' (' + s.unit + ')' : '')));
-        s.values.forEach(function(v, i) {
-          var e = k === 0 ? key(colour(s, v), [1, 0], 'circle') :
-                            key('var(--soft)', dashes[i % dashes.length], shapes[i % shapes.length]);
-          e.append(valueText(s, v));
-          box.append(e);
-        });
-      });
-    }
-  };
-}
-
 // A logarithmic axis cannot show zeros. They are drawn hollow, on a line below the least positive value.
 function logFloor(values) {
   var positive = values.filter(function(v) {
@@ -448,7 +327,7 @@ function zeroLabel(floor) {
   }];
 }
 
-// ---- what the charts of a point's own curve share (chart_bias.js, chart_lookup.js): error and causes against its free setting
+// ---- what the charts of a point's own curve share (chart_lookup.js): error and causes against its free setting
 var errorDash = [5, 3];
 function curveName(series) {
   return series === 'error' ? 'Error' : causeLabel[series] || series;
@@ -676,7 +555,6 @@ page.kit = {
   valueText: valueText,
   measureLabel: measureLabel,
   measureUnit: measureUnit,
-  measures: measures,
   logTicks: logTicks,
   axisLabel: axisLabel,
   showTip: showTip,
@@ -686,14 +564,12 @@ page.kit = {
   picker: picker,
   pointPicker: pointPicker,
   segments: segments,
-  tellApart: tellApart,
   logFloor: logFloor,
   measureScale: measureScale,
   measureAxis: measureAxis,
   zeroLabel: zeroLabel,
   causeLabel: causeLabel,
   byId: byId,
-  drawn: drawn,
-  thin: thin
+  drawn: drawn
 };
 })();

@@ -11,7 +11,7 @@
   saw.fallback_rows = document.querySelectorAll('main tr[id]').length;
   if (page) {
     saw.points = page.data.points;
-    saw.symbols = document.querySelectorAll('#chart-sweep-1 .mark-symbol path').length;
+    saw.cells = document.querySelectorAll('#chart-function .wide .cell').length;
     saw.rows = document.querySelectorAll('.points-place tbody tr').length;
   }
   leave(saw);
