@@ -55,12 +55,10 @@ struct Look {
 };
 // Stands in an element with texts_around(), which has what all texts share.
 Markup text_at(double x, double y, const Markup& content, const std::string& color, const Look& look = {}) {
-  const auto own = [](Name name, const std::string& value, bool usual) {
-    return usual ? Attribute(name, false) : Attribute(name, value);
-  };
-  return element("text", at("x", x), at("y", y), own("text-anchor", look.anchor, look.anchor == std::string("start")),
-                 own("font-size", std::to_string(look.size), look.size == 12),
-                 own("font-weight", std::to_string(look.weight), look.weight == 400), fill(color), content);
+  return element("text", at("x", x), at("y", y),
+                 unless(look.anchor == std::string("start"), "text-anchor", look.anchor),
+                 unless(look.size == 12, "font-size", std::to_string(look.size)),
+                 unless(look.weight == 400, "font-weight", std::to_string(look.weight)), fill(color), content);
 }
 // A line of the card's colour around each letter keeps texts apart from what they stand on.
 Markup texts_around(const Markup& texts) {
@@ -228,13 +226,14 @@ class Drawing {
   Markup texels(const FunctionCell& cell, const Place& place) const {
     Markup out;
     if (!(cell.texel_m > 0)) return out;
+    std::string ticks;
     for (const double count : decades(scale_.low / cell.texel_m, scale_.high / cell.texel_m)) {
       const double x = place.x + scale_.x(count * cell.texel_m) * place.width / box;
       if (x > place.x + place.width - 4) continue;
-      out += element("line", at("x1", x), at("y1", place.y - 4), at("x2", x), at("y2", place.y), stroke("faint"),
-                     Attribute("stroke-width", 1));
+      ticks += fmt::format("M{:.0f} {:.0f}v4", x, place.y - 4);
       if (count >= 0.1) out += text_at(x, place.y - 6, number(count), "faint", {"middle", 10});
     }
+    if (!ticks.empty()) out += element("path", Attribute("d", ticks), stroke("faint"), Attribute("stroke-width", 1));
     return out;
   }
   Markup window_words(const FunctionCell& cell, const Place& place) const {

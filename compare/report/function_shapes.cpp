@@ -10,10 +10,15 @@ Attribute at(Name name, double value) { return Attribute(name, fmt::format("{:.0
 Attribute fill(const std::string& color) { return Attribute("fill", fmt::format("var(--{})", color)); }
 Attribute stroke(const std::string& color) { return Attribute("stroke", fmt::format("var(--{})", color)); }
 
+Attribute unless(bool usual, Name name, const std::string& value) {
+  return usual ? Attribute(name, false) : Attribute(name, value);
+}
+
 Markup line_in_box(double x1, double y1, double x2, double y2, const std::string& color, const char* dashes,
                    double width) {
   return element("line", at("x1", x1), at("y1", y1), at("x2", x2), at("y2", y2), stroke(color),
-                 Attribute("stroke-dasharray", dashes), Attribute("stroke-width", fmt::format("{}", width)),
+                 unless(dashes == std::string("none"), "stroke-dasharray", dashes),
+                 unless(width == 1, "stroke-width", fmt::format("{}", width)),
                  Attribute("vector-effect", "non-scaling-stroke"));
 }
 
@@ -79,13 +84,14 @@ namespace {
 
 constexpr double box = FunctionScale::box, zero_end = FunctionScale::zero_end;
 
-// A path through points of whole numbers: "M70 980l13-4...".
+// A path through points of whole numbers: "M70 980l13 -4 ...". Points amid a level line are left out.
 std::string path_through(const std::vector<std::pair<double, double>>& points) {
   std::string path;
   long x = 0, y = 0;
-  for (const auto& [to_x, to_y] : points) {
-    const long next_x = std::lround(to_x), next_y = std::lround(to_y);
-    path += path.empty() ? fmt::format("M{} {}l0 0", next_x, next_y) : fmt::format(" {} {}", next_x - x, next_y - y);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const long next_x = std::lround(points[i].first), next_y = std::lround(points[i].second);
+    if (i > 0 && i + 1 < points.size() && next_y == y && std::lround(points[i + 1].second) == y) continue;
+    path += i == 0 ? fmt::format("M{} {}l0 0", next_x, next_y) : fmt::format(" {} {}", next_x - x, next_y - y);
     x = next_x, y = next_y;
   }
   return path;

@@ -39,6 +39,8 @@ Markup function_shapes(const FunctionCell& cell, const FunctionFigure& figure, c
 Attribute at(Name name, double value);
 Attribute fill(const std::string& color);
 Attribute stroke(const std::string& color);
+// None where the value is the usual one: a figure has thousands.
+Attribute unless(bool usual, Name name, const std::string& value);
 // Its width is that on the screen, however the chart is stretched.
 Markup line_in_box(double x1, double y1, double x2, double y2, const std::string& color, const char* dashes,
                    double width = 1);

@@ -58,7 +58,8 @@ struct Section {
   const char* id;
   const char* label;  // in the page's head; null: answer_label()
   Markup (*make)(const Results&, const ShownPoints&, const ReadFile&);
-  bool compares;  // compares all points with each other, which has no meaning across parts
+  bool compares;               // compares all points with each other, which has no meaning across parts
+  const char* fold = nullptr;  // what a click unfolds; null: the section is open
 };
 template <Markup (*make)(const Results&)>
 Markup plain(const Results& results, const ShownPoints&, const ReadFile&) {
@@ -92,27 +93,32 @@ Markup speed(const Results& results, const ShownPoints& shown, const ReadFile&) 
   return report::speed_section(results, shown, opens_with_speed(results, shown));
 }
 constexpr Section all_sections[] = {
-    {"phase", "Diagram", by_point<report::phase_section>, false},
+    {"phase", "Diagram", by_point<report::phase_section>, false, "How the diagram was made"},
     {"answer", nullptr, by_point<report::answer_section>, false},
     {"lights", "Lights", lights, false},
     {"cascades", "Cascades", plain<report::cascades_section>, false},
     {"motion", "Motion", motion, false},
-    {"bias", "Bias", by_point<report::bias_section>, false},
+    {"bias", "Bias", by_point<report::bias_section>, false, "The usable window of every point"},
     {"reduction", "Reduction", by_point<report::reduction_section>, false},
     {"over", "Other settings", by_point<report::over_section>, false},
-    {"sweep", "Sweep", plain<report::sweep_section>, true},
-    {"budget", "Causes", by_point<report::budget_section>, true},
+    {"sweep", "Sweep", plain<report::sweep_section>, true, "Means over each swept setting"},
+    {"budget", "Causes", by_point<report::budget_section>, true, "The causes of every point"},
     {"cost", "Speed", speed, false},
-    {"pictures", "Pictures", pictures, false},
-    {"points", "Points", by_point<report::points_section>, false},
-    {"meaning", "Meaning", plain<report::meaning_section>, false},
-    {"making", "Making", plain<report::making_section>, false},
+    {"pictures", "Pictures", pictures, false, "Pictures"},
+    {"points", "Points", by_point<report::points_section>, false, "Every point in a table"},
+    {"meaning", "Meaning", plain<report::meaning_section>, false, "What the numbers mean"},
+    {"making", "Making", plain<report::making_section>, false, "How these results were made"},
 };
 
 struct ShownSection {
   std::string id, label;
   Markup content;
 };
+
+// The rest of the page is folded behind its first screen and its answers. Of parts the section on the bias has the first figure.
+bool folds(const Section& section, bool parts) {
+  return section.fold && !(parts && section.id == std::string_view("bias"));
+}
 
 // A section without content is left out, in the page's head too.
 std::vector<ShownSection> sections_of(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
@@ -122,7 +128,8 @@ std::vector<ShownSection> sections_of(const Results& results, const ShownPoints&
     if (parts && section.compares) continue;
     const std::string label = section.label ? section.label : report::answer_label(results, shown);
     if (Markup content = section.make(results, shown, read_file); !content.empty())
-      sections.push_back({section.id, label, std::move(content)});
+      sections.push_back(
+          {section.id, label, folds(section, parts) ? report::folded("fold", false, section.fold, content) : content});
   }
   return sections;
 }

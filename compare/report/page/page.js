@@ -113,6 +113,7 @@ addEventListener('beforeprint', function() {
   unfolded.forEach(function(d) {
     d.open = true;
   });
+  drawAll();
 });
 addEventListener('afterprint', function() {
   unfolded.forEach(function(d) {
@@ -120,10 +121,26 @@ addEventListener('afterprint', function() {
   });
 });
 
-// ---- first drawing, and again when the width changes
+// ---- what is folded unfolds for a link to what it holds
+function reveal(address) {
+  var aim = address.length > 1 && document.getElementById(address.slice(1)), fold = aim && aim.closest('details.fold');
+  if (!fold || fold.open) return;
+  fold.open = true;
+  aim.scrollIntoView();
+}
+document.addEventListener('click', function(event) {
+  var link = event.target.closest('a[href^="#"]');
+  if (link) reveal(link.getAttribute('href'));
+});
+document.querySelectorAll('details.fold').forEach(function(fold) {
+  fold.addEventListener('toggle', drawAll);
+});
+reveal(location.hash);
+
+// ---- first drawing, and again when the width changes. What is folded is drawn once it is unfolded.
 function drawAll() {
   kit.drawn.forEach(function(c) {
-    c.draw();
+    if (c.plot.clientWidth) c.draw();
   });
   enlarge();
   scrollable();

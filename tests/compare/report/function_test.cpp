@@ -33,7 +33,7 @@ std::vector<std::string> elements(const std::string& html, const std::string& pa
   return out;
 }
 
-// The corners of a path "M70 980l0 0 13 -4", without the first and the last, which stand on the ground.
+// The corners of a path "M70 980l0 0 13 -4".
 std::vector<std::pair<double, double>> corners(const std::string& path) {
   std::vector<std::pair<double, double>> out;
   double x = 0, y = 0;
@@ -43,6 +43,18 @@ std::vector<std::pair<double, double>> corners(const std::string& path) {
     out.emplace_back(x, y);
   }
   return out;
+}
+
+// Of the upper edge of a layer, whose first and last corner stand on the ground. At a jump the upper end.
+double height(const std::vector<std::pair<double, double>>& edge, long x) {
+  double least = 1000;
+  for (size_t i = 1; i + 2 < edge.size(); ++i) {
+    const auto [x0, y0] = edge[i];
+    const auto [x1, y1] = edge[i + 1];
+    if (static_cast<double>(x) < x0 || static_cast<double>(x) > x1) continue;
+    least = std::min(least, x1 > x0 ? y0 + (y1 - y0) * (static_cast<double>(x) - x0) / (x1 - x0) : std::min(y0, y1));
+  }
+  return least;
 }
 
 double at_bias(const BiasCurve& curve, const char* metric, double metres) {
@@ -67,13 +79,13 @@ TEST(FunctionFigure, StacksTheCurves) {
       const auto found = std::find(order.begin(), order.end(), attribute(path, "data-cause"));
       if (found == order.end()) continue;
       const std::vector<std::pair<double, double>> all = corners(attribute(path, "d"));
-      ASSERT_EQ(all.size(), entries.size() + 3) << "l0 0, and the ground at both ends";
       for (size_t i = 0; i < entries.size(); ++i) {
         const double bias = curve.bias_depth[entries[i]] * curve.m_per_depth;
         double sum = 0;
         for (auto cause = order.begin(); cause <= found; ++cause) sum += at_bias(curve, cause->c_str(), bias);
-        EXPECT_NEAR(all[i + 2].first, scale.x(bias), half);
-        EXPECT_NEAR(all[i + 2].second, 1000 * (1 - std::sqrt(std::min(1.0, sum / scale.top))), half) << bias << " m";
+        EXPECT_NEAR(height(all, std::lround(scale.x(bias))), 1000 * (1 - std::sqrt(std::min(1.0, sum / scale.top))),
+                    half)
+            << bias << " m";
         ++seen;
       }
     }

@@ -2,7 +2,6 @@
 (async () => {
   'use strict';
   const saw = {errors}, root = document.scrollingElement;
-  if (window.noonmarkReady) await window.noonmarkReady;
   if (window.noonmarkPage && window.noonmarkPage.liveReady) await window.noonmarkPage.liveReady;
   await later();  // Vega draws only after the script that called it has ended
   saw.width = root.clientWidth;

@@ -2,10 +2,6 @@
 // the page unpacked and drew.
 (async () => {
   'use strict';
-  await window.noonmarkReady;
-  await new Promise(go => {  // Vega draws only after the script that called it has ended.
-    setTimeout(go, 0);
-  });
   const page = window.noonmarkPage, saw = {errors: errors, packed: document.querySelector('[data-packed]') !== null};
   saw.said = document.querySelector('main p').textContent;
   saw.fallback_rows = document.querySelectorAll('main tr[id]').length;
