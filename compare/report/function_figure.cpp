@@ -81,7 +81,7 @@ class Drawing {
     const FunctionGrid& grid = figure_.grids[index];
     const size_t columns = grid.columns.size(), rows = grid.rows.size();
     const double height =
-        rows == 1 ? (columns == 1 ? 300 : 220) : std::clamp(345.0 / static_cast<double>(rows), 80.0, 150.0);
+        rows == 1 ? (columns == 1 ? 300 : 220) : std::clamp(300.0 / static_cast<double>(rows), 80.0, 150.0);
     const Frame wide{1060, columns, grid.row.empty() ? 48.0 : 112.0, height, true};
     const Frame narrow{360, std::min<size_t>(columns, 2), 44, columns == 1 ? 200.0 : 110.0, false};
     std::string chosen;
@@ -335,13 +335,15 @@ Markup key(const std::string& color, const char* dashes, const std::string& word
 }
 
 Markup legend(const FunctionFigure& figure) {
-  Markup out;
-  for (const CauseColor& cause : figure.causes) out += legend_entry(cause.name, cause.label);
-  out += key("ink", "none", "Error, mean |R5 − R1|");
+  const PointRecord* first = nullptr;
   const FunctionCell* curved = nullptr;
   each_cell(figure, [&](const FunctionCell& cell) {
+    if (!first) first = cell.points.front();
     if (cell.curve && !curved) curved = &cell;
   });
+  Markup out;
+  for (const CauseColor& cause : figure.causes) out += legend_entry(cause.name, cause.label);
+  out += key("ink", "none", fmt::format("Error, mean |{} − R1|", judged_rung(*first)));
   if (!curved) return out;
   const BiasCurve& curve = *curved->curve;
   out += key("good", "none", "Usable bias");

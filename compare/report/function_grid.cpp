@@ -151,12 +151,15 @@ void add_grids(Part part, const Axes& axes, FunctionFigure& figure) {
   const auto values = [&](const std::string& name) {
     return name.empty() ? Key{""} : some_of(values_of(part, name), figure.thinned);
   };
+  size_t charts = 0;
+  for (const FunctionGrid& grid : figure.grids) charts += grid.cells.size();
   for (const Key& chosen : choices) {
-    if (figure.grids.size() == most_grids) {
+    FunctionGrid grid{chosen, axes.column, axes.row, axes.inner, values(axes.column), values(axes.row), {}};
+    charts += grid.columns.size() * grid.rows.size();
+    if (charts > most_charts) {
       figure.thinned = true;
       break;
     }
-    FunctionGrid grid{chosen, axes.column, axes.row, axes.inner, values(axes.column), values(axes.row), {}};
     for (const std::string& row : grid.rows)
       for (const std::string& column : grid.columns) {
         Key key = chosen;
@@ -193,6 +196,7 @@ void drop_zeros(FunctionFigure& figure) {
 
 FunctionFigure function_figure(const Results& results) {
   FunctionFigure figure;
+  if (judges_frames(results.points)) return figure;
   figure.causes = stacked_causes(results);
   std::vector<Part> parts;
   for (auto begin = results.points.begin(); begin != results.points.end();) {

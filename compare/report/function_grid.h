@@ -13,9 +13,9 @@
 
 namespace noonmark::report {
 
-// A grid has at most so many columns and rows, and a figure so many grids. Of more values some are kept, evenly spaced and
-// with both ends: smaller charts are not read.
-inline constexpr size_t most_in_line = 6, most_grids = 12;
+// A grid has at most so many columns and rows, and a figure so many charts in its grids (8 kB of the page each). Of more values some
+// are kept, evenly spaced and with both ends; the last grids are left out.
+inline constexpr size_t most_in_line = 6, most_charts = 144;
 
 // One small chart. Its points differ in no swept setting but FunctionGrid::inner.
 struct FunctionCell {
@@ -46,7 +46,7 @@ struct FunctionFigure {
   bool thinned = false;  // whether values were left out
 };
 
-// Without grids if no point knows its causes (frames without their map). The resolution is across and the extent down where they
+// Without grids if no point knows its causes, and of frames, which have no setting. The resolution is across and the extent down where they
 // were swept, otherwise another setting with short values; without a curve and without a swept bias the first of them is `inner`. The cells refer to the results.
 FunctionFigure function_figure(const Results& results);
 

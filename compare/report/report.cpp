@@ -102,7 +102,7 @@ constexpr Section all_sections[] = {
     {"reduction", "Reduction", by_point<report::reduction_section>, false},
     {"over", "Other settings", by_point<report::over_section>, false},
     {"sweep", "Sweep", plain<report::sweep_section>, true, "Means over each swept setting"},
-    {"budget", "Causes", by_point<report::budget_section>, true, "The causes of every point"},
+    {"places", "Places", by_point<report::places_section>, true},
     {"cost", "Speed", speed, false},
     {"pictures", "Pictures", pictures, false, "Pictures"},
     {"points", "Points", by_point<report::points_section>, false, "Every point in a table"},

@@ -16,7 +16,8 @@ namespace noonmark::report {
 Markup bias_section(const Results& results, const ShownPoints& shown);
 // Error against resolution, extent and other swept numbers: a table of each.
 Markup sweep_section(const Results& results);
-Markup budget_section(const Results& results, const ShownPoints& shown);  // bars by cause
+// Of frames: where each one errs, as bars.
+Markup places_section(const Results& results, const ShownPoints& shown);
 
 // The figure that charts.js fills. It is hidden without JavaScript; the table below it has the same numbers.
 // caption: text.

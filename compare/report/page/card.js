@@ -436,7 +436,7 @@ document.addEventListener('click', function(event) {
   event.preventDefault();
   page.open(+id[1], link.dataset.show || link.dataset.failure);
 });
-document.querySelectorAll('.budget .row').forEach(function(row) {
+document.querySelectorAll('.places .row').forEach(function(row) {
   row.addEventListener('click', function(event) {
     if (!event.target.closest('a')) page.open(+row.dataset.point);
   });

@@ -94,7 +94,7 @@ page.onSelect.push(function(id) {
 
 // What scrolls can be scrolled with the keyboard, and has the name of the heading or the summary before it.
 function scrollable() {
-  document.querySelectorAll('.scroll, .budget.many .rows').forEach(function(box) {
+  document.querySelectorAll('.scroll, .places.many .rows').forEach(function(box) {
     if (box.tabIndex === 0 || (box.scrollWidth <= box.clientWidth && box.scrollHeight <= box.clientHeight)) return;
     var folded = box.closest('details'), above = (box.closest('section') || document).querySelector('h1, h2');
     box.tabIndex = 0;
@@ -109,11 +109,10 @@ function scrollable() {
 // On paper nothing is folded but what is left out there (style.css), and tables of more numbers than a chart beside them has.
 var unfolded = [];
 addEventListener('beforeprint', function() {
-  unfolded = Array.prototype.slice.call(document.querySelectorAll('details:not([open]):not(.glossary):not(.more)'));
+  unfolded = Array.prototype.slice.call(document.querySelectorAll('details:not([open]):not(.glossary):not(.more):not(.fold)'));
   unfolded.forEach(function(d) {
     d.open = true;
   });
-  drawAll();
 });
 addEventListener('afterprint', function() {
   unfolded.forEach(function(d) {
