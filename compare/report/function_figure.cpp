@@ -29,7 +29,7 @@ std::vector<double> decades(double least, double most) {
 
 // The shares that have a line and a label, from the top downward and far enough from each other.
 std::vector<double> shares_on(const FunctionScale& scale) {
-  constexpr double apart = 130;  // of the box; a chart is at least 80 pixels high, a label 10
+  constexpr double apart = 170;  // of the box; a chart is at least 80 pixels high, a label 12
   std::vector<double> out;
   double last = -box;
   for (double e = 0; e > -6; --e)
@@ -195,6 +195,7 @@ class Drawing {
                                                         place.y, place.width / box, place.height / box)));
     };
     const auto x = [&](double of_box) { return place.x + of_box * place.width / box; };
+    const bool narrow = place.width < 170;  // then there is no room for all words
     Markup shapes = use(fmt::format("function-{}", index)), texts;
     if (shares) {
       texts += text_at(place.x - 6, place.y + place.height + 4, "0", "soft", {"end"});
@@ -208,15 +209,17 @@ class Drawing {
     if (cell.curve && biases) {
       texts += text_at(x(scale_.x(0)), place.y + place.height + 15, "0", "soft", {"middle"});
       for (const double bias : decades(scale_.low, scale_.high))
-        texts += text_at(x(scale_.x(bias)), place.y + place.height + 15, number(bias), "soft", {"middle"});
+        if (x(scale_.x(bias)) > place.x + 30)
+          texts += text_at(x(scale_.x(bias)), place.y + place.height + 15, number(bias), "soft", {"middle"});
     }
-    if (const double most = *std::max_element(cell.error.begin(), cell.error.end()); cell.curve && most > scale_.top)
+    if (const double most = *std::max_element(cell.error.begin(), cell.error.end());
+        !narrow && cell.curve && most > scale_.top)
       texts += text_at(x(FunctionScale::log_begin) + 3, place.y + 12, "↑ " + quantity(most, "fraction", 2), "ink",
                        {"start", 10});
     texts += cell.curve ? texels(cell, place) + window_words(cell, place) : values(cell, grid.inner, place, biases);
     if (std::isfinite(cell.texel_m)) {
       const bool largest = &cell == largest_usable(grid);
-      texts += text_at(place.x + place.width, place.y - 20, "texel " + length_text(cell.texel_m),
+      texts += text_at(place.x + place.width, place.y - 20, (narrow ? "" : "texel ") + length_text(cell.texel_m),
                        largest ? "good" : "soft", {"end", 12, largest ? 700 : 400});
     }
     return {shapes, texts};

@@ -101,7 +101,6 @@ constexpr Section all_sections[] = {
     {"bias", "Bias", by_point<report::bias_section>, false, "The usable window of every point"},
     {"reduction", "Reduction", by_point<report::reduction_section>, false},
     {"over", "Other settings", by_point<report::over_section>, false},
-    {"sweep", "Sweep", plain<report::sweep_section>, true, "Means over each swept setting"},
     {"places", "Places", by_point<report::places_section>, true},
     {"cost", "Speed", speed, false},
     {"pictures", "Pictures", pictures, false, "Pictures"},

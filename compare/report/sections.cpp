@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <unordered_map>
 
 #include "compare/judge/curve_reading.h"
 #include "compare/report/blocks.h"
@@ -154,87 +152,6 @@ Markup bias_section(const Results& results, const ShownPoints& shown) {
   out += shown.note;
   if (has_parts(results)) out += function_chart(shown);
   return section("bias", "Error against bias", out + windows_table(results, shown, alike));
-}
-
-namespace {
-
-// Mean and worst over all other settings: how the error goes with one of them.
-struct Trend {
-  std::vector<const PointRecord*> points;
-
-  // Of the finite values. NaN if there is none.
-  double mean(const auto& value_of_point) const {
-    double sum = 0;
-    size_t count = 0;
-    for (const PointRecord* point : points)
-      if (const double value = value_of_point(*point); std::isfinite(value)) sum += value, ++count;
-    return count ? sum / static_cast<double>(count) : std::nan("");
-  }
-  // "–" if no point has it.
-  Markup mean_cell(const std::string& unit, const auto& value_of_point) const {
-    const double value = mean(value_of_point);
-    return td(std::isfinite(value) ? Markup(cell(value, unit)) : "–");
-  }
-  Markup row(const std::string& value, std::span<const Metric> plotted) const {
-    const auto error = [](const PointRecord& point) { return metric_of(point, "error"); };
-    double worst = std::nan("");
-    size_t finite = 0;
-    for (const PointRecord* point : points)
-      if (std::isfinite(error(*point))) ++finite, worst = std::fmax(worst, error(*point));
-    Markup cells = td(cell(mean(error), "fraction")) + td(cell(worst, "fraction"));
-    cells += mean_cell("fraction", [](const PointRecord& p) { return has_curve(p) ? best_error(p) : std::nan(""); });
-    for (const Metric& metric : plotted)
-      cells += mean_cell(std::string(metric.unit),
-                         [&](const PointRecord& p) { return metric_of(p, std::string(metric.name)); });
-    const size_t of = points.size();
-    return tr(row_head(setting_text(value)), cells,
-              td(finite == of ? Markup(of) : prose("{} ({} not finite)", of, of - finite)));
-  }
-};
-
-// The metrics that the experiment asks to plot, without the error, which every table has.
-std::vector<Metric> plotted(const Results& results) {
-  std::vector<Metric> metrics = listed_metrics(results);
-  std::erase_if(metrics, [&](const Metric& metric) {
-    const auto& plot = results.info.plot;
-    return metric.name == "error" || std::find(plot.begin(), plot.end(), metric.name) == plot.end();
-  });
-  return metrics;
-}
-
-// The table of one swept setting.
-Markup sweep_of(const std::string& name, const std::vector<std::string>& values, const Results& results) {
-  const std::vector<Metric> metrics = plotted(results);
-  std::unordered_map<std::string, Trend> trends;
-  for (const PointRecord& point : results.points) trends[setting_of(point, name)].points.push_back(&point);
-  Markup rows;
-  for (const std::string& value : values) rows += trends[value].row(value, metrics);
-  Markup head = th(with_small(setting_label(name), swept_unit(name, results))) + th(with_small("Mean error", "%")) +
-                th(with_small("Worst error", "%")) +
-                th(with_small("Mean error at best " + free_setting_words(results.points), "%"));
-  for (const Metric& metric : metrics) head += th(with_small(metric_label(metric.name), head_unit(metric.unit)));
-  return div(css("swept"), element("h3", name), "\n",
-             div(css("scroll fit"), table("numbers small-table", head + th("Points"), rows))) +
-         "\n";
-}
-
-}  // namespace
-
-Markup sweep_section(const Results& results) {
-  Markup out;
-  std::vector<Markup> labels;
-  for (const std::string& name : results.info.swept) {
-    const std::vector<std::string> values = values_of(results, name);
-    if (values.size() < 2 ||
-        !std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
-      continue;
-    labels.push_back(setting_label(name));
-    out += sweep_of(name, values, results);
-  }
-  if (labels.empty()) return "";
-  return section(
-      "sweep", "Error against " + joined(labels, ", "),
-      paragraph(css("small"), "Means over all other settings. The error is that against the hard truth (R1).") + out);
 }
 
 namespace {

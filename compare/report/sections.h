@@ -14,8 +14,6 @@ namespace noonmark::report {
 // Each is empty if the results have nothing for it.
 // Error against bias: the windows' table; of parts also the figure of error against bias, which otherwise opens the page.
 Markup bias_section(const Results& results, const ShownPoints& shown);
-// Error against resolution, extent and other swept numbers: a table of each.
-Markup sweep_section(const Results& results);
 // Of frames: where each one errs, as bars.
 Markup places_section(const Results& results, const ShownPoints& shown);
 

@@ -328,7 +328,7 @@ TEST(Report, SmallAndEmptySweepsStillMakeAPage) {
   results.points[0].pictures.clear();
   const std::string one = render_report(results, sample_picture);
   EXPECT_EQ(one.find("not swept."), std::string::npos) << "a section that has nothing to show is left out";
-  for (const char* left_out : {"sweep", "pictures", "motion"}) {
+  for (const char* left_out : {"phase", "pictures", "motion"}) {
     EXPECT_EQ(one.find(fmt::format("<section id=\"{}\"", left_out)), std::string::npos) << left_out;
     EXPECT_EQ(one.find(fmt::format("<a href=\"#{}\"", left_out)), std::string::npos) << left_out;
   }
