@@ -94,10 +94,15 @@ class Drawing {
   const FunctionScale& scale() const { return scale_; }
 
  private:
+  static bool texels_differ(const FunctionGrid& grid) {
+    return std::any_of(grid.cells.begin(), grid.cells.end(), [&](const FunctionCell& cell) {
+      return !cell.points.empty() && cell.texel_m != grid.cells.front().texel_m;
+    });
+  }
   // "Largest texel with a usable bias: 156 mm (resolution 256 texels, extent 40 m), from 0.201 m to 0.605 m".
   Markup sentence(const FunctionGrid& grid) const {
     const FunctionCell* const cell = largest_usable(grid);
-    if (!cell) return "";
+    if (!cell || (grid.cells.size() > 1 && !texels_differ(grid))) return "";
     const Interval window = *usable_window(*cell->points.front());
     std::vector<std::string> names;
     for (const std::string& name : {grid.column, grid.row})
@@ -218,7 +223,7 @@ class Drawing {
                        {"start", 10});
     texts += cell.curve ? texels(cell, place) + window_words(cell, place) : values(cell, grid.inner, place, biases);
     if (std::isfinite(cell.texel_m)) {
-      const bool largest = &cell == largest_usable(grid);
+      const bool largest = texels_differ(grid) && &cell == largest_usable(grid);
       texts += text_at(place.x + place.width, place.y - 20, (narrow ? "" : "texel ") + length_text(cell.texel_m),
                        largest ? "good" : "soft", {"end", 12, largest ? 700 : 400});
     }
@@ -361,6 +366,8 @@ Markup legend(const FunctionFigure& figure) {
 
 }  // namespace
 }  // namespace function_drawing
+
+bool has_function_chart(const ShownPoints& shown) { return !function_figure(shown.results).grids.empty(); }
 
 Markup function_chart(const ShownPoints& shown) {
   const FunctionFigure figure = function_figure(shown.results);

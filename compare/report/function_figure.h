@@ -8,6 +8,7 @@ namespace noonmark::report {
 
 // Empty if the points do not know their causes. Each chart is a box of 1000 x 1000: its height goes with the square root of the
 // share, so that small shares show; its width with the logarithm of the bias, behind a bar for the bias 0.
+bool has_function_chart(const ShownPoints& shown);
 Markup function_chart(const ShownPoints& shown);
 
 }  // namespace noonmark::report

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/results/curve_fields.h"
 #include "compare/results/number_text.h"
 #include "compare/results/quantities.h"
 
@@ -44,6 +45,11 @@ std::vector<std::string> some_of(std::vector<std::string> values, bool& thinned)
   return out;
 }
 
+// cause_rows.end() if it is no built-in cause.
+auto row_of(std::string_view name) {
+  return std::find_if(cause_rows.begin(), cause_rows.end(), [&](const CauseRow& row) { return row.name == name; });
+}
+
 // The causes that a figure can stack: those of the error against the hard truth, sums in place of their parts.
 std::vector<CauseColor> stacked_causes(const Results& results) {
   std::vector<CauseColor> causes;
@@ -53,11 +59,8 @@ std::vector<CauseColor> stacked_causes(const Results& results) {
     const auto color = std::find_if(all.begin(), all.end(), named);
     if (color != all.end() && std::none_of(causes.begin(), causes.end(), named)) causes.push_back(*color);
   };
-  const auto row_of_cause = [](std::string_view name) {
-    return std::find_if(cause_rows.begin(), cause_rows.end(), [&](const CauseRow& row) { return row.name == name; });
-  };
   const auto add_whole = [&](std::string_view name) {
-    const auto row = row_of_cause(name);
+    const auto row = row_of(name);
     if (row == cause_rows.end() || row->place != CausePlace::light)
       add(row == cause_rows.end() || row->sum.empty() ? name : row->sum);
   };
@@ -66,13 +69,15 @@ std::vector<CauseColor> stacked_causes(const Results& results) {
   return causes;
 }
 
-// The numbers of a cause along a curve. A cause that is not of the bias keeps the point's own.
-std::vector<double> along(const PointRecord& point, const BiasCurve& curve, const std::string& cause) {
-  std::vector<double> values;
-  for (const double depth : curve.bias_depth) {
-    const std::optional<double> value = curve_value(curve, cause, depth);
-    const bool fixed = cause == "filter" || cause == "displacement";
-    values.push_back(value ? *value : fixed ? metric_of(point, cause) : 0);
+// The numbers of a cause along a curve, of a sum those of its parts together. Filter and displacement do not depend on the bias.
+std::vector<double> along(const PointRecord& point, const BiasCurve& curve, std::string_view cause) {
+  const bool fixed = cause == "filter" || cause == "displacement";
+  std::vector<double> values(curve.bias_depth.size(), fixed ? metric_of(point, std::string(cause)) : 0);
+  for (const CurveSeries& series : curve_series()) {
+    const auto row = row_of(series.name);
+    if (series.name != cause && (row == cause_rows.end() || row->sum != cause)) continue;
+    const std::vector<double>& part = series.of(curve);
+    for (size_t i = 0; i < std::min(values.size(), part.size()); ++i) values[i] += part[i];
   }
   return values;
 }
@@ -88,7 +93,7 @@ FunctionCell cell_of(std::vector<const PointRecord*> points, const std::vector<C
     cell.texel_m = cell.curve->m_per_depth / cell.curve->texels_per_depth;
     for (const double depth : cell.curve->bias_depth) cell.at.push_back(depth * cell.curve->m_per_depth);
     cell.error = cell.curve->error;
-    for (const CauseColor& cause : causes) cell.parts.push_back(along(point, *cell.curve, std::string(cause.name)));
+    for (const CauseColor& cause : causes) cell.parts.push_back(along(point, *cell.curve, cause.name));
     return cell;
   }
   for (const PointRecord* one : cell.points) cell.error.push_back(metric_of(*one, "error"));

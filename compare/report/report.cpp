@@ -58,8 +58,9 @@ struct Section {
   const char* id;
   const char* label;  // in the page's head; null: answer_label()
   Markup (*make)(const Results&, const ShownPoints&, const ReadFile&);
-  bool compares;               // compares all points with each other, which has no meaning across parts
-  const char* fold = nullptr;  // what a click unfolds; null: the section is open
+  bool compares;  // compares all points with each other, which has no meaning across parts
+  const char* fold =
+      nullptr;  // what a click unfolds, behind the first screen and the answers; null: the section is open
 };
 template <Markup (*make)(const Results&)>
 Markup plain(const Results& results, const ShownPoints&, const ReadFile&) {
@@ -80,11 +81,12 @@ Markup lights(const Results& results, const ShownPoints&, const ReadFile& read_f
 bool opens_with_motion(const Results& results) {
   return !report::has_live_picture(results) && !report::has_diagram(results) && report::has_flicker(results);
 }
-// Parts are measured to be compared, so there the chart stands above the live picture.
+// Parts are measured to be compared, so there the chart stands above all, unless laws say what their points show. Otherwise it is
+// the first figure only where there is no other.
 bool opens_with_speed(const Results& results, const ShownPoints& shown) {
-  const bool parts = !results.points.empty() && !results.points.front().part.empty();
-  return (parts || !report::has_live_picture(results)) && !report::has_diagram(results) &&
-         !report::has_flicker(results) && report::has_speed_chart(shown);
+  if (report::has_diagram(results) || report::has_flicker(results) || !report::has_speed_chart(shown)) return false;
+  return report::has_parts(results) ? results.laws.empty()
+                                    : !report::has_live_picture(results) && !report::has_function_chart(shown);
 }
 Markup motion(const Results& results, const ShownPoints&, const ReadFile&) {
   return report::has_flicker(results) ? report::flicker_section(results, opens_with_motion(results)) : "";
@@ -114,11 +116,6 @@ struct ShownSection {
   Markup content;
 };
 
-// The rest of the page is folded behind its first screen and its answers. Of parts the section on the bias has the first figure.
-bool folds(const Section& section, bool parts) {
-  return section.fold && !(parts && section.id == std::string_view("bias"));
-}
-
 // A section without content is left out, in the page's head too.
 std::vector<ShownSection> sections_of(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   const bool parts = !results.points.empty() && !results.points.front().part.empty();
@@ -128,14 +125,14 @@ std::vector<ShownSection> sections_of(const Results& results, const ShownPoints&
     const std::string label = section.label ? section.label : report::answer_label(results, shown);
     if (Markup content = section.make(results, shown, read_file); !content.empty())
       sections.push_back(
-          {section.id, label, folds(section, parts) ? report::folded("fold", false, section.fold, content) : content});
+          {section.id, label, section.fold ? report::folded("fold", false, section.fold, content) : content});
   }
   return sections;
 }
 
-// What the first screen shows: the verdict and the answer. Below them stand the live picture and the phase diagram; a
-// report without both has the strips of its motion there, or else the chart of cost against error, and one of parts has that
-// chart above the live picture.
+// What the first screen shows: the verdict and the answer, then the error as a function of what was swept, then the live picture
+// and the phase diagram. A report of parts may begin with the chart of cost against error, one without a live picture and a diagram
+// with the strips of its motion.
 Markup first_screen(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   using namespace report;
   const bool live = has_live_picture(results), diagram = has_diagram(results);
@@ -143,17 +140,14 @@ Markup first_screen(const Results& results, const ShownPoints& shown, const Read
   Markup figures, answer = answer_sentence(results, shown);
   if (live) figures += div(Attribute("id", "live"), live_figure(results, shown, read_file)) + "\n";
   if (diagram) figures += figure(first_diagram());
-  const bool speed = opens_with_speed(results, shown);
-  if (speed) figures = figure(speed_chart()) + figures;
-  if (opens_with_motion(results)) figures = figure(flicker_strips(results));
+  Markup leading;
+  if (opens_with_speed(results, shown)) leading = figure(speed_chart());
+  if (opens_with_motion(results)) leading = figure(flicker_strips(results));
   if (const Markup of_lights = lights_sentence(results); !of_lights.empty()) answer += " " + of_lights;
   if (has_flicker(results)) answer += " " + flicker_sentence(results);
-  const char* const beside = speed             ? "alone"
-                             : live && diagram ? "side-by-side two"
-                             : live || diagram ? "side-by-side"
-                                               : "alone";
-  return div(css("first-screen"), "\n", verdict_line(results), paragraph(css("said"), answer),
-             has_parts(results) ? "" : function_chart(shown), div(css(beside), figures)) +
+  const char* const beside = live && diagram ? "side-by-side two" : live || diagram ? "side-by-side" : "alone";
+  return div(css("first-screen"), "\n", verdict_line(results), paragraph(css("said"), answer), leading,
+             function_chart(shown), div(css(beside), figures)) +
          "\n";
 }
 

@@ -11,7 +11,6 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
-#include "compare/report/function_figure.h"
 #include "compare/report/part_answers.h"
 #include "compare/report/text.h"
 #include "compare/results/number_text.h"
@@ -150,7 +149,6 @@ Markup bias_section(const Results& results, const ShownPoints& shown) {
       first->placements > 1 ? ", at every placement of the grid" : "",
       alike ? prose(" Varied: {}; made: {}.", code(first->parameter), first->made) : ""));
   out += shown.note;
-  if (has_parts(results)) out += function_chart(shown);
   return section("bias", "Error against bias", out + windows_table(results, shown, alike));
 }
 

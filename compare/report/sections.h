@@ -12,7 +12,7 @@
 namespace noonmark::report {
 
 // Each is empty if the results have nothing for it.
-// Error against bias: the windows' table; of parts also the figure of error against bias, which otherwise opens the page.
+// The windows' table.
 Markup bias_section(const Results& results, const ShownPoints& shown);
 // Of frames: where each one errs, as bars.
 Markup places_section(const Results& results, const ShownPoints& shown);
