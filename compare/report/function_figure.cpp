@@ -148,9 +148,12 @@ class Drawing {
         shapes += one;
         texts += words;
         targets += target(grid.cells[i], i, {x, y + head, width, frame.height}, frame.wide);
-        if (!grid.column.empty())
-          texts += text_at(x, y + head - 20, value_text(grid.column, grid.columns[column], results_), "ink",
-                           {"start", 13, 600});
+        if (!grid.column.empty()) {
+          const std::string& value = grid.columns[column];
+          // A word says not by itself what it is of: "filter box".
+          const std::string of = number_of(value) ? "" : setting_label(grid.column) + " ";
+          texts += text_at(x, y + head - 20, of + value_text(grid.column, value, results_), "ink", {"start", 13, 600});
+        }
       }
       y += head + frame.height + (frame.wide && row + 1 < grid.rows.size() ? 6 : foot);
     }
