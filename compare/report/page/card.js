@@ -121,7 +121,13 @@ function worstChoices(p) {
           .map(function(f) {
             return f.metric;
           }),
-      Object.keys(p.worst_of || {}));
+      data.metrics
+          .map(function(m) {
+            return m.name;
+          })
+          .filter(function(name) {
+            return p.worst_of && name in p.worst_of;
+          }));
   if (mode() === 'recommended' && p.at && page.live && page.live.data.point === p.id && page.live.has(p.at))
     names = ['error'].concat(page.live.data.causes.slice(1));
   return names

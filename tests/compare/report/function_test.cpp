@@ -187,7 +187,7 @@ TEST(FunctionFigure, HasBarsWhereTheBiasHasNoCurve) {
 
 TEST(FunctionFigure, StacksFirstWhatTheExperimentAsksToPlot) {
   Results results = sample_results();
-  results.info.plot = {"coverage_dark", "error", "acne"};
+  results.info.plot = {"coverage_dark", "error", "acne", "shadow_ms"};
   const FunctionFigure figure = function_figure(results);
   ASSERT_GE(figure.causes.size(), 2u);
   EXPECT_EQ(figure.causes[0].name, "coverage") << "the whole cause";
@@ -195,6 +195,7 @@ TEST(FunctionFigure, StacksFirstWhatTheExperimentAsksToPlot) {
   const nlohmann::json data = embedded_data(render_report(results, sample_picture));
   EXPECT_EQ(data["metrics"][0]["name"], "coverage_dark") << "and in the lists";
   EXPECT_EQ(data["metrics"][2]["name"], "acne");
+  EXPECT_EQ(data["speed"]["costs"][1], "shadow_ms") << "behind the cost that ranks the answers";
 }
 
 TEST(FunctionFigure, HasAGridForEachPart) {
