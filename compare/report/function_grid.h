@@ -3,7 +3,7 @@
 //
 //   const FunctionFigure figure = function_figure(results);
 //   for (const FunctionGrid& grid : figure.grids)                 // one for each value of the further settings
-//     for (const FunctionCell& cell : grid.cells) draw(cell.at, cell.parts, figure.causes);
+//     for (const FunctionCell& cell : grid.cells) print(cell.texel_m, cell.parts.size());
 #pragma once
 #include <string>
 #include <vector>
