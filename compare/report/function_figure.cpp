@@ -23,6 +23,7 @@ constexpr size_t most_tips = 32;  // numbers of a chart that a pointer finds
 // Powers of ten from the least to the most.
 std::vector<double> decades(double least, double most) {
   std::vector<double> out;
+  if (!(least > 0) || !std::isfinite(most)) return out;
   for (double e = std::ceil(std::log10(least) - 1e-9); e <= std::log10(most); ++e) out.push_back(std::pow(10, e));
   return out;
 }
@@ -251,7 +252,7 @@ class Drawing {
     const PointRecord& point = *cell.points.front();
     const std::optional<Interval> window = usable_window(point);
     const auto line_of = [&](double center, double y, const std::string& words, const char* color) {
-      const double half = 3.1 * static_cast<double>(words.size());
+      const double half = std::min(3.1 * static_cast<double>(words.size()), place.width / 2);
       return text_at(std::clamp(center, place.x + half, place.x + place.width - half), y, words, color,
                      {"middle", 11, 600});
     };
@@ -276,7 +277,8 @@ class Drawing {
     Markup out;
     if (inner.empty() || !labels) return out;
     const double step = place.width / static_cast<double>(cell.points.size());
-    for (size_t i = 0; i < cell.points.size(); ++i)
+    const size_t every = static_cast<size_t>(std::ceil(36 / step));  // so that names of few letters do not touch
+    for (size_t i = 0; i < cell.points.size(); i += every)
       out += text_at(place.x + (static_cast<double>(i) + 0.5) * step, place.y + place.height + 15,
                      setting_text(setting_of(*cell.points[i], inner)), "soft", {"middle", 11});
     return out;
@@ -362,7 +364,7 @@ Markup legend(const FunctionFigure& figure) {
   std::string bounds = quantity(curve.acne_bound, "fraction");
   if (curve.peter_panning_bound != curve.acne_bound)
     bounds += " and " + quantity(curve.peter_panning_bound, "fraction");
-  if (!curve.error_band.worst.empty())
+  if (curve.placements > 1)
     out += key("ink", "1 2", fmt::format("Error at the worst of {} placements of the grid", curve.placements));
   return out + key("ink", "2 3", "Bound " + bounds);
 }

@@ -82,13 +82,22 @@ std::vector<double> along(const PointRecord& point, const BiasCurve& curve, std:
   return values;
 }
 
+// A stored curve can be anything; one that is drawn has a number at each of ascending biases.
+bool can_be_drawn(const BiasCurve& curve) {
+  const std::vector<double>& bias = curve.bias_depth;
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+  return !bias.empty() && curve.error.size() == bias.size() && positive(bias.back() * curve.m_per_depth) &&
+         bias.front() >= 0 && std::is_sorted(bias.begin(), bias.end()) && positive(curve.m_per_depth) &&
+         positive(curve.texels_per_depth);
+}
+
 FunctionCell cell_of(std::vector<const PointRecord*> points, const std::vector<CauseColor>& causes) {
   FunctionCell cell;
   cell.points = std::move(points);
   if (cell.points.empty()) return cell;
   const PointRecord& point = *cell.points.front();
   cell.texel_m = metric_of(point, "texel_m");
-  if (point.curve) {
+  if (point.curve && can_be_drawn(*point.curve)) {
     cell.curve = &*point.curve;
     cell.texel_m = cell.curve->m_per_depth / cell.curve->texels_per_depth;
     for (const double depth : cell.curve->bias_depth) cell.at.push_back(depth * cell.curve->m_per_depth);

@@ -48,7 +48,7 @@ FunctionScale function_scale(const FunctionFigure& figure) {
   };
   each_cell(figure, [&](const FunctionCell& cell) {
     if (!cell.curve) return;
-    first = std::min(first, cell.at.size() > 1 ? cell.at[1] : cell.at[0]);
+    first = std::min(first, *std::upper_bound(cell.at.begin(), cell.at.end(), 0.0));
     last = std::max(last, cell.at.back());
     reach(cell.texel_m / 10, cell.texel_m * 10);
     if (const auto window = usable_window(*cell.points.front()))
@@ -68,14 +68,15 @@ FunctionScale function_scale(const FunctionFigure& figure) {
     }
     if (cell.curve) scale.top = std::max({scale.top, 4 * cell.curve->acne_bound, 4 * cell.curve->peter_panning_bound});
   });
-  if (!(scale.top > 0)) scale.top = 0.01;
+  scale.top = std::clamp(scale.top, 1e-6, 10.0);  // the causes of one receiver can be more than 1 together
   return scale;
 }
 
 std::vector<size_t> drawn_entries(const FunctionCell& cell, const FunctionScale& scale) {
   std::vector<size_t> out;
   for (size_t i = 0; i < cell.at.size(); ++i)
-    if (cell.at[i] > 0 && (i + 1 >= cell.at.size() || cell.at[i + 1] >= scale.low) && cell.at[i - 1] <= scale.high)
+    if (cell.at[i] > 0 && (i + 1 == cell.at.size() || cell.at[i + 1] >= scale.low) &&
+        (i == 0 || cell.at[i - 1] <= scale.high))
       out.push_back(i);
   return out;
 }
@@ -133,7 +134,8 @@ Markup layers(const FunctionCell& cell, const FunctionFigure& figure, const Func
                    Attribute("stroke-width", "1.2"), Attribute("vector-effect", "non-scaling-stroke"));
   };
   out += error("error", cell.error, "none");
-  if (const Band& band = cell.curve->error_band; !band.worst.empty()) out += error("worst", band.worst, "1 2");
+  if (const Band& band = cell.curve->error_band; band.worst.size() == cell.at.size())
+    out += error("worst", band.worst, "1 2");
   return out;
 }
 

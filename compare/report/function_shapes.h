@@ -20,11 +20,12 @@ struct FunctionScale {
 
   // Across, by the logarithm of the bias in metres. A bias beyond an end stands on it.
   double x(double bias) const {
-    if (bias <= 0) return zero_end / 2;
-    return std::clamp(log_begin + (box - log_begin) * std::log(bias / low) / std::log(high / low), log_begin, box);
+    if (!(bias > 0)) return zero_end / 2;
+    const double part = (std::log(bias) - std::log(low)) / (std::log(high) - std::log(low));
+    return std::clamp(log_begin + (box - log_begin) * part, log_begin, box);
   }
-  // Down, by the square root of the share.
-  double y(double share) const { return box * (1 - std::sqrt(std::clamp(share / top, 0.0, 1.0))); }
+  // Down, by the square root of the share. One that is no number is at the ground.
+  double y(double share) const { return share > 0 ? box * (1 - std::sqrt(std::min(share / top, 1.0))) : box; }
 };
 FunctionScale function_scale(const FunctionFigure& figure);
 

@@ -209,6 +209,46 @@ TEST(FunctionFigure, HasAGridForEachPart) {
   EXPECT_EQ(figure.grids.back().cells.size(), 16u);
 }
 
+// A store can hold any numbers.
+TEST(FunctionFigure, DrawsWhateverAStoreHolds) {
+  const double no_number = std::nan(""), infinite = INFINITY;
+  for (const double odd : {no_number, infinite, -1.0, 0.0, 1e-320, 1e308}) {
+    Results results = sample_results();
+    for (PointRecord& point : results.points) {
+      BiasCurve& curve = *point.curve;
+      switch (point.id % 8) {
+        case 0:
+          curve.m_per_depth = odd;
+          break;
+        case 1:
+          curve.texels_per_depth = odd;
+          break;
+        case 2:
+          curve.acne[5] = curve.error[6] = curve.acne_bound = odd;
+          break;
+        case 3:
+          curve.bias_depth.back() = odd;
+          break;
+        case 4:
+          curve.bias_depth.clear();
+          break;
+        case 5:
+          curve.acne.resize(3), curve.error_band.worst = {odd};
+          break;
+        case 6:
+          curve.window_min_depth = curve.window_max_depth = odd;
+          break;
+        case 7:
+          curve.bias_depth.erase(curve.bias_depth.begin()), curve.error.erase(curve.error.begin());
+          break;
+      }
+    }
+    const std::string html = function_chart(shown_points(results)).html();
+    EXPECT_EQ(elements(html, "[\"( ](-?nan|inf)[\") ]"), std::vector<std::string>()) << odd;
+    EXPECT_EQ(elements(html, "[ \"-][0-9]{12}"), std::vector<std::string>()) << odd;
+  }
+}
+
 TEST(FunctionFigure, IsLeftOutWhereNoCauseIsKnown) {
   Results results = sample_results();
   for (PointRecord& point : results.points) {
