@@ -30,15 +30,8 @@ namespace {
 
 using nlohmann::json;
 
-json drawn(const std::vector<double>& series, const std::vector<size_t>& indices) {
-  json out = json::array();
-  for (size_t i : indices) out.push_back(i < series.size() ? drawn_value(series[i]) : json("NaN"));
-  return out;
-}
-
-json curve_of(const PointRecord& point, size_t entries_of_all_curves) {
-  const BiasCurve& curve = *point.curve;
-  const std::vector<size_t> indices = drawn_biases(curve, entries_of_all_curves);
+// What the card and the diagram say of a curve. compare/report/function_figure.h draws it.
+json curve_of(const BiasCurve& curve) {
   json out;
   each_field(curve, [&](std::string_view name, const auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
@@ -46,9 +39,6 @@ json curve_of(const PointRecord& point, size_t entries_of_all_curves) {
     else
       out[name] = value;
   });
-  for (const CurveSeries& series : curve_series())
-    if (!series.of(curve).empty()) out[series.name] = drawn(series.of(curve), indices);
-  if (const std::optional<double> set = bias_as_set(point)) out["set_bias_depth"] = value_of(*set);
   return out;
 }
 
@@ -64,20 +54,14 @@ nlohmann::json drawn_value(double value) {
   return std::isfinite(value) ? json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)) : value_of(value);
 }
 
-std::vector<size_t> drawn_biases(const BiasCurve& curve, size_t entries_of_all_curves) {
-  const size_t count = curve.bias_depth.size();
-  size_t keep = count;
-  if (entries_of_all_curves > max_curve_entries)
-    keep = std::min(count, std::max<size_t>(32, count * max_curve_entries / entries_of_all_curves));
-  std::vector<size_t> indices;
-  for (size_t i = 0; i < keep; ++i) indices.push_back(keep == 1 ? 0 : i * (count - 1) / (keep - 1));
-  return indices;
-}
-
-size_t curve_entries(const Results& results) {
-  size_t entries = 0;
-  for (const PointRecord& point : results.points) entries += point.curve ? point.curve->bias_depth.size() : 0;
-  return entries;
+std::vector<Metric> listed_metrics(const Results& results) {
+  std::vector<Metric> metrics = metrics_of(results.points);
+  auto next = metrics.begin();
+  for (const std::string& name : results.info.plot)
+    if (const auto asked = std::find_if(next, metrics.end(), [&](const Metric& metric) { return metric.name == name; });
+        asked != metrics.end())
+      std::rotate(next, asked, asked + 1), ++next;
+  return metrics;
 }
 
 namespace {
@@ -102,12 +86,9 @@ json swept_data(const ShownPoints& shown) {
 
 json metric_data(const Results& results) {
   json out = json::array();
-  for (const Metric& metric : metrics_of(results.points))
-    out.push_back({{"name", metric.name},
-                   {"label", error_label(metric.name)},
-                   {"unit", metric.unit},
-                   {"help", metric.help},
-                   {"plotted", metric.is(Metric::plot)}});
+  for (const Metric& metric : listed_metrics(results))
+    out.push_back(
+        {{"name", metric.name}, {"label", error_label(metric.name)}, {"unit", metric.unit}, {"help", metric.help}});
   return out;
 }
 
@@ -169,7 +150,6 @@ json point_data(const PointRecord& point, const Results& results, const std::set
 }
 
 json points_data(const ShownPoints& shown, const std::set<std::string>& shared) {
-  const size_t entries = curve_entries(shown.results);
   const auto reductions =
       static_cast<size_t>(std::count_if(shown.results.points.begin(), shown.results.points.end(),
                                         [](const PointRecord& point) { return !point.lookup_curve.empty(); }));
@@ -177,7 +157,7 @@ json points_data(const ShownPoints& shown, const std::set<std::string>& shared) 
   json out = json::array();
   for (const PointRecord& point : shown.results.points) {
     json entry = point_data(point, shown.all, shared);
-    if (point.curve) entry["curve"] = curve_of(point, entries);
+    if (point.curve) entry["curve"] = curve_of(*point.curve);
     if (json curve = reductions_of(point, reductions); !curve.is_null()) entry["reductions"] = std::move(curve);
     if (hides_window(point)) {
       entry["no_window"] = window_not_known;
@@ -209,7 +189,6 @@ json chart_data(const ShownPoints& shown) {
       {"causes", cause_data(shown.all)},
       {"frames",
        judges_frames(shown.all.points) ? json(shown.all.info.command) : json()},  // the command that judged them
-      {"plot", shown.all.info.plot},
       {"cost", shown.all.info.cost},
       {"bias", opens_as_set(shown) ? "set" : "recommended"},
       {"bias_word", bias_word(shown)},

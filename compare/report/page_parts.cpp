@@ -35,19 +35,23 @@ std::string vega_script() {
 }
 
 // A data block of at most this many bytes is written as JSON, which the page's scripts read at once. A larger one is
-// packed: the 5.3 MB of JSON in the report of experiments/laws.toml become 0.5 MB.
-constexpr size_t largest_plain_block = 1 << 20;
+// packed, to about a fifth.
+constexpr size_t largest_plain_block = 1 << 18;
 
 Markup json_block(std::string_view id, const std::string& safe_json) {
   return element("script", Attribute("type", "application/json"), Attribute("id", id), Markup::unescaped(safe_json));
 }
 
+// report/page/data.js unpacks it.
+Markup packed_block(std::string_view id, const std::string& text) {
+  return element("script", Attribute("type", "text/plain"), Attribute("id", id),
+                 Attribute("data-packed", "deflate base64"), base64(deflated(text)));
+}
+
 // The element that holds the data of the charts. report/page/data.js reads it.
 Markup chart_block(const nlohmann::json& data) {
   const std::string text = script_json(data);
-  if (text.size() <= largest_plain_block) return json_block("noonmark-data", text);
-  return element("script", Attribute("type", "text/plain"), Attribute("id", "noonmark-data"),
-                 Attribute("data-packed", "deflate base64"), base64(deflated(text)));
+  return text.size() <= largest_plain_block ? json_block("noonmark-data", text) : packed_block("noonmark-data", text);
 }
 
 std::logic_error unknown(std::string_view name) {
@@ -109,13 +113,12 @@ std::string fill_page(const PageParts& parts) {
     if (name == "nav") return parts.navigation.html();
     if (name == "sections") return parts.sections.html();
     if (name == "data") return chart_block(parts.data).html();
-    if (name == "vega") return vega_script();
-    if (name == "start") return std::string(page_file("report/page/data.js"));
-    if (name == "script") {
-      std::string script;
-      for (const std::string& part : parts.scripts) script += page_file(fmt::format("report/page/{}.js", part));
-      return script;
+    if (name == "code") {
+      std::string code = vega_script() + "function noonmarkRun(noonmarkData) {\n";
+      for (const std::string& part : parts.scripts) code += page_file(fmt::format("report/page/{}.js", part));
+      return packed_block("noonmark-code", code + "}\n").html();
     }
+    if (name == "start") return std::string(page_file("report/page/data.js"));
     if (name == "version") return Markup(parts.version).html();
     throw unknown(name);
   });

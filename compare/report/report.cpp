@@ -13,10 +13,12 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/flicker_section.h"
+#include "compare/report/function_figure.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/live_section.h"
 #include "compare/report/lookup_section.h"
 #include "compare/report/page_parts.h"
+#include "compare/report/part_answers.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/recommendation_box.h"
 #include "compare/report/sections.h"
@@ -58,6 +60,8 @@ struct Section {
   const char* label;  // in the page's head; null: answer_label()
   Markup (*make)(const ShownPoints&, const ReadFile&);
   bool compares;  // compares all points with each other, which has no meaning across parts
+  const char* fold =
+      nullptr;  // what a click unfolds, behind the first screen and the answers; null: the section is open
 };
 // A section is made of what it asks for.
 template <auto section>
@@ -76,32 +80,32 @@ Markup made(const ShownPoints& shown, const ReadFile& read_file) {
 bool opens_with_motion(const Results& results) {
   return !report::has_live_picture(results) && !report::has_diagram(results) && report::has_flicker(results);
 }
-// Parts are measured to be compared, so there the chart stands above the live picture.
+// Parts are measured to be compared, so there the chart stands above all, unless laws say what their points show. Otherwise it is
+// the first figure only where there is no other.
 bool opens_with_speed(const ShownPoints& shown) {
-  const bool parts = !shown.all.points.empty() && !shown.all.points.front().part.empty();
-  return ((parts && !shown.headline) || !report::has_live_picture(shown.all)) && !report::has_diagram(shown.all) &&
-         !report::has_flicker(shown.all) && report::has_speed_chart(shown);
+  if (report::has_diagram(shown.all) || report::has_flicker(shown.all) || !report::has_speed_chart(shown)) return false;
+  return report::has_parts(shown.all) ? !shown.headline
+                                      : !report::has_live_picture(shown.all) && !report::has_function_chart(shown);
 }
 Markup motion(const Results& results) {
   return report::has_flicker(results) ? report::flicker_section(results, opens_with_motion(results)) : "";
 }
 Markup speed(const ShownPoints& shown) { return report::speed_section(shown, opens_with_speed(shown)); }
 constexpr Section all_sections[] = {
-    {"phase", "Diagram", made<report::phase_section>, false},
+    {"phase", "Diagram", made<report::phase_section>, false, "How the diagram was made"},
     {"answer", nullptr, made<report::answer_section>, false},
     {"lights", "Lights", made<report::lights_section>, false},
     {"cascades", "Cascades", made<report::cascades_section>, false},
     {"motion", "Motion", made<motion>, false},
-    {"bias", "Bias", made<report::bias_section>, false},
+    {"bias", "Bias", made<report::bias_section>, false, "The usable window of every point"},
     {"reduction", "Reduction", made<report::reduction_section>, false},
     {"over", "Other settings", made<report::over_section>, false},
-    {"sweep", "Sweep", made<report::sweep_section>, true},
-    {"budget", "Causes", made<report::budget_section>, true},
+    {"places", "Places", made<report::places_section>, true},
     {"cost", "Speed", made<speed>, false},
-    {"pictures", "Pictures", made<report::pictures_section>, false},
-    {"points", "Points", made<report::points_section>, false},
-    {"meaning", "Meaning", made<report::meaning_section>, false},
-    {"making", "Making", made<report::making_section>, false},
+    {"pictures", "Pictures", made<report::pictures_section>, false, "Pictures"},
+    {"points", "Points", made<report::points_section>, false, "Every point in a table"},
+    {"meaning", "Meaning", made<report::meaning_section>, false, "What the numbers mean"},
+    {"making", "Making", made<report::making_section>, false, "How these results were made"},
 };
 
 struct ShownSection {
@@ -117,14 +121,15 @@ std::vector<ShownSection> sections_of(const ShownPoints& shown, const ReadFile& 
     if (parts && section.compares) continue;
     const std::string label = section.label ? section.label : report::answer_label(shown);
     if (Markup content = section.make(shown, read_file); !content.empty())
-      sections.push_back({section.id, label, std::move(content)});
+      sections.push_back(
+          {section.id, label, section.fold ? report::folded("fold", false, section.fold, content) : content});
   }
   return sections;
 }
 
-// What the first screen shows: the verdict and the answer. Below them stand the live picture and the phase diagram; a
-// report without both has the strips of its motion there, or else the chart of cost against error, and one of parts has that
-// chart above the live picture.
+// What the first screen shows: the verdict and the answer, then the error as a function of what was swept, then the live picture
+// and the phase diagram. A report of parts may begin with the chart of cost against error, one without a live picture and a diagram
+// with the strips of its motion.
 Markup first_screen(const ShownPoints& shown, const ReadFile& read_file) {
   using namespace report;
   const bool live = has_live_picture(shown.all), diagram = has_diagram(shown.all);
@@ -132,17 +137,14 @@ Markup first_screen(const ShownPoints& shown, const ReadFile& read_file) {
   Markup figures, answer = answer_sentence(shown);
   if (live) figures += div(Attribute("id", "live"), live_figure(shown, read_file)) + "\n";
   if (diagram) figures += figure(first_diagram());
-  const bool speed = opens_with_speed(shown);
-  if (speed) figures = figure(speed_chart()) + figures;
-  if (opens_with_motion(shown.all)) figures = figure(flicker_strips(shown.all));
+  Markup leading;
+  if (opens_with_speed(shown)) leading = figure(speed_chart());
+  if (opens_with_motion(shown.all)) leading = figure(flicker_strips(shown.all));
   if (const Markup of_lights = lights_sentence(shown.all); !of_lights.empty()) answer += " " + of_lights;
   if (has_flicker(shown.all)) answer += " " + flicker_sentence(shown.all);
-  const char* const beside = speed             ? "alone"
-                             : live && diagram ? "side-by-side two"
-                             : live || diagram ? "side-by-side"
-                                               : "alone";
+  const char* const beside = live && diagram ? "side-by-side two" : live || diagram ? "side-by-side" : "alone";
   return div(css("first-screen"), "\n", verdict_line(shown), answer.empty() ? Markup() : paragraph(css("said"), answer),
-             div(css(beside), figures)) +
+             leading, function_chart(shown), div(css(beside), figures)) +
          "\n";
 }
 
@@ -167,8 +169,8 @@ std::string render_report(const Results& results,
        .sections = body,
        .data = report::chart_data(shown),
        .causes = causes,
-       .scripts = {"charts", "keyboard", "chart_bias", "chart_lookup", "chart_sweep", "speed_marks", "chart_speed",
-                   "chart_laws", "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
+       .scripts = {"charts", "keyboard", "function", "chart_lookup", "speed_marks", "chart_speed", "chart_laws",
+                   "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
        .version = results.info.version});
 }
 

@@ -1,12 +1,10 @@
-// The sections with charts: a place for each chart, which compare/report/page/charts.js fills, and the same numbers as
-// a table.
+// The sections of error against a setting: tables, and bars by cause.
 #include "compare/report/sections.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "compare/judge/curve_reading.h"
 #include "compare/report/blocks.h"
@@ -109,7 +107,7 @@ Markup windows_table(const ShownPoints& shown, bool alike) {
                 div(css("scroll"), windows) + "\n");
 }
 
-// The causes with stacked bars: the parts of R5 - R1.
+// The causes that the bars of frames have: the parts of R5 - R1.
 bool is_part(std::string_view cause) { return cause != "light_size" && cause != "aliasing" && cause != "coverage"; }
 
 }  // namespace
@@ -152,173 +150,60 @@ Markup bias_section(const ShownPoints& shown) {
       first->placements > 1 ? ", at every placement of the grid" : "",
       alike ? prose(" Varied: {}; made: {}.", code(first->parameter), first->made) : ""));
   out += shown.note;
-  if (const size_t drawn = drawn_biases(*first, curve_entries(shown.results)).size(); drawn < first->bias_depth.size())
-    out += paragraph(css("small"), prose("The chart draws {} of the {} biases of a curve, evenly chosen. {} has all of "
-                                         "them. Windows and best biases are of the exact curve.",
-                                         drawn, first->bias_depth.size(), code("shown.all.sqlite")));
-  out += chart_place("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
   return section("bias", "Error against bias", out + windows_table(shown, alike));
 }
 
 namespace {
 
-// Mean and worst over all other settings: the chart's trend in numbers.
-struct Trend {
-  double sum = 0, worst = 0, best_sum = 0;
-  size_t finite = 0, of = 0, curves = 0;
-
-  void add(const PointRecord& point) {
-    ++of;
-    if (const double best = has_curve(point) ? best_error(point) : std::nan(""); std::isfinite(best))
-      best_sum += best, ++curves;
-    const double error = metric_of(point, "error");
-    if (!std::isfinite(error)) return;
-    ++finite, sum += error, worst = std::max(worst, error);
-  }
-  Markup row(const std::string& value) const {
-    const double none = std::nan("");
-    return tr(row_head(setting_text(value)), td(cell(finite ? sum / static_cast<double>(finite) : none, "fraction")),
-              td(cell(finite ? worst : none, "fraction")),
-              td(curves ? cell(best_sum / static_cast<double>(curves), "fraction") : "–"),
-              td(finite == of ? Markup(of) : prose("{} ({} not finite)", of, of - finite)));
-  }
-};
-
-// The chart of one swept setting, and its table. number: from 1.
-Markup sweep_of(const std::string& name, const std::vector<std::string>& values, size_t number,
-                const Results& results) {
-  std::unordered_map<std::string, Trend> trends;
-  for (const PointRecord& point : results.points) trends[setting_of(point, name)].add(point);
-  Markup rows;
-  for (const std::string& value : values) rows += trends[value].row(value);
-  const std::string label = setting_label(name);
-  const Markup head = th(with_small(label, swept_unit(name, results))) + th(with_small("Mean error", "%")) +
-                      th(with_small("Worst error", "%")) +
-                      th(with_small("Mean error at best " + free_setting_words(results.points), "%")) + th("Points");
-  return div(css("swept"), element("h3", name), "\n",
-             chart_place(
-                 fmt::format("sweep-{}", number),
-                 fmt::format("Error against {}; one line for each combination of the other swept settings.", label)),
-             div(css("scroll fit"), table("numbers small-table", head, rows))) +
-         "\n";
-}
-
-}  // namespace
-
-Markup sweep_section(const ShownPoints& shown) {
-  Markup out =
-      paragraph(css("small"), "The tables are of the error against the hard truth (R1). The charts offer the others.") +
-      shown.note;
-  std::vector<Markup> labels;
-  for (const std::string& name : shown.all.info.swept) {
-    const std::vector<std::string> values = values_of(shown.all, name);
-    if (values.size() < 2 ||
-        !std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
-      continue;
-    labels.push_back(setting_label(name));
-    out += sweep_of(name, values, labels.size(), shown.all);
-  }
-  return labels.empty() ? "" : section("sweep", "Error against " + joined(labels, ", "), out);
-}
-
-namespace {
-
-// The causes of one point: "Acne 1 %, Peter Panning 2 %" of those that were measured, and those that have a bar.
-struct CausesOfPoint {
-  std::string told;
-  std::vector<std::pair<std::string_view, double>> sizes;
-  double sum = 0;
-};
-
-CausesOfPoint causes_of_point(const PointRecord& point, const std::vector<CauseColor>& causes) {
-  CausesOfPoint out;
-  for (const CauseColor& cause : causes) {
-    const double value = metric_of(point, std::string(cause.name));
-    if (!is_part(cause.name)) continue;
-    if (!has_cause(point, cause.name)) continue;
-    out.told +=
-        fmt::format("{}{} {}", out.told.empty() ? "" : ", ", metric_label(cause.name), quantity(value, "fraction"));
-    if (!std::isfinite(value) || value <= 0) continue;
-    out.sum += value;
-    out.sizes.emplace_back(cause.name, value);
-  }
-  return out;
-}
-
-// differing: the swept settings that tell the rows apart. largest: the sum of the longest bar.
-Markup budget_row(const PointRecord& point, const CausesOfPoint& causes, const std::vector<std::string>& differing,
-                  double largest) {
+// A frame's bar: the parts of its error by place, as lengths of `largest`, which is the longest bar.
+Markup place_row(const PointRecord& frame, const std::vector<CauseColor>& places,
+                 const std::vector<std::string>& differing, double largest) {
   Markup parts;
-  // Percent of the bar, because flex factors that sum to less than 1 would not fill it.
-  for (const auto& [name, value] : causes.sizes)
-    parts += element("i", css(fmt::format("c-{}", name)),
-                     Attribute("style", fmt::format("flex-grow:{:.4f}", 100 * value / causes.sum)));
-  const auto phrase = [&](const std::vector<std::string>& names) {
-    const std::string text = settings_phrase(point, names);
-    return text.empty() ? fmt::format("point {}", point.id) : text;
-  };
-  const std::vector<std::string> at_bias = without_curve_parameter(point, differing);
-  const Markup name =
-      at_bias.size() == differing.size() ? Markup(phrase(differing)) : by_bias(phrase(differing), phrase(at_bias));
-  const std::string size = fmt::format("--size:{:.5f}", largest > 0 ? causes.sum / largest : 0);
-  return div(css("row"), Attribute("data-point", point.id), Attribute("title", causes.told),
-             span(css("name"), point_link(point.id, name)),
-             span(css("track"), span(css("bar"), Attribute("style", size), parts)),
-             span(css("value"), quantity(metric_of(point, error_metric({&point, 1})), "fraction"))) +
+  std::string told;
+  for (const CauseColor& place : places) {
+    const double value = metric_of(frame, std::string(place.name));
+    if (!is_part(place.name) || !has_cause(frame, place.name)) continue;
+    told += fmt::format("{}{} {}", told.empty() ? "" : ", ", metric_label(place.name), quantity(value, "fraction"));
+    if (value > 0)
+      parts += element("i", css(fmt::format("c-{}", place.name)),
+                       Attribute("style", fmt::format("width:{:.3f}%", 100 * value / largest)));
+  }
+  const std::string name = settings_phrase(frame, differing);
+  return div(css("row"), Attribute("data-point", frame.id), Attribute("title", told),
+             span(css("name"), point_link(frame.id, name.empty() ? fmt::format("point {}", frame.id) : name)),
+             span(css("track"), parts),
+             span(css("value"), quantity(metric_of(frame, error_metric({&frame, 1})), "fraction"))) +
          "\n";
-}
-
-// A button of the two that scale the bars. id: "size".
-Markup budget_choice(std::string_view id, const char* label, bool checked) {
-  const std::string name = fmt::format("budget-{}", id);
-  return element("input", Attribute("type", "radio"), Attribute("name", "budget"), Attribute("id", name),
-                 Attribute("checked", checked)) +
-         element("label", Attribute("for", name), label);
 }
 
 }  // namespace
 
-Markup budget_section(const ShownPoints& shown) {
-  if (shown.all.points.empty()) return "";
-  const std::vector<CauseColor> causes = causes_of(shown.all.points);
-  std::vector<CausesOfPoint> of_points;
+Markup places_section(const ShownPoints& shown) {
+  if (!judges_frames(shown.all.points)) return "";
+  const std::vector<CauseColor> places = causes_of(shown.all.points);
   double largest = 0;
-  for (const PointRecord& point : shown.results.points) {
-    of_points.push_back(causes_of_point(point, causes));
-    largest = std::max(largest, of_points.back().sum);
+  for (const PointRecord& frame : shown.results.points) {
+    double sum = 0;
+    for (const CauseColor& place : places)
+      if (const double value = metric_of(frame, std::string(place.name)); is_part(place.name) && value > 0)
+        sum += value;
+    largest = std::max(largest, sum);
   }
   // What every point shares does not tell the rows apart.
   std::vector<std::string> differing;
   for (const std::string& name : shown.all.info.swept)
     if (values_of(shown.all, name).size() > 1) differing.push_back(name);
   Markup legend, rows;
-  for (const CauseColor& cause : causes)
-    if (is_part(cause.name)) legend += legend_entry(cause.name, cause.label);
-  for (size_t i = 0; i < of_points.size(); ++i)
-    rows += budget_row(shown.results.points[i], of_points[i], differing, largest);
-  const bool frames = judges_frames(shown.all.points);
-  const Markup of_frames =
-      "The part of the error at each place, as a share of counted receivers. The number at the end is the whole error, "
-      "mean "
-      "|frame − truth|. A place is no cause: a frame alone does not say what its map and its bias did. A frame whose "
-      "own map was handed over is split by cause.";
-  const Markup words =
-      frames ? of_frames
-             : prose(
-                   "The part of the error that each cause adds, {}, as a share of counted receivers. The number at the "
-                   "end is the "
-                   "whole error, mean |{} − R1|. With a filter, causes can cancel in it, and displacement can cancel "
-                   "with the "
-                   "others, so the bar can be longer.",
-                   by_bias(fmt::format("with the {} as rendered", free_setting_words(shown.all.points)),
-                           fmt::format("with the recommended {} (causes that no curve gives are as rendered)",
-                                       free_setting_words(shown.all.points))),
-                   judged_rung(shown.all.points.front()));
-  const Markup bars =
-      div(css(shown.all.points.size() > open_rows ? "budget many" : "budget"), budget_choice("size", "By size", true),
-          budget_choice("share", "By share", false), "\n", div(css("rows"), "\n", rows));
-  return section("budget", frames ? "The error by place" : "The error budget",
-                 paragraph(words) + shown.note + div(css("legend"), legend) + "\n" + bars);
+  for (const CauseColor& place : places)
+    if (is_part(place.name)) legend += legend_entry(place.name, place.label);
+  for (const PointRecord& frame : shown.results.points) rows += place_row(frame, places, differing, largest);
+  return section(
+      "places", "The error by place",
+      paragraph("The part of the error at each place, as a share of counted receivers. The number at the end is "
+                "the whole error, mean |frame − truth|. A place is no cause: a frame alone does not say what "
+                "its map and its bias did. A frame whose own map was handed over is split by cause.") +
+          shown.note + div(css("legend"), legend) + "\n" +
+          div(css(shown.all.points.size() > open_rows ? "places many" : "places"), div(css("rows"), "\n", rows)));
 }
 
 }  // namespace noonmark::report

@@ -1,4 +1,4 @@
-// The report's sections with a chart. Each is a function from results to HTML: all points for what is counted, and the
+// The report's sections of error against a setting. Each is a function from results to HTML: all points for what is counted, and the
 // points that are shown one by one.
 #pragma once
 #include <map>
@@ -12,11 +12,10 @@
 namespace noonmark::report {
 
 // Each is empty if the results have nothing for it.
-// Error against bias: the chart's place and the windows' table.
+// The windows' table.
 Markup bias_section(const ShownPoints& shown);
-// Error against resolution, extent and other swept numbers.
-Markup sweep_section(const ShownPoints& shown);
-Markup budget_section(const ShownPoints& shown);  // bars by cause
+// Of frames: where each one errs, as bars.
+Markup places_section(const ShownPoints& shown);
 
 // The figure that charts.js fills. It is hidden without JavaScript; the table below it has the same numbers.
 // caption: text.

@@ -31,6 +31,9 @@ std::vector<std::string> measured(const Results& results, const std::string& fir
   std::vector<std::string> names{first};
   for (const char* name : others)
     if (name != first) names.emplace_back(name);
+  std::stable_partition(names.begin() + 1, names.end(), [&](const std::string& name) {
+    return std::find(results.info.plot.begin(), results.info.plot.end(), name) != results.info.plot.end();
+  });
   std::erase_if(names, [&](const std::string& name) {
     return std::none_of(results.points.begin(), results.points.end(),
                         [&](const PointRecord& point) { return std::isfinite(metric_of(point, name)); });

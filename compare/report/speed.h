@@ -23,8 +23,8 @@ inline constexpr std::array error_metrics{
     "error_soft",  "error",        "flip",       "edge_displacement_mean_pixels", "edge_displacement_p95_pixels",
     "wrong_patch", "aliasing_rms", "shaded_rmse"};
 
-// The metrics that the reader can choose for an axis: RunInfo::cost and the other costs; the errors and
-// RunInfo::accuracy. Only those that are finite at some point.
+// The metrics that the reader can choose for an axis: RunInfo::cost and the other costs; RunInfo::accuracy and the other errors;
+// of the others first those that the experiment asks to plot. Only those that are finite at some point.
 std::vector<std::string> costs_of(const Results& results);
 std::vector<std::string> errors_of(const Results& results);
 // RunInfo::accuracy. "error" if that was not measured, and in place of "error_soft" if no light has a size, because both

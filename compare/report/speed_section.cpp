@@ -217,7 +217,7 @@ FrontRows front_rows(const ComparedGroup& group, const std::string& name, const 
 // The front of one group: as set, and at the best bias of each choice. The page shows that of its bias. Empty if no
 // choice is on either.
 Markup front_table(const ComparedGroup& group, const Techniques& techniques, const std::string& name,
-                   const Plane& plane, bool open) {
+                   const Plane& plane) {
   const SpeedReadings readings(group, techniques, plane.results);
   const auto rows_at = [&](AtBias at) {
     return front_rows(group, name, plane, readings.of(plane.cost, plane.error, at));
@@ -232,8 +232,7 @@ Markup front_table(const ComparedGroup& group, const Techniques& techniques, con
                       th(error_label(plane.error), " ", small(head_unit(find_metric(plane.error).unit))) +
                       heads({"Over the usable window", "At"}) + th(css("text"), "Largest cause");
   const Markup front = element("table", css("numbers"), element("thead", element("tr", head)), rows);
-  return folded("more", open && std::max(set.count, best.count) <= open_rows, at_both(set.summary, best.summary),
-                div(css("scroll"), front) + "\n");
+  return folded("more", false, at_both(set.summary, best.summary), div(css("scroll"), front) + "\n");
 }
 
 }  // namespace
@@ -283,8 +282,7 @@ Markup speed_section(const ShownPoints& shown, bool on_first_screen) {
   if (!on_first_screen) out += speed_chart();
   for (size_t i = 0; i < std::min(shown.groups.size(), most_tables); ++i) {
     const size_t which = i == 0 ? first : i <= first ? i - 1 : i;  // the one shown first, then the others
-    out +=
-        front_table(shown.groups[which], shown.techniques[which], names.of(shown.groups[which]), plane, which == first);
+    out += front_table(shown.groups[which], shown.techniques[which], names.of(shown.groups[which]), plane);
   }
   if (shown.groups.size() > most_tables)
     out +=

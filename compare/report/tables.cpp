@@ -15,6 +15,7 @@
 
 #include "compare/report/blocks.h"
 #include "compare/report/cause_colors.h"
+#include "compare/report/data.h"
 #include "compare/report/lights_section.h"
 #include "compare/report/opening.h"
 #include "compare/report/point_data.h"
@@ -198,7 +199,7 @@ Markup points_row(const PointRecord& point, const Results& results, const Column
 Markup points_section(const ShownPoints& shown) {
   if (shown.all.points.empty()) return "";
   Columns columns{!shown.all.points.front().part.empty(), text_classes(shown.all), {}};
-  const std::vector<Metric> metrics = metrics_of(shown.all.points);
+  const std::vector<Metric> metrics = listed_metrics(shown.all);
   const auto varying = varying_metrics(shown.all.points);
   std::string same;
   for (const Metric& metric : metrics) {
@@ -282,7 +283,7 @@ Markup frames_in_words() {
 
 Markup meaning_section(const Results& results) {
   Markup out = judges_frames(results.points) ? frames_in_words() : ladder_in_words(results);
-  std::vector<Metric> metrics = metrics_of(results.points);
+  std::vector<Metric> metrics = listed_metrics(results);
   std::erase_if(metrics, [](const Metric& metric) { return metric.is(Metric::made); });
   if (!metrics.empty())
     out += folded("glossary", false, prose("Each of the {} metrics in a sentence", metrics.size()),

@@ -307,10 +307,10 @@ std::string setting_of(const PointRecord& point, const std::string& name) {
   return found == point.settings.end() ? std::string() : found->second;
 }
 
-std::vector<std::string> values_of(const Results& results, const std::string& setting) {
+std::vector<std::string> values_of(std::span<const PointRecord> points, const std::string& setting) {
   std::vector<std::string> values;
   std::unordered_set<std::string> seen;
-  for (const PointRecord& point : results.points)
+  for (const PointRecord& point : points)
     if (std::string value = setting_of(point, setting); seen.insert(value).second) values.push_back(std::move(value));
   std::vector<std::pair<double, std::string>> numbered;
   for (const std::string& value : values)

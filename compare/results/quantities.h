@@ -110,7 +110,10 @@ std::string setting_of(const PointRecord& point, const std::string& name);
 // The number that a setting's text is. Empty if it is not one, or not finite.
 std::optional<double> number_of(const std::string& text);
 // The distinct values of a setting over the points, sorted as numbers if all are numbers, otherwise in order of appearance.
-std::vector<std::string> values_of(const Results& results, const std::string& setting);
+std::vector<std::string> values_of(std::span<const PointRecord> points, const std::string& setting);
+inline std::vector<std::string> values_of(const Results& results, const std::string& setting) {
+  return values_of(results.points, setting);
+}
 
 // Whether no pixel could be judged, so that the point gives no information about the method. False for a record without
 // the number of counted receivers.

@@ -121,7 +121,13 @@ function worstChoices(p) {
           .map(function(f) {
             return f.metric;
           }),
-      Object.keys(p.worst_of || {}));
+      data.metrics
+          .map(function(m) {
+            return m.name;
+          })
+          .filter(function(name) {
+            return p.worst_of && name in p.worst_of;
+          }));
   if (mode() === 'recommended' && p.at && page.live && page.live.data.point === p.id && page.live.has(p.at))
     names = ['error'].concat(page.live.data.causes.slice(1));
   return names
@@ -437,7 +443,7 @@ document.addEventListener('click', function(event) {
   event.preventDefault();
   page.open(+id[1], link.dataset.show || link.dataset.failure);
 });
-document.querySelectorAll('.budget .row').forEach(function(row) {
+document.querySelectorAll('.places .row').forEach(function(row) {
   row.addEventListener('click', function(event) {
     if (!event.target.closest('a')) page.open(+row.dataset.point);
   });

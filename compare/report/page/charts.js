@@ -70,8 +70,6 @@ function shown(v, unit) {
                             digits(v) + (unit && unit !== 'count' ? thin + unitBehind(v, unit) : '');
 }
 function value(point, measure) {
-  if (measure === 'best_error')
-    return point.curve ? point.curve.best_error : point.reductions ? point.reductions.least.error : NaN;
   var at = page.bias === 'recommended' && point.at && point.at.metrics;
   if (at && measure in at) return at[measure];
   return measure in point.metrics ? point.metrics[measure] : NaN;
@@ -96,39 +94,10 @@ function freeLabel(words) {
   return label.charAt(0).toUpperCase() + label.slice(1);
 }
 function measureLabel(m) {
-  return m === 'best_error' ? 'Error at the best ' + data.free : metricOf[m] ? metricOf[m].label : m;
+  return metricOf[m] ? metricOf[m].label : m;
 }
 function measureUnit(m) {
-  return m === 'best_error' ? 'fraction' : metricOf[m] ? metricOf[m].unit : '';
-}
-function unique(list) {
-  return list.filter(function(v, i) {
-    return list.indexOf(v) === i;
-  });
-}
-// The quantities that can be drawn against a sweep: the errors, the error at the best bias, the metrics that the
-// experiment asks to plot, then the others.
-function measures() {
-  var list = [data.speed.error].concat(
-      data.speed.errors,
-      data.points.some(function(p) {
-        return p.curve || p.reductions;
-      }) ?
-          ['best_error'] :
-          [],
-      data.plot,
-      data.metrics
-          .filter(function(m) {
-            return m.plotted;
-          })
-          .map(function(m) {
-            return m.name;
-          }));
-  return unique(list).filter(function(m) {
-    return data.points.some(function(p) {
-      return finite(value(p, m));
-    });
-  });
+  return metricOf[m] ? metricOf[m].unit : '';
 }
 // Ticks of a logarithmic axis: powers of ten, and 2 and 5 between them if there is room.
 function logTicks(low, high) {
@@ -312,96 +281,6 @@ function segments(options, chosen, changed) {
   return box;
 }
 
-// ---- how swept settings are distinguished by the lines of a chart: the first by colour, the second by dashes and the
-// shape of the points. A picker chooses the values of any further settings.
-var categorical =
-    ['peter_panning', 'acne', 'coverage_light', 'precision', 'aliasing_dark', 'aliasing_light', 'coverage_dark'];
-var dashes = [[1, 0], [7, 4], [2, 3], [9, 3, 2, 3], [12, 4], [1, 2]],
-    shapes = ['circle', 'square', 'triangle-up', 'diamond', 'cross', 'triangle-down'];
-var shapePaths = {
-  circle: 'M8.5 5a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0z',
-  square: 'M9 1h8v8h-8z',
-  'triangle-up': 'M13 0l5 9h-10z',
-  diamond: 'M13-.5l3.7 5.5l-3.7 5.5l-3.7-5.5z',
-  cross: 'M11.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z',
-  'triangle-down': 'M13 10l5-9h-10z'
-};
-function tellApart(names) {
-  // Numbers get the ordered colours, choices get the shapes.
-  var several = names
-                    .filter(function(s) {
-                      return s.values.length > 1;
-                    })
-                    .sort(function(a, b) {
-                      return b.numeric - a.numeric;
-                    });
-  var first = several[0], second = several[1], rest = several.slice(2), chosen = {};
-  function colour(s, v) {
-    var i = s.values.indexOf(v), n = s.values.length;
-    return s.numeric ? 'var(--q' + Math.round(i * 6 / (n - 1)) + ')' :
-                       'var(--c-' + categorical[i % categorical.length] + ')';
-  }
-  function index(s, p) {
-    return s ? s.values.indexOf(p.settings[s.name]) : 0;
-  }
-  function key(c, dash, shape) {
-    var e = make('span');
-    e.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="' + c +
-        '" stroke-width="2" stroke-dasharray="' + dash.join(' ') + '"/>' +
-        (shape !== 'circle' ? '<path d="' + shapePaths[shape] + '" fill="' + c + '" stroke="' + c +
-                 '" stroke-width="1.4" transform="translate(5.2 2) scale(.6)"/>' :
-                              '') +
-        '</svg>';
-    return e;
-  }
-  return {
-    of: function(p) {
-      var j = index(second, p);
-      return {
-        colour: first ? colour(first, p.settings[first.name]) : 'var(--ink)',
-        dash: dashes[j % dashes.length],
-        shape: shapes[j % shapes.length],
-        line: names
-                  .map(function(s) {
-                    return p.settings[s.name];
-                  })
-                  .join('|')
-      };
-    },
-    kept: function(p) {
-      return rest.every(function(s) {
-        return !chosen[s.name] || p.settings[s.name] === chosen[s.name];
-      });
-    },
-    filters: function(self) {
-      rest.forEach(function(s) {
-        self.controls.append(picker(
-            s.label, [['', 'all']].concat(s.values.map(function(v) {
-              return [v, valueText(s, v)];
-            })),
-            '', function(v) {
-              chosen[s.name] = v;
-              self.draw();
-            }));
-      });
-    },
-    legend: function(box) {
-      box.textContent = '';
-      [first, second].forEach(function(s, k) {
-        if (!s) return;
-        box.append(
-            make('span', {class: 'title'}, s.label + (s.unit && s.unit !== 'bias.unit' ? ' (' + s.unit + ')' : '')));
-        s.values.forEach(function(v, i) {
-          var e = k === 0 ? key(colour(s, v), [1, 0], 'circle') :
-                            key('var(--soft)', dashes[i % dashes.length], shapes[i % shapes.length]);
-          e.append(valueText(s, v));
-          box.append(e);
-        });
-      });
-    }
-  };
-}
-
 // A logarithmic axis cannot show zeros. They are drawn hollow, on a line below the least positive value.
 function logFloor(values) {
   var positive = values.filter(function(v) {
@@ -448,200 +327,6 @@ function zeroLabel(floor) {
   }];
 }
 
-// ---- what the charts of a point's own curve share (chart_bias.js, chart_lookup.js): error and causes against its free setting
-var errorDash = [5, 3];
-function curveName(series) {
-  return series === 'error' ? 'Error' : causeLabel[series] || series;
-}
-function curveColour(series) {
-  return series === 'error' ? 'var(--ink)' : 'var(--c-' + series + ')';
-}
-// The ends of a logarithmic axis for these values: it covers four decades below the largest.
-function curveRange(values) {
-  var positive = values.filter(function(v) {
-    return v > 0;
-  });
-  var top = 1.3 * Math.max.apply(null, positive.concat(1e-6)), least = Math.min.apply(null, positive.concat(top / 100));
-  return {bottom: Math.max(least / 1.5, top / 3e4), top: top};
-}
-// Below the axis a line is left out, except for the parts by which it enters or leaves. joined: whether there is a line to the
-// value after this one.
-function onAxis(values, i, bottom, joined) {
-  return values[i] >= bottom || values[i - 1] >= bottom || (joined && values[i + 1] >= bottom);
-}
-// The shade of a usable window. from, to: encodings of x.
-function curveWindow(from, to, height) {
-  return {
-    type: 'rect',
-    interactive: false,
-    encode: {enter: {x: from, x2: to, y: {value: 0}, y2: {value: height}, fill: {value: 'var(--window)'}}}
-  };
-}
-// Dashed lines at the bounds: [[0.001, 'acne bound'], ...]; one if both are equal. textX: where their names begin.
-function curveBounds(bounds, width, textX) {
-  if (bounds.length === 2 && bounds[0][0] === bounds[1][0]) bounds = [[bounds[0][0], 'bound']];
-  return [].concat.apply(
-      [],
-      bounds
-          .filter(function(b) {
-            return b[0] > 0;
-          })
-          .map(function(b) {
-            return [
-              {
-                type: 'rule',
-                name: 'bound',
-                interactive: false,
-                encode: {
-                  enter: {
-                    x: {value: 0},
-                    x2: {value: width},
-                    y: {scale: 'y', value: b[0]},
-                    stroke: {value: 'var(--faint)'},
-                    strokeDash: {value: [3, 3]}
-                  }
-                }
-              },
-              {
-                type: 'text',
-                interactive: false,
-                encode: {
-                  enter: {
-                    x: {value: textX},
-                    y: {scale: 'y', value: b[0]},
-                    dy: {value: -5},
-                    align: {value: 'left'},
-                    text: {value: b[1] + ' ' + shown(b[0], 'fraction')},
-                    fontSize: {value: 11}
-                  }
-                }
-              }
-            ];
-          }));
-}
-// A line over the height at a value with a name: 'best' in the first row (0), 'as set' dashed in the second (1). side: -1: the
-// name stands on the left of it.
-function curveMark(x, name, row, side, height) {
-  var colour = row ? 'var(--accent)' : 'var(--good)';
-  return [
-    {
-      type: 'rule',
-      interactive: false,
-      encode: {
-        enter: {
-          x: x,
-          x2: x,
-          y: {value: 20 + 16 * row},
-          y2: {value: height},
-          stroke: {value: colour},
-          strokeWidth: {value: 1.4},
-          strokeDash: {value: row ? [4, 3] : [1, 0]}
-        }
-      }
-    },
-    {
-      type: 'text',
-      interactive: false,
-      encode: {
-        enter: {
-          x: x,
-          y: {value: 32 + 16 * row},
-          dx: {value: side * 5},
-          align: {value: side < 0 ? 'right' : 'left'},
-          text: {value: name},
-          fill: {value: colour},
-          fontWeight: {value: 600}
-        }
-      }
-    }
-  ];
-}
-// The series of the data `rows`, a line each. A row has series, v, colour, dash and thick. x: encoding of its place.
-function curveLines(x) {
-  return {
-    type: 'group',
-    from: {facet: {name: 'one', data: 'rows', groupby: 'series'}},
-    marks: [{
-      type: 'line',
-      from: {data: 'one'},
-      interactive: false,
-      encode: {
-        enter: {
-          x: x,
-          y: {scale: 'y', field: 'v'},
-          stroke: {field: 'colour'},
-          strokeJoin: {value: 'round'},
-          strokeDash: {field: 'dash'},
-          strokeWidth: {field: 'thick'}
-        }
-      }
-    }]
-  };
-}
-// The line under the pointer, at the signal `hover`; none below 0.
-function curveCursor(height) {
-  return {
-    type: 'rule',
-    name: 'cursor',
-    interactive: false,
-    encode: {
-      update: {
-        x: {signal: 'hover'},
-        y: {value: 0},
-        y2: {value: height},
-        stroke: {value: 'var(--soft)'},
-        opacity: {signal: 'hover < 0 ? 0 : 0.6'}
-      }
-    }
-  };
-}
-// The left axis. range: of a logarithmic scale; undefined: the scale is linear.
-function curveAxis(range) {
-  return {
-    orient: 'left',
-    scale: 'y',
-    grid: true,
-    values: range ? logTicks(range.bottom, range.top) : undefined,
-    tickCount: 6,
-    domain: false,
-    ticks: false,
-    title: 'share of counted receivers',
-    encode: {labels: {update: {text: {signal: axisLabel('fraction')}}}}
-  };
-}
-// Follows the pointer along the entries of a curve. of: left, the room before the plot; count, of the entries; place(i), where
-// entry i stands; nearest(px), the entry nearest to a place; tip(i), rows and title. Returns the stops for kit.keyboard().
-function curveHover(view, plot, of) {
-  var svg = plot.querySelector('svg');
-  svg.addEventListener('mousemove', function(event) {
-    var i = of.nearest(event.clientX - svg.getBoundingClientRect().left - of.left), said = of.tip(i);
-    view.signal('hover', of.place(i)).run();
-    showTip(event, said.rows, said.title);
-  });
-  svg.addEventListener('mouseleave', function() {
-    hideTip();
-    view.signal('hover', -1).run();
-  });
-  return function() {
-    var box = svg.getBoundingClientRect(), stops = [];
-    for (var i = 0; i < of.count; ++i)
-      stops.push({element: svg, x: box.left + of.left + of.place(i), y: box.top + box.height / 3});
-    return stops;
-  };
-}
-// An entry of the legend: a swatch, or a line where the series is dashed. look: what differs from the line of most charts, its
-// thickness and its colour.
-function curveKey(series, words, dash, look) {
-  var entry = make('span'), line = Object.assign({thick: series === 'error' ? 1.5 : 2.4}, look);
-  if (dash)
-    entry.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="' +
-        (line.colour || curveColour(series)) + '" stroke-width="' + line.thick + '" stroke-dasharray="' +
-        dash.join(' ') + '"/></svg>';
-  else
-    entry.append(make('i', {class: 'sw c-' + series}));
-  entry.append(words || curveName(series));
-  return entry;
-}
 // The usable reductions of a point, at every placement of the grid if it has several; null: none, or not known (no_window).
 function windowOfReduction(point) {
   var placed = point.metrics.error_mean !== undefined, ending = placed ? '_worst' : '',
@@ -652,21 +337,6 @@ function windowOfReduction(point) {
 page.kit = {
   freeLabel: freeLabel,
   windowOfReduction: windowOfReduction,
-  curve: {
-    errorDash: errorDash,
-    nameOf: curveName,
-    colourOf: curveColour,
-    range: curveRange,
-    onAxis: onAxis,
-    window: curveWindow,
-    bounds: curveBounds,
-    mark: curveMark,
-    lines: curveLines,
-    cursor: curveCursor,
-    axis: curveAxis,
-    hover: curveHover,
-    key: curveKey
-  },
   make: make,
   finite: finite,
   digits: digits,
@@ -676,7 +346,6 @@ page.kit = {
   valueText: valueText,
   measureLabel: measureLabel,
   measureUnit: measureUnit,
-  measures: measures,
   logTicks: logTicks,
   axisLabel: axisLabel,
   showTip: showTip,
@@ -686,14 +355,12 @@ page.kit = {
   picker: picker,
   pointPicker: pointPicker,
   segments: segments,
-  tellApart: tellApart,
   logFloor: logFloor,
   measureScale: measureScale,
   measureAxis: measureAxis,
   zeroLabel: zeroLabel,
   causeLabel: causeLabel,
   byId: byId,
-  drawn: drawn,
-  thin: thin
+  drawn: drawn
 };
 })();

@@ -1,5 +1,5 @@
-// The page's data block, and the start of the scripts that need it. compare/report/page_parts.cpp packs a large block:
-// deflated, as base64. Browsers unpack only asynchronously, so a page with a packed block starts a little later.
+// The page's data block, and the start of the scripts that need it. compare/report/page_parts.cpp packs a large block, and the
+// scripts with the charts' library: deflated, as base64. Browsers unpack only asynchronously.
 (function() {
 'use strict';
 // The bytes that report::deflated() packed, from base64.
@@ -21,16 +21,23 @@ function withoutScripts() {
       'Firefox 113, Safari 16.4 or a later one.';
   document.querySelector('main').prepend(said);
 }
-// Calls run(data) once the data are there. noonmarkReady ends after that.
-window.noonmarkStart = function(run) {
-  var block = document.getElementById('noonmark-data');
-  if (!block.hasAttribute('data-packed'))
-    window.noonmarkReady = Promise.resolve(run(JSON.parse(block.textContent)));
-  else if (!('DecompressionStream' in window))
-    window.noonmarkReady = Promise.resolve(withoutScripts());
-  else
-    window.noonmarkReady = noonmarkUnpack(block.textContent).then(function(bytes) {
-      run(JSON.parse(new TextDecoder().decode(bytes)));
-    });
+// Promises the text of a block.
+function textOf(id) {
+  var block = document.getElementById(id);
+  return block.hasAttribute('data-packed') ? noonmarkUnpack(block.textContent).then(function(bytes) {
+    return new TextDecoder().decode(bytes);
+  }) :
+                                             Promise.resolve(block.textContent);
+}
+// Runs the page's scripts, which are a function of the data. noonmarkReady ends after that.
+window.noonmarkStart = function() {
+  window.noonmarkReady = !('DecompressionStream' in window) ?
+      Promise.resolve(withoutScripts()) :
+      Promise.all([textOf('noonmark-code'), textOf('noonmark-data')]).then(function(texts) {
+        var code = document.createElement('script');
+        code.textContent = texts[0];
+        document.head.append(code);
+        noonmarkRun(JSON.parse(texts[1]));
+      });
 };
 })();

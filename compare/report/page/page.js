@@ -94,7 +94,7 @@ page.onSelect.push(function(id) {
 
 // What scrolls can be scrolled with the keyboard, and has the name of the heading or the summary before it.
 function scrollable() {
-  document.querySelectorAll('.scroll, .budget.many .rows').forEach(function(box) {
+  document.querySelectorAll('.scroll, .places.many .rows').forEach(function(box) {
     if (box.tabIndex === 0 || (box.scrollWidth <= box.clientWidth && box.scrollHeight <= box.clientHeight)) return;
     var folded = box.closest('details'), above = (box.closest('section') || document).querySelector('h1, h2');
     box.tabIndex = 0;
@@ -109,7 +109,7 @@ function scrollable() {
 // On paper nothing is folded but what is left out there (style.css), and tables of more numbers than a chart beside them has.
 var unfolded = [];
 addEventListener('beforeprint', function() {
-  unfolded = Array.prototype.slice.call(document.querySelectorAll('details:not([open]):not(.glossary):not(.more)'));
+  unfolded = Array.prototype.slice.call(document.querySelectorAll('details:not([open]):not(.glossary):not(.more):not(.fold)'));
   unfolded.forEach(function(d) {
     d.open = true;
   });
@@ -120,10 +120,26 @@ addEventListener('afterprint', function() {
   });
 });
 
-// ---- first drawing, and again when the width changes
+// ---- what is folded unfolds for a link to what it holds
+function reveal(address) {
+  var aim = address.length > 1 && document.getElementById(address.slice(1)), fold = aim && aim.closest('details.fold');
+  if (!fold || fold.open) return;
+  fold.open = true;
+  aim.scrollIntoView();
+}
+document.addEventListener('click', function(event) {
+  var link = event.target.closest('a[href^="#"]');
+  if (link) reveal(link.getAttribute('href'));
+});
+document.querySelectorAll('details.fold').forEach(function(fold) {
+  fold.addEventListener('toggle', drawAll);
+});
+reveal(location.hash);
+
+// ---- first drawing, and again when the width changes. What is folded is drawn once it is unfolded.
 function drawAll() {
   kit.drawn.forEach(function(c) {
-    c.draw();
+    if (c.plot.clientWidth) c.draw();
   });
   enlarge();
   scrollable();

@@ -62,7 +62,8 @@ function resolved(text) {
 }
 // The chart with its legend below it.
 function svgOf(figure, chart) {
-  var box = chart.getBoundingClientRect(), root = node('svg', {}), legend = figure.querySelector('.legend');
+  // Of the first figure the wide picture is saved, which a narrow screen does not show.
+  var box = chart.viewBox.baseVal, root = node('svg', {}), legend = figure.querySelector('.legend');
   var height = pad + box.height + pad, width = box.width + 2 * pad;
   root.append(node('title', {}, nameOf(figure)), node('rect', {width: '100%', height: '100%', fill: 'var(--card)'}));
   var copy = nested(chart, pad, pad, box.width, box.height);
@@ -105,7 +106,7 @@ function button(label, act) {
 }
 // What the figure shows now, because a chart is drawn again when something is chosen.
 function chartOf(figure) {
-  return figure.querySelector('.plot svg') || figure.querySelector(':scope > svg');
+  return figure.querySelector('.plot > :not([hidden]) svg') || figure.querySelector(':scope > svg');
 }
 function pixelsOf(figure) {
   return figure.querySelector('img.whole:not([hidden])') || figure.querySelector('canvas');

@@ -41,7 +41,9 @@ class Browser : public testing::Test {
       page.insert(at, "<script>" + script + "</script>");
     };
     const std::string folder = noonmark::test::source_dir() + "/tests/compare/report/";
-    insert("</body>", read_file(folder + probe));
+    // A probe starts when the page's scripts have, and finds what is folded unfolded.
+    insert("</body>",
+           "(async () => { await window.noonmarkReady; await unfold();\n" + read_file(folder + probe) + "})();");
     insert("</head>", read_file(folder + "probe_tools.js"));
     static std::map<std::string, nlohmann::json> seen;
     if (const auto known = seen.find(window + page); known != seen.end()) {

@@ -2,16 +2,12 @@
 (async () => {
   'use strict';
   const saw = {errors}, root = document.scrollingElement;
-  if (window.noonmarkReady) await window.noonmarkReady;
   if (window.noonmarkPage && window.noonmarkPage.liveReady) await window.noonmarkPage.liveReady;
   await later();  // Vega draws only after the script that called it has ended
   saw.width = root.clientWidth;
   saw.needed = root.scrollWidth;
   all('details').forEach(d => d.open = true);
   saw.needed_unfolded = root.scrollWidth;
-  saw.labels = all('.budget .name').map(e => e.textContent);
-  saw.cut =
-      all('.budget .name').filter(e => e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1).length;
   saw.stacked = all('table.stacked').length;
   saw.stacked_that_scroll =
       all('.scroll').filter(e => e.querySelector('table.stacked') && e.scrollWidth > e.clientWidth + 1).length;

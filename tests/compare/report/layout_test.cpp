@@ -101,7 +101,6 @@ TEST_P(Width, NoPageScrollsSideways) {
   EXPECT_LE(saw_["width"], std::stoi(window));
   EXPECT_LE(saw_["needed"], saw_["width"]);
   EXPECT_LE(saw_["needed_unfolded"], saw_["width"]) << "with all that is folded unfolded";
-  EXPECT_EQ(saw_["cut"], 0) << "labels of the error budget";
   EXPECT_EQ(saw_["stacked_that_scroll"], 0) << "tables whose rows are lists on a narrow screen";
   EXPECT_EQ(saw_["stacked"], page.name == std::string("lights") ? 1 : 0);
 }
@@ -148,13 +147,6 @@ class Layout : public Browser {
   }
 };
 
-TEST_F(Layout, LabelsOfTheBudgetAreWholeAndDiffer) {
-  const std::vector<std::string> labels = saw_["labels"];
-  EXPECT_EQ(labels.size(), 32u);
-  EXPECT_EQ(std::set<std::string>(labels.begin(), labels.end()).size(), labels.size());
-  EXPECT_EQ(saw_["cut"], 0);
-}
-
 TEST_F(Layout, NumbersStandOnTheirPoints) {
   size_t columns = 0;
   for (const auto& [head, places] : saw_["points"].items()) {
@@ -179,7 +171,7 @@ TEST_F(Layout, OpensWithAPictureOfFullSize) {
 }
 
 TEST_F(Layout, EachChartIsSaved) {
-  EXPECT_GE(saw_["charts"], 5);
+  EXPECT_GE(saw_["charts"], 4);
   EXPECT_EQ(saw_["charts_with_save"], saw_["charts"]);
   size_t svg = 0, png = 0;
   std::set<std::string> names;
@@ -191,7 +183,7 @@ TEST_F(Layout, EachChartIsSaved) {
       EXPECT_TRUE(file["svg"]) << name;
       EXPECT_EQ(file["variables"], 0) << name << ": outside of the page its variables have no value";
       EXPECT_GT(file["marks"], 5) << name;
-      if (name == "noonmark-bias.svg") {
+      if (name == "noonmark-function.svg") {
         EXPECT_NE(file["text"].get<std::string>().find("Acne"), std::string::npos) << "legend";
       }
     } else {

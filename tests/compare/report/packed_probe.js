@@ -2,16 +2,12 @@
 // the page unpacked and drew.
 (async () => {
   'use strict';
-  await window.noonmarkReady;
-  await new Promise(go => {  // Vega draws only after the script that called it has ended.
-    setTimeout(go, 0);
-  });
   const page = window.noonmarkPage, saw = {errors: errors, packed: document.querySelector('[data-packed]') !== null};
   saw.said = document.querySelector('main p').textContent;
   saw.fallback_rows = document.querySelectorAll('main tr[id]').length;
   if (page) {
     saw.points = page.data.points;
-    saw.symbols = document.querySelectorAll('#chart-sweep-1 .mark-symbol path').length;
+    saw.cells = document.querySelectorAll('#chart-function .wide .cell').length;
     saw.rows = document.querySelectorAll('.points-place tbody tr').length;
   }
   leave(saw);

@@ -29,17 +29,14 @@
     const column = all('table.sortable th[scope=col]').findIndex(h => h.textContent.indexOf('Error') === 0);
     return +document.getElementById('p5').cells[column].dataset.v;
   }
-  const budget_of_5 = () => document.querySelector('.budget .row[data-point="5"] .value').textContent;
   saw.at_recommended = {
     error: table_error_of_5(),
-    budget: budget_of_5(),
     words: getComputedStyle(document.querySelector('.as-set')).display
   };
   await click(button(document.querySelector('.bias-choice'), 'As set'));
   saw.bias_choice.push(window.noonmarkPage.bias);
   saw.as_set = {
     error: table_error_of_5(),
-    budget: budget_of_5(),
     words: getComputedStyle(document.querySelector('.as-set')).display
   };
   // What WCAG asks and can be read from the page: each control has a name, headings go down by one level, images have texts.
@@ -69,21 +66,35 @@
   saw.charts = {};
   all('figure[id^="chart-"]').forEach(figure => saw.charts[figure.id] = marks(figure));
 
-  const bias = document.getElementById('chart-bias');
-  const axis_titles = () => all('.mark-text.role-axis-title text', bias).map(t => t.textContent);
-  saw.bias = {depth: axis_titles(), facts: bias.querySelector('.facts').textContent};
-  await click(button(bias, 'texels'));
-  saw.bias.texels = axis_titles();
-  await click(button(bias, 'Stacked'));
-  saw.bias.stacked = marks(bias);
-  saw.bias.pressed = all('button[aria-pressed="true"]', bias).map(b => b.textContent);
-  await click(button(bias, 'Lines'));
-  const svg = bias.querySelector('.plot svg'), box = svg.getBoundingClientRect();
-  svg.dispatchEvent(
-      new MouseEvent('mousemove', {bubbles: true, clientX: box.left + box.width / 2, clientY: box.top + 40}));
-  saw.bias.tip = document.getElementById('tip').textContent;
-  svg.dispatchEvent(new MouseEvent('mouseleave'));
-  saw.bias.tip_hidden = document.getElementById('tip').hidden;
+  // The first figure: a pointer reads numbers, the list chooses a grid.
+  const figure = document.getElementById('chart-function'), tip = document.getElementById('tip');
+  const grid = () => all('.function-grid', figure).filter(g => !g.hidden);
+  const cell = i => all('.wide .cell', grid()[0])[i];
+  function point_at(element, share, type) {
+    const box = element.getBoundingClientRect();
+    element.dispatchEvent(new MouseEvent(
+        type, {bubbles: true, clientX: box.left + share * box.width, clientY: box.top + box.height / 2}));
+  }
+  const filters = figure.querySelector('.controls select');
+  function choose(value) {
+    filters.value = value;
+    filters.dispatchEvent(new Event('change'));
+  }
+  saw.figure = {
+    first: document.querySelector('figure.chart').id,
+    grids: all('.function-grid', figure).length,
+    shown: grid().map(g => g.dataset.chosen),
+    cells: all('.wide .cell', grid()[0]).length
+  };
+  point_at(cell(5), 0.5, 'mousemove');
+  saw.figure.tip = tip.textContent;
+  saw.figure.tip_rows = all('tr', tip).map(row => Array.from(row.cells).map(c => c.textContent));
+  saw.figure.cursor = all('.wide .cursor', grid()[0])[0].getAttribute('visibility');
+  figure.querySelector('.plot').dispatchEvent(new MouseEvent('mouseleave'));
+  saw.figure.left = [tip.hidden, all('.wide .cursor', grid()[0])[0].getAttribute('visibility')];
+  choose('box');
+  saw.figure.other = grid().map(g => g.dataset.chosen);
+  choose('none');
 
   // The table: a click on a heading sorts, and a second click reverses the order. A click on a row selects its point in
   // all charts and pictures.
@@ -103,11 +114,12 @@
   saw.table.filter = order(filter);
   await click(document.getElementById('p5').cells[1]);
   saw.selected_by_row = selected();
-  saw.facts_of_5 = bias.querySelector('.facts').textContent;
-  const symbol = document.querySelector('[id^="chart-sweep"] .mark-symbol path');
-  saw.symbol = symbol.__data__.datum.id;
-  await click(symbol);
-  saw.selected_by_symbol = selected();
+  saw.cells_of_5 = all('.wide .cell.selected').map(c => c.dataset.points);
+  saw.grid_of_5 = grid().map(g => g.dataset.chosen);
+  saw.clicked = cell(3).dataset.points.split(':')[0];
+  point_at(cell(3), 0.1, 'click');
+  await later();
+  saw.selected_by_click = selected();
 
   // The card of a point: opened by a row, with its numbers, its command, and its pictures.
   const card = document.getElementById('card');
@@ -122,7 +134,7 @@
     width: (card.querySelector('.wide') || {style: {}}).style.width,
     cuts: card.querySelectorAll('.cuts canvas').length
   });
-  saw.card = {by_symbol: card.open};
+  saw.card = {by_click: card.open};
   await click(card.querySelectorAll('.card-head button')[2]);
   saw.card.closed = !card.open;
   await click(document.querySelector('a[href="#p18"]'));
@@ -207,11 +219,8 @@
     return {stop: plot.tabIndex, said: said, tip: document.getElementById('tip').hidden};
   }
   if (card.open) await click(card.querySelectorAll('.card-head button')[2]);
-  saw.keys = {
-    bias: await keys_in('chart-bias', ['ArrowRight', 'ArrowRight', 'Home', 'End', 'Escape']),
-    sweep: await keys_in('chart-sweep-1', ['ArrowLeft', 'ArrowRight', 'End'])
-  };
-  await keys_in('chart-sweep-1', ['Enter']);
+  saw.keys = await keys_in('chart-function', ['ArrowRight', 'ArrowRight', 'Home', 'End', 'Escape']);
+  await keys_in('chart-function', ['Home', 'Enter']);
   saw.keys.card = card.open && card.querySelector('h2').textContent;
 
   leave(saw);

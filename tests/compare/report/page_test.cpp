@@ -66,24 +66,20 @@ TEST_F(Page, AClickOnABrokenPointShowsTheFailure) {
   EXPECT_EQ(saw_["card"]["asked_recommended"], "Recommended") << "the answer's own link shows its bias";
 }
 
-TEST_F(Page, ChartsHaveTheirMarks) {
-  // 4 resolutions, 4 extents, 2 filters: 32 points, of which one has no error.
-  for (const char* sweep : {"chart-sweep-1", "chart-sweep-2"}) {
-    EXPECT_EQ(marks(sweep, "symbol"), 31) << sweep;
-    EXPECT_GE(marks(sweep, "line"), 8) << sweep << ": there must be a line for each of the other settings, and a guide";
-  }
-  for (const char* chart : {"chart-sweep-1", "chart-sweep-2"})
-    EXPECT_GE(marks(chart, "zero"), 1) << chart << ": an error of 0 needs a mark of its own on a logarithmic axis";
-  EXPECT_EQ(marks("chart-bias", "line"), 6) << "the error and the causes that are not 0";
-  EXPECT_EQ(marks("chart-bias", "area"), 0);
-  const json& bias = saw_["bias"];
-  EXPECT_EQ(bias["stacked"]["area"], 5) << "there must be a layer for each cause";
-  EXPECT_EQ(bias["depth"].back(), "bias.constant (depth)");
-  EXPECT_EQ(bias["texels"].back(), "bias.constant (texels)");
-  EXPECT_EQ(bias["pressed"], json({"texels", "Stacked"}));
-  EXPECT_EQ(bias["facts"].get<std::string>().find("Usable from "), 0u);
-  EXPECT_NE(bias["tip"].get<std::string>().find(" texels"), std::string::npos) << bias["tip"];
-  EXPECT_TRUE(bias["tip_hidden"]) << "the tip must be hidden after the pointer has left";
+// 4 resolutions and 4 extents; the list has the filters.
+TEST_F(Page, OpensWithTheErrorOverBiasResolutionAndExtent) {
+  const json& figure = saw_["figure"];
+  EXPECT_EQ(figure["first"], "chart-function");
+  EXPECT_EQ(figure["grids"], 2);
+  EXPECT_EQ(figure["cells"], 16);
+  EXPECT_EQ(figure["shown"], json({"none"})) << "one grid at a time";
+  EXPECT_EQ(figure["other"], json({"box"}));
+  const std::string tip = figure["tip"];
+  EXPECT_NE(tip.find(" texels)Acne (too dark)"), std::string::npos) << "the bias, then the causes: " << tip;
+  ASSERT_GE(figure["tip_rows"].size(), 3u);
+  EXPECT_EQ(figure["tip_rows"].back()[0], "Error");
+  EXPECT_EQ(figure["cursor"], "visible");
+  EXPECT_EQ(figure["left"], (json{true, "hidden"}));
 }
 
 TEST_F(Page, TheTableSortsAndSelects) {
@@ -101,31 +97,28 @@ TEST_F(Page, TheTableSortsAndSelects) {
   EXPECT_TRUE(table["focus"]);
   EXPECT_EQ(table["filter"][31], "none");
   EXPECT_EQ(saw_["selected_by_row"], json({5}));
-  EXPECT_NE(saw_["facts_of_5"], saw_["bias"]["facts"]) << "the chart must show the selected point";
-  EXPECT_EQ(saw_["selected_by_symbol"], json({saw_["symbol"]}));
+  const std::vector<std::string> cells = saw_["cells_of_5"];
+  ASSERT_EQ(cells.size(), 1u) << "the figure marks the selected point";
+  EXPECT_EQ(cells[0].find("5:"), 0u) << cells[0];
+  EXPECT_EQ(saw_["grid_of_5"], json({sample_results().points[5].settings.at("filter.kind")})) << "and shows its grid";
+  EXPECT_EQ(saw_["selected_by_click"], json({std::stoi(saw_["clicked"].get<std::string>())}));
 }
 
 TEST_F(Page, ChartsAreReadByKeyboard) {
   const json& keys = saw_["keys"];
-  EXPECT_EQ(keys["bias"]["stop"], 0);
-  const std::vector<std::string> bias = keys["bias"]["said"];
-  EXPECT_NE(bias[0].find(" m = "), std::string::npos) << bias[0];
-  EXPECT_NE(bias[0].find("Peter Panning "), std::string::npos) << bias[0];
-  EXPECT_NE(bias[1], bias[0]) << "the next bias";
-  EXPECT_EQ(bias[2], bias[0]) << "Home is the first";
-  EXPECT_NE(bias[3], bias[1]);
-  EXPECT_EQ(bias[4], bias[3]) << "Escape says nothing";
-  EXPECT_TRUE(keys["bias"]["tip"]) << "and hides the tip";
-  const std::vector<std::string> sweep = keys["sweep"]["said"];
-  EXPECT_EQ(sweep[0].find("Point "), 0u) << sweep[0];
-  EXPECT_NE(sweep[1], sweep[0]);
-  EXPECT_FALSE(keys["sweep"]["tip"]);
-  ASSERT_TRUE(keys["card"].is_string()) << "Enter opens the card";
-  const std::string point = sweep[2].substr(0, sweep[2].find(':'));
-  EXPECT_EQ(keys["card"].get<std::string>().find(point), 0u) << keys["card"] << " of " << point;
+  EXPECT_EQ(keys["stop"], 0);
+  const std::vector<std::string> said = keys["said"];
+  EXPECT_EQ(said[0].find("bias "), 0u) << said[0];
+  EXPECT_NE(said[0].find("Peter Panning (too light) "), std::string::npos) << said[0];
+  EXPECT_NE(said[1], said[0]) << "the next chart";
+  EXPECT_EQ(said[2], said[0]) << "Home is the first";
+  EXPECT_NE(said[3], said[1]);
+  EXPECT_EQ(said[4], said[3]) << "Escape says nothing";
+  EXPECT_TRUE(keys["tip"]) << "and hides the tip";
+  EXPECT_TRUE(keys["card"].is_string()) << "Enter opens the card";
 }
 
-// The table and the budget follow the bias that is chosen at the top. A bound of this sample is broken, so the page opens
+// The table follows the bias that is chosen at the top. A bound of this sample is broken, so the page opens
 // at the bias as set, of which its head speaks.
 TEST_F(Page, OneBiasIsInAllFigures) {
   EXPECT_EQ(saw_["bias_choice"], json({"set", "recommended", "set"}));
@@ -133,7 +126,6 @@ TEST_F(Page, OneBiasIsInAllFigures) {
   EXPECT_EQ(set["error"], point["metrics"]["error"]);
   EXPECT_EQ(recommended["error"], point["at"]["metrics"]["error"]);
   EXPECT_NE(set["error"], recommended["error"]);
-  EXPECT_NE(set["budget"], recommended["budget"]);
   EXPECT_EQ(set["words"], "inline");
   EXPECT_EQ(recommended["words"], "none");
 }
@@ -146,7 +138,7 @@ TEST_F(Page, ControlsHaveNamesAndImagesHaveTexts) {
 
 TEST_F(Page, EachPointHasACard) {
   const json& card = saw_["card"];
-  EXPECT_TRUE(card["by_symbol"]) << "a click on a mark opens the card";
+  EXPECT_TRUE(card["by_click"]) << "a click on a mark opens the card";
   EXPECT_TRUE(card["closed"]);
   const json &pictures = card["with_pictures"], &zoomed = card["zoomed"], &recommended = card["recommended"];
   EXPECT_TRUE(pictures["open"]);
@@ -185,29 +177,11 @@ TEST_F(Page, KeysFlipThePicturesInSight) {
                                  "1 26 map"}));  // another point, the same picture
 }
 
-class BandsPage : public Browser {
+class ReductionPage : public Browser {
  protected:
-  // Every curve has bands: a fifth less to a fifth more than the curve itself, at 64 placements.
+  // Two points have a curve over the reduction beside that over the bias.
   void SetUp() override {
     Results results = sample_results();
-    for (PointRecord& point : results.points) {
-      BiasCurve& curve = *point.curve;
-      curve.placements = 64;
-      for (size_t i = 0; i < curve.bias_depth.size(); ++i) {
-        const auto add = [](double value, Band& band) {
-          band.best.push_back(0.8 * value);
-          band.mean.push_back(value);
-          band.worst.push_back(1.2 * value);
-        };
-        add(curve.error[i], curve.error_band);
-        add(curve.acne[i], curve.acne_band);
-        add(curve.peter_panning[i], curve.peter_panning_band);
-        add(curve.aliasing_dark[i], curve.aliasing_band);
-      }
-      if (!curve.window_min_depth) continue;
-      curve.window_min_worst_depth = *curve.window_min_depth * 1.1;
-      curve.window_max_worst_depth = *curve.window_max_depth * 0.9;
-    }
     for (size_t k : {5u, 9u}) {
       for (int i = 0; i < 100; ++i) {
         const double r = i / 100.0, leak = std::max(0.0, 0.002 * (0.3 - r));
@@ -221,16 +195,7 @@ class BandsPage : public Browser {
   }
 };
 
-TEST_F(BandsPage, TheBiasChartDrawsTheBandsOfAllPlacements) {
-  EXPECT_EQ(marks("chart-bias", "area"), 4) << "a band for the error, acne, Peter Panning and aliasing";
-  EXPECT_EQ(marks("chart-bias", "line"), 6 + 4) << "and the mean of each";
-  const json& bias = saw_["bias"];
-  EXPECT_NE(bias["facts"].get<std::string>().find("At every one of 64 placements of the grid from "), std::string::npos)
-      << bias["facts"];
-  EXPECT_NE(bias["tip"].get<std::string>().find("Over 64 placements"), std::string::npos) << bias["tip"];
-}
-
-TEST_F(BandsPage, TheReductionChartDrawsTheSeriesAboveZeroAndTheWindow) {
+TEST_F(ReductionPage, TheReductionChartDrawsTheSeriesAboveZeroAndTheWindow) {
   EXPECT_EQ(marks("chart-reduction", "line"), 5) << "both errors, leak, reduction and over-darkening; no Peter Panning";
   EXPECT_EQ(marks("chart-reduction", "rect"), 1) << "the window";
 }
@@ -471,8 +436,8 @@ class ReportWithPhase : public Browser {
   }
 };
 
-TEST_F(ReportWithPhase, OpensWithTheDiagramAndThePointsOnIt) {
-  EXPECT_EQ(saw_["first_figure"], "chart-phase");
+TEST_F(ReportWithPhase, HasTheDiagramAndThePointsOnIt) {
+  EXPECT_EQ(saw_["first_figure"], "chart-function") << "the function of all three stands above its slice";
   EXPECT_EQ(saw_["cells"], 24);
   EXPECT_EQ(saw_["lines"], 5) << "the steepest plane has no line, because law 1 gave no number";
   const json& points = saw_["points"];
@@ -512,7 +477,8 @@ TEST_F(PackedPage, HasTheSameDataAndDrawsThem) {
   if (IsSkipped()) return;
   EXPECT_TRUE(saw_["packed"]);
   EXPECT_EQ(saw_["points"], data["points"]);
-  EXPECT_GT(saw_["symbols"], 32);
+  EXPECT_LE(saw_["cells"], 2 * 4 * 6) << "of hundreds of extents six are shown";
+  EXPECT_GE(saw_["cells"], 6) << "most of them were measured at one resolution alone";
   EXPECT_EQ(saw_["rows"], 60) << "the table makes its first rows";
 }
 

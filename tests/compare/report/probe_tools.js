@@ -9,6 +9,13 @@ const all = (selector, root = document) => Array.from(root.querySelectorAll(sele
 // Vega draws only after the script that called it has ended.
 const later = () => new Promise(go => setTimeout(go, 0));
 
+// A section that is unfolded draws its charts then.
+async function unfold() {
+  all('details.fold').forEach(d => d.open = true);
+  await later();
+  await later();
+}
+
 // Leaves what a probe saw in the page, where the test reads it.
 function leave(saw) {
   const probe = document.createElement('pre');

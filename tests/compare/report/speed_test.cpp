@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "compare/report/data.h"
 #include "compare/report/report.h"
+#include "compare/report/shown.h"
 #include "compare/report/speed_reading.h"
 #include "compare/results/metrics.h"
 #include "tests/compare/report/page_text.h"
@@ -224,7 +226,7 @@ TEST(Speed, LeavesOutGroupsThatAreNotShown) {
     results.points.back().settings["scene.theta_deg"] = std::to_string(id);
   }
   results.info.swept = {"scene.theta_deg"};
-  const json speed = embedded_data(render_report(results, sample_picture))["speed"];
+  const json speed = report::chart_data(results, report::shown_points(results))["speed"];
   EXPECT_LE(speed["groups"].size(), report::max_even_points + report::max_marked_points);
   EXPECT_GE(speed["groups"].size(), report::max_even_points);
 }
