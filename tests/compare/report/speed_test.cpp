@@ -226,7 +226,7 @@ TEST(Speed, LeavesOutGroupsThatAreNotShown) {
     results.points.back().settings["scene.theta_deg"] = std::to_string(id);
   }
   results.info.swept = {"scene.theta_deg"};
-  const json speed = report::chart_data(results, report::shown_points(results))["speed"];
+  const json speed = report::chart_data(report::shown_points(results))["speed"];
   EXPECT_LE(speed["groups"].size(), report::max_even_points + report::max_marked_points);
   EXPECT_GE(speed["groups"].size(), report::max_even_points);
 }
