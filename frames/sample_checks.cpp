@@ -16,9 +16,8 @@
 namespace noonmark {
 namespace {
 
-// Whether a pixel's own sample tells something that its neighbours' do not: along a straight edge a lookup may repeat one value over
-// hundreds of pixels, which are one finding. True where the value differs from those on both sides of it in neither the row nor the
-// column, that is at a corner of a region of one value, and in the middle of none.
+// Whether the pixel is a corner of a region of one value: a neighbour in its row has another one, and so has one in its column. Along
+// a straight edge a lookup may repeat one value over hundreds of pixels, which are one finding and have few corners.
 bool is_corner(const Image<float>& v, int x, int y) {
   constexpr float same = 0.004f;
   const auto differs = [&](int a, int b) {
