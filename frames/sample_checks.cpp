@@ -274,7 +274,8 @@ Outcome check_samples(const CheckEvidence& e, const FrameStatistics& s) {
         fmt::format("at {} of {} outlines between a lit and a shadowed surface the values pass over from one to the "
                     "other by less than half of their difference: the picture was blurred, as by motion; {}",
                     found.ramps, found.steps, instead));
-  constexpr double mixed = 0.05;
+  // Resolved multisampling mixes a quarter in at a mean pixel of an outline; right frames of wide filters have up to 0.08.
+  constexpr double mixed = 0.1;
   const OutlineAlignment::Side outlines = s.outlines.all();
   const bool told = outlines.lit_inside >= OutlineAlignment::enough && outlines.dark_inside >= OutlineAlignment::enough;
   const std::string at_outlines = fmt::format(
