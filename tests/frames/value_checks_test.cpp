@@ -280,6 +280,13 @@ TEST(Intensity, SomeBrighterPixelsDoNotHideIt) {
   }
 }
 
+// Of 9 taps the three of one column may reach over a thin occluder, wherever they lie behind it.
+TEST(Intensity, AColumnOfTheFilterIsNone) {
+  const CheckResult found =
+      check_named(verdict_of(good(), leaking(good(), [](double) { return 3 / 9.0f; })), "intensity");
+  EXPECT_EQ(found.state, CheckState::not_checked) << found.says;
+}
+
 // A map holds the occluder that the light meets first, and an exponential map knows that distance alone: it is one below a
 // level top. The shadows of all else are left out.
 TEST(Intensity, ALeakBelowOneTopTellsNothing) {
