@@ -358,9 +358,9 @@ TEST(Report, ShowsTheCauseOfARung) {
     point.metrics["seep"] = 0.5 + 0.001 * static_cast<double>(point.id);
   }
   const std::string page = render_report(results, sample_picture);
-  for (const char* text : {"--c-seep:#0102ff", ".c-seep{", "Leak &lt;of light&gt;",
-                           "Light that leaks.", "<code>seep</code>", "mean |R6 − R1|",
-                           "R6, a picture on top of the ladder", "title=\"Light that leaks.\"", "\"name\":\"seep\""}) {
+  for (const char* text :
+       {"--c-seep:#0102ff", ".c-seep{", "Leak &lt;of light&gt;", "Light that leaks.", "<code>seep</code>",
+        "mean |R6 − R1|", "R6, a picture on top of the ladder", "title=\"Light that leaks.\"", "\"name\":\"seep\""}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
     EXPECT_EQ(without.find(text), std::string::npos) << text;
   }
