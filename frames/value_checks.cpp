@@ -225,9 +225,9 @@ Outcome check_intensity(const CheckEvidence& e, const FrameStatistics& s) {
   return not_checked(found + ", and it differs by place: a filtered map leaks so; an intensity below 1 is one value");
 }
 
-// What faces away from the declared light cannot be lit by it. If most of the picture does and is lit, the light's direction or
-// the side that the camera looks at is turned round: then what the light reaches, too, faces away, and is dark. But a shader may
-// write 1 wherever N.L is below 0, and acne leaves some of the rest lit.
+// What faces away from the declared light cannot be lit by it. If most of the picture faces away and is lit, the light's direction or
+// the side that the camera looks at may be turned round. Then the surfaces that the declared light reaches are dark in the frame. If
+// they are not, a shader wrote 1 wherever N.L is below 0, which is no fault.
 Outcome check_match(const CheckEvidence& e, const FrameStatistics& s) {
   size_t surfaces = 0, away = 0, away_lit = 0, reached = 0, reached_dark = 0;
   for (size_t i = 0; i < e.seen.size(); ++i) {

@@ -258,7 +258,7 @@ std::string floor_text(const Settings& first, const Scene& scene) {
       high.x - low.x, low.y, middle.x, middle.z);
 }
 
-// Of an experiment that sweeps choices: which answer its own report has, so that neither surprises beside the other.
+// Of an experiment that sweeps choices: says that its own report answers for the swept points alone, so the two answers may differ.
 std::string sweep_text(const Experiment& experiment) {
   const int64_t points = point_count(experiment);
   if (experiment.path.empty() || swept_names(experiment) == condition_names(experiment)) return "";

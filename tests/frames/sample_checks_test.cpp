@@ -249,7 +249,7 @@ struct City {
         return 0;
     return 1;
   }
-  // A lookup without an error of its own but its filter: the mean of places that lie so far across the grid, in metres.
+  // The frame of a map without any error, whose filter takes the mean of taps. taps_m: the way of each tap along x and along y.
   CheckResult check_of(const std::vector<float>& taps_m, std::string_view check) const {
     GivenFrame filtered = frame;
     for (size_t i = 0; i < black.error.size(); ++i) {
